@@ -99,6 +99,10 @@ pub trait CycleModel {
     /// valid reference, and where the model does not know it before.
     fn reference(&self, region: u32) -> Option<&[u16]>;
 
+    /// The means with which those of the next frame of a region will be compared, block by block. `None` where the screen shows
+    /// no summary of it, and where the model does not know it before.
+    fn summary(&self, region: u32) -> Option<&[u16]>;
+
     /// Whether the output of a role, which is one bit, shows a 1.
     fn is_high(&self, role: PortRole) -> bool {
         let mut values = Vec::new();

@@ -23,6 +23,19 @@ pub fn block_means(periphery: &Periphery, pixels: impl Iterator<Item = u16>) -> 
     sums.into_iter().map(pixel).collect()
 }
 
+/// The number in its region of the upper left pixel of a block.
+pub(crate) fn first_of_block(periphery: &Periphery, block: u32) -> u32 {
+    let (blocks, side) = (periphery.blocks, periphery.block_side);
+    let (left, top) = (block % blocks * side, block / blocks * side);
+    top * blocks * side + left
+}
+
+/// The number in its region of the lower right pixel of a block.
+pub(crate) fn last_of_block(periphery: &Periphery, block: u32) -> u32 {
+    let (blocks, side) = (periphery.blocks, periphery.block_side);
+    first_of_block(periphery, block) + (side - 1) * blocks * side + side - 1
+}
+
 /// What a region has sent of itself last, while the screen shows it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Summary {

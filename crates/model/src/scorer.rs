@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What one region scores, from its stream alone.
 
-use foveate_camera::{Camera, FeatureKind, Filter, SpatialFeature};
+use foveate_camera::{Camera, FeatureKind, Filter, Payload, Periphery, SpatialFeature};
 
 use crate::Thresholds;
 use crate::denoise::median;
 use crate::feature::score;
 use crate::number::{amount, index};
+use crate::periphery::block_means;
 use crate::square::Square;
 use crate::temporal::changed_pixels;
 use crate::view::RegionView;
@@ -19,6 +20,8 @@ pub struct RegionScorer {
     /// Side of a region N.
     side: usize,
     filter: Filter,
+    payload: Payload,
+    periphery: Option<Periphery>,
     needs_border: bool,
     features: Vec<SpatialFeature>,
     raw: Square,
@@ -35,6 +38,8 @@ impl RegionScorer {
         Self {
             side: index(camera.region_size()),
             filter: camera.filter(),
+            payload: camera.payload(),
+            periphery: camera.periphery().copied(),
             needs_border: camera.needs_border(),
             features: camera.features().to_vec(),
             raw: Square::black(index(camera.stream_side())),
@@ -62,6 +67,22 @@ impl RegionScorer {
     /// The region's pixels that are scored, row by row.
     pub fn pixels(&self) -> impl Iterator<Item = u16> + '_ {
         self.scored.middle(self.side)
+    }
+
+    /// The region's pixels that are sent, row by row.
+    pub(crate) fn payload(&self) -> impl Iterator<Item = u16> + '_ {
+        let sent = match (self.payload, self.filter) {
+            (Payload::Denoised, _) | (Payload::Raw, Filter::None) => &self.scored,
+            (Payload::Raw, Filter::Median3x3) => &self.raw,
+        };
+        sent.middle(self.side)
+    }
+
+    /// The means of its blocks; none where irrelevant regions send none.
+    #[must_use]
+    pub fn means(&self) -> Vec<u16> {
+        let means = |periphery| block_means(periphery, self.payload());
+        self.periphery.as_ref().map_or(Vec::new(), means)
     }
 
     /// The scores of the features, in the order of the camera; `reference` is `None` where there is no valid one.

@@ -48,9 +48,8 @@ impl Verdict {
         }
     }
 
-    /// What becomes of the region, as far as its reference is concerned: a summary that is not sent again leaves none, as
-    /// one that is sent.
-    pub(crate) fn action(&self, camera: &Camera) -> Action {
-        action(camera.irrelevant(), self.srs, self.trs, || true)
+    /// What becomes of the region; `is_summary_due` is asked only where irrelevant regions send their means.
+    pub(crate) fn action(&self, camera: &Camera, is_summary_due: impl FnOnce() -> bool) -> Action {
+        action(camera.irrelevant(), self.srs, self.trs, is_summary_due)
     }
 }

@@ -126,6 +126,10 @@ impl CycleModel for PipelinedRcm {
         None
     }
 
+    fn summary(&self, _region: u32) -> Option<&[u16]> {
+        None
+    }
+
     fn duplicate(&self) -> Box<dyn CycleModel> {
         Box::new(self.clone())
     }

@@ -2,7 +2,7 @@
 //! When a region that has been judged is decided on the ports: a fixed number of clocks after its last word
 //! has come to the tail, or after its second pass.
 
-use foveate_design::RasterTiming;
+use foveate_design::{Action, RasterTiming};
 
 use super::due::{Due, take_due};
 use crate::verdict::Verdict;
@@ -32,6 +32,27 @@ pub(super) struct Judged {
     pub(super) scored: Vec<u16>,
     /// Its pixels as they leave.
     pub(super) payload: Vec<u16>,
+    /// The means of its blocks; none where irrelevant regions send none.
+    pub(super) means: Vec<u16>,
+    /// What was applied of the threshold that decides whether they leave.
+    pub(super) summary_level: u32,
+}
+
+/// A region of one frame, decided.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Decided {
+    pub(super) judged: Judged,
+    pub(super) action: Action,
+}
+
+impl Decided {
+    /// Whether something of the region leaves.
+    pub(super) fn sends(&self) -> bool {
+        match self.action {
+            Action::Forward | Action::Summarize => true,
+            Action::Hold | Action::Blank => false,
+        }
+    }
 }
 
 /// The regions that are judged and not yet decided, in order.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The output ports of the core.
 
-use foveate_design::{FRAME_NUMBERS, FeatureKind, PortRole};
+use foveate_design::{Action, FRAME_NUMBERS, FeatureKind, PortRole};
 
-use super::decisions::Judged;
+use super::decisions::Decided;
 use super::outside::Stored;
 use super::readout::{Loss, Word};
 
@@ -35,6 +35,8 @@ pub struct RasterOutput {
     pub trs: bool,
     /// `active_o`.
     pub active: bool,
+    /// `summary_o`.
+    pub summary: bool,
     /// The scores of the features, in the order of the design.
     pub scores: [u64; FeatureKind::COUNT],
     /// `temporal_count_o`.
@@ -83,6 +85,7 @@ impl RasterOutput {
             srs: false,
             trs: false,
             active: false,
+            summary: false,
             scores: [0; FeatureKind::COUNT],
             temporal_count: 0,
             forward_valid: false,
@@ -112,11 +115,13 @@ impl RasterOutput {
     }
 
     /// Shows the decision of a region, or none.
-    pub(super) fn show_decision(&mut self, judged: Option<&Judged>) {
+    pub(super) fn show_decision(&mut self, decided: Option<&Decided>) {
+        let judged = decided.map(|decided| &decided.judged);
         let verdict = judged.map(|judged| judged.verdict).unwrap_or_default();
         self.decision_valid = judged.is_some();
         self.region = judged.map_or(0, |judged| judged.region);
         (self.srs, self.trs, self.active) = (verdict.srs, verdict.trs, verdict.active());
+        self.summary = decided.is_some_and(|decided| decided.action == Action::Summarize);
         (self.scores, self.temporal_count) = (verdict.scores, verdict.temporal_count);
     }
 
@@ -163,6 +168,7 @@ impl RasterOutput {
             PortRole::Srs => self.srs.into(),
             PortRole::Trs => self.trs.into(),
             PortRole::Active => self.active.into(),
+            PortRole::Summary => self.summary.into(),
             PortRole::Score(kind) => match kinds.iter().position(|&own| own == kind) {
                 Some(place) => self.scores[place],
                 None => return,

@@ -4,7 +4,7 @@
 use foveate_design::{FeatureKind, PortRole, RasterDesign, RasterTiming, Store};
 
 use super::advances::{Advances, Place};
-use super::decisions::{Complete, Decisions, Judged};
+use super::decisions::{Complete, Decided, Decisions};
 use super::outside::Outside;
 use super::picture::IncomingFrame;
 use super::ports::RasterOutput;
@@ -36,7 +36,7 @@ pub struct RasterRcm {
     decisions: Decisions,
     readout: Readout,
     /// The region whose decision is on the ports.
-    decided: Option<Judged>,
+    decided: Option<Decided>,
     /// Edges since reset.
     now: u64,
     /// Clocks until `ready_o` may be 1 again after T0.
@@ -89,10 +89,8 @@ impl RasterRcm {
         self.take_reference(input);
         self.advance(input);
         self.read(input.forward_ready);
-        self.decided = self.decisions.step(self.now);
-        if let Some(judged) = &self.decided {
-            self.regions.decide(judged);
-        }
+        let decided = self.decisions.step(self.now);
+        self.decided = decided.map(|judged| self.regions.decide(judged));
         self.store();
         self.show();
         &self.output
@@ -115,12 +113,22 @@ impl RasterRcm {
         self.regions.reference(region)
     }
 
+    /// The means that the screen shows of a region, block by block; `None` where it shows no summary. Known when nothing is
+    /// [pending](Self::is_pending).
+    ///
+    /// # Panics
+    /// When the design has no such region.
+    #[must_use]
+    pub fn summary(&self, region: u32) -> Option<&[u16]> {
+        self.regions.summary(region)
+    }
+
     /// Whether a region is not yet decided though its last word has come to the tail, or has pixels that have
     /// not left.
     #[must_use]
     pub fn is_pending(&self) -> bool {
-        let is_active = self.decided.as_ref().is_some_and(|judged| judged.verdict.active());
-        is_active && self.timing.forwards || self.is_deciding() || !self.readout.is_empty()
+        let sends = self.decided.as_ref().is_some_and(Decided::sends);
+        sends && self.timing.forwards || self.is_deciding() || !self.readout.is_empty()
     }
 
     /// Whether a region is lost in the middle at the next edge, unless that is a reset: for a sink that is to be ready
@@ -221,11 +229,11 @@ impl RasterRcm {
     /// An edge of the readout, in which there is never anything where no pixels leave. The decision that was on
     /// the ports before it stands there no more.
     fn read(&mut self, sink_takes: bool) {
-        if let Some(judged) = self.decided.take()
-            && judged.verdict.active()
+        if let Some(decided) = self.decided.take()
+            && decided.sends()
             && self.timing.forwards
         {
-            self.readout.enter(self.now, judged);
+            self.readout.enter(self.now, decided.judged);
         }
         let fresh = self.staleness.step(self.now);
         let read = self.readout.step(self.now, sink_takes, fresh);
@@ -279,6 +287,10 @@ impl CycleModel for RasterRcm {
 
     fn reference(&self, region: u32) -> Option<&[u16]> {
         self.reference(region)
+    }
+
+    fn summary(&self, region: u32) -> Option<&[u16]> {
+        self.summary(region)
     }
 
     fn duplicate(&self) -> Box<dyn CycleModel> {

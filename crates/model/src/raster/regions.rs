@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the core keeps of every region from frame to frame, and what it thinks of it.
 
-use foveate_design::{Action, Camera, Payload, RasterDesign, Reference};
+use foveate_design::{Action, Camera, RasterDesign, Reference};
 use foveate_frame::Frame;
 
-use super::decisions::{Complete, Judged};
+use super::decisions::{Complete, Decided, Judged};
 use super::readout::Word;
 use crate::number::index;
+use crate::periphery::{Summary, no_summaries};
 use crate::verdict::Verdict;
 use crate::{RegionScorer, Thresholds, region_border, region_pixels, region_stream};
 
@@ -21,6 +22,8 @@ pub(super) struct Regions {
     references: Vec<u16>,
     /// Which regions have a valid reference.
     referenced: Vec<bool>,
+    /// What each region has sent of itself last.
+    summaries: Vec<Summary>,
 }
 
 impl Regions {
@@ -31,6 +34,7 @@ impl Regions {
             pixels,
             references: vec![0; regions * pixels],
             referenced: vec![false; regions],
+            summaries: no_summaries(&design),
             camera: design.camera().clone(),
         }
     }
@@ -38,12 +42,18 @@ impl Regions {
     /// The next frame is the first; pixels stay and are never seen.
     pub(super) fn forget(&mut self) {
         self.referenced.fill(false);
+        self.summaries = no_summaries(&self.camera);
     }
 
     /// What the next frame of a region is compared with.
     pub(super) fn reference(&self, region: u32) -> Option<&[u16]> {
         let region = index(region);
         self.referenced[region].then(|| &self.references[region * self.pixels..][..self.pixels])
+    }
+
+    /// The means that the screen shows of a region, if it shows any.
+    pub(super) fn summary(&self, region: u32) -> Option<&[u16]> {
+        self.summaries[index(region)].shown()
     }
 
     /// Judges a region of a frame. Where references come from outside, it is compared with those that were
@@ -69,23 +79,26 @@ impl Regions {
             }
             Reference::LastSent => {}
         }
-        let payload = match self.camera.payload() {
-            Payload::Denoised => scored.clone(),
-            Payload::Raw => self.pixels_of(padded, region),
-        };
+        let payload: Vec<u16> = self.scorer.payload().collect();
         let frame = row / u64::from(self.camera.rows());
-        Judged { region, row, frame, verdict, scored, payload }
+        let (means, summary_level) = (self.scorer.means(), thresholds.summary_level);
+        Judged { region, row, frame, verdict, scored, payload, means, summary_level }
     }
 
-    /// A region is decided: whether it has a reference from now on.
-    pub(super) fn decide(&mut self, judged: &Judged) {
+    /// A region is decided: what becomes of it, and what is remembered of it.
+    pub(super) fn decide(&mut self, judged: Judged) -> Decided {
+        let summary = &mut self.summaries[index(judged.region)];
+        let is_due = || summary.is_due(&judged.means, judged.summary_level);
+        let action = judged.verdict.action(&self.camera, is_due);
+        summary.follow(action, &judged.means);
         let referenced = &mut self.referenced[index(judged.region)];
-        match (self.camera.temporal().reference, judged.verdict.action(&self.camera)) {
+        match (self.camera.temporal().reference, action) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Hold) => {}
             (Reference::LastSent, Action::Forward) => *referenced = true,
             // What was sent is no longer on the screen.
             (Reference::LastSent, Action::Blank | Action::Summarize) => *referenced = false,
         }
+        Decided { judged, action }
     }
 
     /// A word was fetched, and will leave. That it becomes the reference an edge later cannot be seen: the

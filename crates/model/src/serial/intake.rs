@@ -83,12 +83,4 @@ impl Intake {
             Frame::Raster(raster) => raster.stream(region, out),
         }
     }
-
-    /// A raw pixel of a region, without halo.
-    pub(super) fn pixel(&self, region: usize, position: usize) -> u16 {
-        match &self.frame {
-            Frame::Streams(streams) => streams.pixel(region, position),
-            Frame::Raster(raster) => raster.pixel(region, position),
-        }
-    }
 }

@@ -8,15 +8,15 @@
 //! ```text
 //! ready_o <------------+
 //! valid_i   +--------+ |  full  +---------------------+
-//! pixel_i ->| intake |-+------->| regions: scores,    |----+
-//!           +--------+          | decision, reference |    v
-//!                |              +---------------------+  +------+
-//!                +-------------------------------------->| show |-> outputs
-//!                               schedule: clock -> step->+------+
+//! pixel_i ->| intake |-+------->| regions: scores,    |    +------+
+//!           +--------+          | decision, reference,|--->| show |-> outputs
+//!                               | summary, what leaves|    +------+
+//!                               +---------------------+       ^
+//!                               schedule: clock -> step ------+
 //! ```
 //!
 //! A frame is judged as a whole at the edge that takes its last pixel, since thresholds stay
-//! still; its scores, decisions and pixels are shown when they are due. A clock in which
+//! still; its scores, decisions, pixels and means are shown when they are due. A clock in which
 //! nothing is seen costs nothing, and [`SerialRcm::skip`] leaves out any number of them.
 
 mod intake;

@@ -26,6 +26,8 @@ pub struct SerialOutput {
     pub trs: bool,
     /// `active_o`.
     pub active: bool,
+    /// `summary_o`; 0 where the design has no such port.
+    pub summary: bool,
     /// `forward_valid_o`: one per lane, or one with `feed = "raster"`.
     pub forward_valid: Vec<bool>,
     /// `forward_pixel_o`, likewise.
@@ -70,6 +72,7 @@ impl SerialOutput {
             PortRole::Srs => self.srs.into(),
             PortRole::Trs => self.trs.into(),
             PortRole::Active => self.active.into(),
+            PortRole::Summary => self.summary.into(),
             PortRole::ForwardPosition => self.forward_position.into(),
             PortRole::ForwardSlot => self.forward_slot.into(),
             PortRole::ForwardRegion => self.forward_region.into(),

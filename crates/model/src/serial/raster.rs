@@ -85,12 +85,6 @@ impl Raster {
         }
     }
 
-    pub(super) fn pixel(&self, region: usize, position: usize) -> u16 {
-        let (side, (column, row)) = (self.columns.side, self.place(region));
-        let (x, y) = (column * side + position % side, row * side + position / side);
-        self.pixels[y * self.columns.size() + x]
-    }
-
     /// Column and row of a region.
     fn place(&self, region: usize) -> (usize, usize) {
         (region % self.columns.regions, region / self.columns.regions)

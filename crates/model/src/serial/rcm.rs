@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The array: where in a frame it is, and what its outputs show there.
 
-use foveate_design::{Payload, PortRole, SerialDesign};
+use foveate_design::{Action, Feed, PortRole, SerialDesign};
 
 use super::intake::Intake;
 use super::ports::SerialOutput;
-use super::regions::Regions;
-use super::schedule::{Schedule, Seen};
+use super::regions::{Judged, Regions};
+use super::schedule::{Leaving, Schedule, Seen};
 use crate::cycle::{CoreInput, CycleModel};
 use crate::number::index;
 use crate::{FrameSync, Thresholds, region_border};
@@ -17,7 +17,7 @@ pub struct SerialRcm {
     schedule: Schedule,
     /// The thresholds, where they are constants of the core.
     constants: Option<Thresholds>,
-    payload: Payload,
+    feed: Feed,
     borders: Vec<u8>,
     sync: FrameSync,
     intake: Intake,
@@ -52,7 +52,7 @@ impl SerialRcm {
         Self {
             schedule: Schedule::new(design),
             constants: Thresholds::constants(&design),
-            payload: design.payload(),
+            feed: design.feed(),
             borders: (0..design.regions()).map(|region| region_border(&design, region)).collect(),
             regions: Regions::new(design),
             stage: Stage::EMPTY,
@@ -150,6 +150,16 @@ impl SerialRcm {
         self.regions.reference(index(region))
     }
 
+    /// The means that the screen shows of a region before the next frame, block by block; `None` where it shows no summary.
+    /// Known from the edge that takes the last pixel of a frame.
+    ///
+    /// # Panics
+    /// When the design has no such region.
+    #[must_use]
+    pub fn summary(&self, region: u32) -> Option<&[u16]> {
+        self.regions.summary(index(region))
+    }
+
     fn reset(&mut self) {
         self.sync.reset();
         self.intake.forget();
@@ -213,18 +223,20 @@ impl SerialRcm {
                         self.show_score(region, number, decides);
                     }
                 }
-                Seen::Pixels { position } => self.show_pixels(slot, position),
-                Seen::Pixel { position, lane } => {
-                    if let Some(region) = self.schedule.region(lane, slot) {
-                        self.show_pixel(region, position);
+                Seen::Leaving { what, number, lane: None } => {
+                    for lane in 0..self.schedule.lanes() {
+                        self.show_leaving(lane, slot, what, number);
                     }
+                }
+                Seen::Leaving { what, number, lane: Some(lane) } => {
+                    self.show_leaving(lane, slot, what, number);
                 }
             }
         }
     }
 
     fn show_score(&mut self, region: u32, number: u32, decides: bool) {
-        let verdict = self.regions.verdict(index(region));
+        let Judged { verdict, action, .. } = self.regions.judged(index(region));
         let output = &mut self.output;
         output.score_valid = true;
         (output.region, output.score_index) = (region, number);
@@ -232,39 +244,29 @@ impl SerialRcm {
         if decides {
             output.decision_valid = true;
             (output.srs, output.trs, output.active) = (verdict.srs, verdict.trs, verdict.active());
+            output.summary = *action == Action::Summarize;
         }
     }
 
-    /// Every lane at once.
-    fn show_pixels(&mut self, slot: u32, position: u32) {
-        (self.output.forward_slot, self.output.forward_position) = (slot, position);
-        for lane in 0..self.schedule.lanes() {
-            if let Some(region) = self.schedule.region(lane, slot)
-                && self.regions.verdict(index(region)).active()
-            {
-                self.forward(lane, region, position);
-            }
-        }
-    }
-
-    fn show_pixel(&mut self, region: u32, position: u32) {
-        if self.regions.verdict(index(region)).active() {
-            self.forward(0, region, position);
-            (self.output.forward_region, self.output.forward_position) = (region, position);
-        }
-    }
-
-    fn forward(&mut self, port: u32, region: u32, position: u32) {
-        self.is_forwarding = true;
-        self.output.forward_valid[index(port)] = true;
-        self.output.forward_pixel[index(port)] = self.forwarded(region, position);
-    }
-
-    fn forwarded(&self, region: u32, position: u32) -> u16 {
-        let (region, position) = (index(region), index(position));
-        match self.payload {
-            Payload::Denoised => self.regions.scored(region, position),
-            Payload::Raw => self.intake.pixel(region, position),
+    /// What leaves of the region of a lane, if anything does.
+    fn show_leaving(&mut self, lane: u32, slot: u32, what: Leaving, number: u32) {
+        if let Some(region) = self.schedule.region(lane, slot)
+            && let Some((position, pixel)) = self.regions.leaving(region, what, number)
+        {
+            self.is_forwarding = true;
+            let output = &mut self.output;
+            output.forward_position = position;
+            let port = match self.feed {
+                Feed::Parallel => {
+                    output.forward_slot = slot;
+                    index(lane)
+                }
+                Feed::Raster => {
+                    output.forward_region = region;
+                    0
+                }
+            };
+            (output.forward_valid[port], output.forward_pixel[port]) = (true, pixel);
         }
     }
 }
@@ -296,6 +298,10 @@ impl CycleModel for SerialRcm {
 
     fn reference(&self, region: u32) -> Option<&[u16]> {
         self.reference(region)
+    }
+
+    fn summary(&self, region: u32) -> Option<&[u16]> {
+        self.summary(region)
     }
 
     fn duplicate(&self) -> Box<dyn CycleModel> {

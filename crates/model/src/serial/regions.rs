@@ -3,7 +3,9 @@
 
 use foveate_design::{Action, Camera, Reference, SerialDesign};
 
+use super::schedule::Leaving;
 use crate::number::index;
+use crate::periphery::{Summary, last_of_block, no_summaries};
 use crate::verdict::Verdict;
 use crate::{RegionScorer, Thresholds};
 
@@ -20,7 +22,28 @@ pub(super) struct Regions {
     sent: Vec<u16>,
     /// Which regions have a reference.
     referenced: Vec<bool>,
-    verdicts: Vec<Verdict>,
+    /// What each region has sent of itself last.
+    summaries: Vec<Summary>,
+    judged: Vec<Judged>,
+}
+
+/// What is known of a region in the last frame.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Judged {
+    pub(super) verdict: Verdict,
+    pub(super) action: Action,
+    /// Its pixels as they leave, row by row.
+    payload: Vec<u16>,
+    /// The means of its blocks; none where irrelevant regions send none.
+    means: Vec<u16>,
+}
+
+impl Judged {
+    /// Before the first frame.
+    fn nothing() -> Self {
+        let (payload, means) = (Vec::new(), Vec::new());
+        Self { verdict: Verdict::default(), action: Action::Hold, payload, means }
+    }
 }
 
 impl Regions {
@@ -36,7 +59,8 @@ impl Regions {
             scored: vec![0; regions * pixels],
             sent,
             referenced: vec![false; regions],
-            verdicts: vec![Verdict::default(); regions],
+            summaries: no_summaries(&design),
+            judged: vec![Judged::nothing(); regions],
             camera: design.camera().clone(),
         }
     }
@@ -44,6 +68,7 @@ impl Regions {
     /// The next frame is the first; pixels stay and are never seen.
     pub(super) fn forget(&mut self) {
         self.referenced.fill(false);
+        self.summaries = no_summaries(&self.camera);
     }
 
     /// What the next frame of a region is compared with.
@@ -55,16 +80,31 @@ impl Regions {
         self.referenced[region].then(|| &from[region * self.pixels..][..self.pixels])
     }
 
-    pub(super) fn verdict(&self, region: usize) -> &Verdict {
-        &self.verdicts[region]
+    /// The means that the screen shows of a region, if it shows any.
+    pub(super) fn summary(&self, region: usize) -> Option<&[u16]> {
+        self.summaries[region].shown()
     }
 
-    /// A pixel of the last frame as it was scored.
-    pub(super) fn scored(&self, region: usize, position: usize) -> u16 {
-        self.scored[region * self.pixels + position]
+    /// What was thought of the last frame of a region.
+    pub(super) fn judged(&self, region: usize) -> &Judged {
+        &self.judged[region]
     }
 
-    /// Judges the next frame of a region and draws the consequences for its reference.
+    /// Pixel or mean `number` of the last frame of a region with its position, if it leaves.
+    pub(super) fn leaving(&self, region: u32, what: Leaving, number: u32) -> Option<(u32, u16)> {
+        let Judged { action, payload, means, .. } = &self.judged[index(region)];
+        match (what, action) {
+            (Leaving::Pixel, Action::Forward) => Some((number, payload[index(number)])),
+            (Leaving::Mean, Action::Summarize) => {
+                let position = last_of_block(self.camera.periphery()?, number);
+                Some((position, means[index(number)]))
+            }
+            (Leaving::Pixel, Action::Hold | Action::Blank | Action::Summarize)
+            | (Leaving::Mean, Action::Hold | Action::Blank | Action::Forward) => None,
+        }
+    }
+
+    /// Judges the next frame of a region and draws the consequences for its reference and its summary.
     pub(super) fn judge(
         &mut self,
         region: usize,
@@ -74,12 +114,18 @@ impl Regions {
     ) {
         self.scorer.take(stream, border);
         let verdict = Verdict::of(&self.camera, &self.scorer, self.reference(region), thresholds);
-        self.verdicts[region] = verdict;
+        let means = self.scorer.means();
+        let shown = &mut self.summaries[region];
+        let is_due = || shown.is_due(&means, thresholds.summary_level);
+        let action = verdict.action(&self.camera, is_due);
+        shown.follow(action, &means);
+        let payload = self.scorer.payload().collect();
+        self.judged[region] = Judged { verdict, action, payload, means };
         let own = region * self.pixels..(region + 1) * self.pixels;
         for (scored, pixel) in self.scored[own.clone()].iter_mut().zip(self.scorer.pixels()) {
             *scored = pixel;
         }
-        match (self.camera.temporal().reference, verdict.action(&self.camera)) {
+        match (self.camera.temporal().reference, action) {
             (Reference::Previous, _) => self.referenced[region] = true,
             (Reference::LastSent, Action::Forward) => {
                 self.referenced[region] = true;

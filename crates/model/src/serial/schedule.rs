@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which step of its work the array is at, and what is seen of it.
 
-use foveate_design::{Feed, Phase, SerialDesign, SerialTiming};
+use foveate_design::{Feed, Periphery, Phase, SerialDesign, SerialTiming};
 
 /// What the outputs show in a step, if anything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Seen {
     /// Score `number` of the region of one lane, with its decision or without.
     Score { number: u32, lane: u32, decides: bool },
-    /// A pixel of every lane.
-    Pixels { position: u32 },
-    /// A pixel of one lane.
-    Pixel { position: u32, lane: u32 },
+    /// Pixel or mean `number` of a slot leaves: of all lanes, or of one.
+    Leaving { what: Leaving, number: u32, lane: Option<u32> },
+}
+
+/// What leaves in a phase: the pixels of active regions, or the means of summaries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Leaving {
+    Pixel,
+    Mean,
 }
 
 /// The steps of a frame.
@@ -43,8 +48,16 @@ struct Visible {
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum What {
     Rotation { number: u32, decides: bool },
-    UnloadLanes,
-    UnloadRaster,
+    Unload { what: Leaving, rounds: Rounds },
+}
+
+/// How the lanes give away what they have, number after number.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Rounds {
+    /// All at once, in the last of so many steps.
+    Together { steps: u64 },
+    /// One after the other, behind a step in which nothing is seen.
+    InTurn,
 }
 
 impl Schedule {
@@ -87,7 +100,7 @@ impl Schedule {
             let is_over = step >= phase.start + phase.steps;
             (!is_over).then(|| phase.start.saturating_sub(step))
         };
-        // The last phase of a slot, in which pixels leave, is one of them.
+        // The last phase of a slot, in which something leaves, is one of them.
         self.visible.iter().find_map(to).map(|steps| lead + steps)
     }
 
@@ -97,12 +110,23 @@ impl Schedule {
                 let lane = narrow(step.checked_sub(self.settling)?);
                 Some(Seen::Score { number, lane, decides })
             }
-            What::UnloadLanes => Some(Seen::Pixels { position: narrow(step) }),
-            What::UnloadRaster => {
-                // A round: a step to fetch the pixels, then one for each lane.
+            What::Unload { what, rounds } => {
+                let (number, lane) = self.turn(rounds, step)?;
+                Some(Seen::Leaving { what, number, lane })
+            }
+        }
+    }
+
+    /// The number of the round, and the lane whose turn it is if it is not that of all.
+    fn turn(&self, rounds: Rounds, step: u64) -> Option<(u32, Option<u32>)> {
+        match rounds {
+            Rounds::Together { steps } => {
+                (step % steps == steps - 1).then(|| (narrow(step / steps), None))
+            }
+            Rounds::InTurn => {
                 let round = u64::from(self.lanes) + 1;
                 let lane = (step % round).checked_sub(1)?;
-                Some(Seen::Pixel { position: narrow(step / round), lane: narrow(lane) })
+                Some((narrow(step / round), Some(narrow(lane))))
             }
         }
     }
@@ -125,6 +149,8 @@ impl Schedule {
 /// The phases that show something. Scores are numbered in the order in which they pass the ports; the
 /// decision comes with the last.
 fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
+    let pixels = design.region_pixels();
+    let means = design.periphery().map_or(0, Periphery::means);
     let (mut visible, mut start, mut number) = (Vec::new(), 0, 0);
     for &(phase, steps) in phases {
         let what = match phase {
@@ -133,17 +159,18 @@ fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
             | Phase::Temporal
             | Phase::Pass(_)
             | Phase::Copy
-            | Phase::Means
-            | Phase::UnloadMeans => None,
+            | Phase::Means => None,
             Phase::RotateCount | Phase::RotateScore(_) => {
                 number += 1;
                 let decides = number == design.score_count();
                 Some(What::Rotation { number: number - 1, decides })
             }
-            Phase::Unload => Some(match design.feed() {
-                Feed::Parallel => What::UnloadLanes,
-                Feed::Raster => What::UnloadRaster,
-            }),
+            Phase::Unload => {
+                Some(What::Unload { what: Leaving::Pixel, rounds: rounds(design, steps, pixels) })
+            }
+            Phase::UnloadMeans => {
+                Some(What::Unload { what: Leaving::Mean, rounds: rounds(design, steps, means) })
+            }
         };
         visible.extend(what.map(|what| Visible { start, steps, what }));
         start += steps;
@@ -151,7 +178,15 @@ fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
     visible
 }
 
-/// Numbers of slots, lanes and positions fit into 32 bits.
+/// The rounds of a phase in which so many things leave of every region.
+fn rounds(design: SerialDesign<'_>, steps: u64, things: u32) -> Rounds {
+    match design.feed() {
+        Feed::Parallel => Rounds::Together { steps: steps / u64::from(things) },
+        Feed::Raster => Rounds::InTurn,
+    }
+}
+
+/// Numbers of slots, lanes, pixels and means fit into 32 bits.
 fn narrow(value: u64) -> u32 {
-    u32::try_from(value).expect("slots, lanes and positions are numbered in 32 bits")
+    u32::try_from(value).expect("slots, lanes, pixels and means are numbered in 32 bits")
 }

@@ -10,9 +10,7 @@ use crate::number::index;
 pub(super) struct Streams {
     lanes: usize,
     fold: usize,
-    /// Side of a region N, its halo r, and N + 2r.
-    side: usize,
-    halo: usize,
+    /// Side of a region with its halo, N + 2r.
     stream_side: usize,
     pixels: Vec<u16>,
 }
@@ -21,14 +19,7 @@ impl Streams {
     pub(super) fn new(design: SerialDesign<'_>) -> Self {
         let (lanes, fold) = (index(design.lanes()), index(design.fold()));
         let stream_side = index(design.stream_side());
-        Self {
-            lanes,
-            fold,
-            side: index(design.region_size()),
-            halo: index(design.halo()),
-            stream_side,
-            pixels: vec![0; lanes * fold * stream_side * stream_side],
-        }
+        Self { lanes, fold, stream_side, pixels: vec![0; lanes * fold * stream_side * stream_side] }
     }
 
     pub(super) fn lanes(&self) -> usize {
@@ -48,12 +39,6 @@ impl Streams {
     pub(super) fn stream(&self, region: usize) -> impl Iterator<Item = u16> + '_ {
         let length = self.stream_side * self.stream_side;
         self.pixels[self.start(region)..].iter().step_by(self.lanes).take(length).copied()
-    }
-
-    pub(super) fn pixel(&self, region: usize, position: usize) -> u16 {
-        let (x, y) = (position % self.side, position / self.side);
-        let at = (self.halo + y) * self.stream_side + self.halo + x;
-        self.pixels[self.start(region) + at * self.lanes]
     }
 
     /// Where the first pixel of a region is.

@@ -28,6 +28,8 @@ pub(crate) fn assert_same(recipe: &Recipe, outcome: &FunctionalOutcome, seen: &S
         assert_eq!(outcome.trs[index], region.trs, "trs of region {index}");
         assert_eq!(outcome.active[index], region.active, "active of region {index}");
         assert_eq!(outcome.actions[index].name(), region.action, "action of region {index}");
+        let means: Vec<i64> = outcome.means[index].iter().map(|&mean| mean.into()).collect();
+        assert_eq!(means, region.means, "means of region {index}");
     }
     assert_eq!(image(&outcome.rendered), seen.rendered);
 }

@@ -9,7 +9,7 @@ use foveate_model::{
     region_stream, temporal_differences,
 };
 
-use crate::recipe::{FeatureRecipe, Recipe};
+use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
 use crate::{functional_properties, pipelined_properties};
 
 fn design(toml: &str) -> Design {
@@ -174,7 +174,7 @@ fn everything(side: i64, bits: u32, size: (i64, i64), shared: bool, last_sent: b
         temporal_min: side * side / 2,
         last_sent,
         blank_irrelevant: bits.is_multiple_of(4),
-        periphery: None,
+        periphery: PeripheryRecipe::number((side + size.0) as usize, side, max),
         raw_payload: side % 2 == 1,
         constant: false,
         deep: false,

@@ -36,6 +36,15 @@ pub(crate) struct PeripheryRecipe {
     pub(crate) level: i64,
 }
 
+impl PeripheryRecipe {
+    /// None, or one that regions of this side can have, for pixels up to `max`; numbers go through all of them.
+    pub(crate) fn number(number: usize, side: i64, max: i64) -> Option<Self> {
+        let blocks = [None, Some(1), Some(2), Some(4)][number % 4]?;
+        let level = [0, max / 8, max - 1][number / 4 % 3];
+        (side % blocks == 0).then_some(Self { blocks, level })
+    }
+}
+
 #[derive(Clone, Debug)]
 pub(crate) struct FeatureRecipe {
     pub(crate) name: &'static str,
@@ -129,19 +138,22 @@ impl Recipe {
 /// Every kind of pipelined design, with frames of about three regions.
 pub(crate) fn recipes() -> impl Strategy<Value = Recipe> {
     let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
-    (recipes_of(sides), any::<bool>(), select(vec![None, None, Some(1i64), Some(2), Some(4)]))
-        .prop_flat_map(|(recipe, deep, blocks)| {
-            let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
-            small(recipe.pixel_max() - 1).prop_map(move |level| Recipe {
-                deep,
-                periphery: blocks.map(|blocks| PeripheryRecipe { blocks, level }),
-                ..recipe.clone()
-            })
-        })
+    (recipes_of(sides), any::<bool>()).prop_map(|(recipe, deep)| Recipe { deep, ..recipe })
 }
 
 /// The same with regions of these sides, plain.
 pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = Recipe> {
+    let blocks = select(vec![None, None, Some(1i64), Some(2), Some(4)]);
+    (without_periphery(sides), blocks).prop_flat_map(|(recipe, blocks)| {
+        let blocks = blocks.filter(|blocks| recipe.side % blocks == 0);
+        small(recipe.pixel_max() - 1).prop_map(move |level| Recipe {
+            periphery: blocks.map(|blocks| PeripheryRecipe { blocks, level }),
+            ..recipe.clone()
+        })
+    })
+}
+
+fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = Recipe> {
     let bits = prop_oneof![3 => select(vec![1u32, 2, 8, 10, 12, 16]), 1 => 1u32..=16];
     (sides, bits).prop_flat_map(|(side, bits)| {
         let size = 1..=2 * side + 1;

@@ -67,7 +67,7 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
         for shown in &trace.shown[1..] {
             if shown.decision_valid {
                 compare(shown, outcome);
-                screen.act(shown.region, shown.srs, shown.trs);
+                screen.act(shown.region, (shown.srs, shown.trs, shown.summary));
                 decisions += 1;
             }
             if shown.active && !recipe.forward {

@@ -231,6 +231,7 @@ impl Driver {
         let mut noise = self.noise;
         noise.temporal_level = self.random.below(2) as u32;
         noise.temporal_min_count = self.random.below(5) as u32;
+        noise.summary_level = self.random.below(2) as u32;
         noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
         noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
         noise

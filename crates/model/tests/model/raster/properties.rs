@@ -55,6 +55,9 @@ fn changed(recipe: &RasterRecipe, seed: u64) -> RasterRecipe {
     }
     recipe.base.temporal_level /= 1 + random.below(3);
     recipe.base.temporal_min /= 1 + random.below(3);
+    if let Some(periphery) = &mut recipe.base.periphery {
+        periphery.level /= 1 + random.below(3);
+    }
     recipe
 }
 

@@ -179,6 +179,7 @@ pub(crate) fn raster_recipes() -> impl Strategy<Value = RasterRecipe> {
     let built = (any::<bool>(), stores, select(vec![true, true, false]));
     (recipes_of(sides), select(vec![1i64, 2, 4]), built, size).prop_map(
         |(mut base, pixels, (deep, store, forward), (wide, high, more))| {
+            base.periphery = None;
             let side = base.side;
             let pixels = if side % pixels == 0 { pixels } else { 1 };
             let columns = 4.max((16 * pixels + side - 1) / side) + more;

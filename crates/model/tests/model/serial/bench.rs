@@ -168,6 +168,7 @@ impl Bench {
     fn shake(&mut self) {
         self.noise.temporal_level = self.random.below(2) as u32;
         self.noise.temporal_min_count = self.random.below(5) as u32;
+        self.noise.summary_level = self.random.below(2) as u32;
         self.noise.level = [self.random.below(9) as u32; FeatureKind::COUNT];
         self.noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
     }

@@ -2,7 +2,7 @@
 //! Whole films: scores, decisions and the rendered frame, against the functional camera, over a
 //! matrix of designs that has every value of every choice beside every other.
 
-use foveate_design::Design;
+use foveate_design::{Action, Design};
 use foveate_frame::Frame;
 use foveate_model::{
     CoreInput, FunctionalCamera, FunctionalOutcome, RegionScorer, SerialRcm, Thresholds,
@@ -12,7 +12,7 @@ use foveate_model::{
 use super::bench::applied;
 use super::recipe::SerialRecipe;
 use crate::hard_cases::hard_frames;
-use crate::recipe::{FeatureRecipe, Recipe};
+use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
 use crate::screen::Screen;
 
 /// Feeds a frame as fast as it is taken; returns the clocks until the array is ready again.
@@ -53,9 +53,11 @@ fn play(
         }
         if output.decision_valid {
             decisions += 1;
-            let due = (outcome.srs[at], outcome.trs[at], outcome.active[at]);
-            assert_eq!((output.srs, output.trs, output.active), due, "decision of region {at}");
-            screen.act(output.region, output.srs, output.trs);
+            let summary = outcome.actions[at] == Action::Summarize;
+            let due = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
+            let said = (output.srs, output.trs, output.active, output.summary);
+            assert_eq!(said, due, "decision of region {at}");
+            screen.act(output.region, (output.srs, output.trs, output.summary));
         }
         for (port, (&valid, &pixel)) in
             output.forward_valid.iter().zip(&output.forward_pixel).enumerate()
@@ -66,8 +68,7 @@ fn play(
                 } else {
                     port as u32 * recipe.fold as u32 + output.forward_slot
                 };
-                let place = screen.place(region, output.forward_position);
-                screen.pixels[place] = pixel;
+                screen.show(region, output.forward_position, pixel);
             }
         }
     }
@@ -86,6 +87,7 @@ fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: 
         let reference = rcm.reference(region);
         let count = scorer.temporal_count(reference, &thresholds);
         assert_eq!(count, outcome.temporal_count[region as usize]);
+        assert_eq!(scorer.means(), outcome.means[region as usize]);
         let scores = outcome.scores.iter().map(|scores| scores[region as usize]);
         assert!(
             scores.eq(scorer.scores(reference, &thresholds).into_iter().take(outcome.scores.len()))
@@ -115,6 +117,7 @@ fn check(recipe: &SerialRecipe, film: &[Frame]) {
         let references = |region| rcm.reference(region).map(<[u16]>::to_vec);
         for region in 0..recipe.regions() as u32 {
             assert_eq!(references(region), camera.reference(region), "of region {region}");
+            assert_eq!(rcm.summary(region), camera.summary(region), "summary of region {region}");
         }
     }
 }
@@ -156,7 +159,7 @@ fn films_over_the_matrix() {
                     temporal_min: side,
                     last_sent: on(2),
                     blank_irrelevant: number % 5 < 3,
-                    periphery: None,
+                    periphery: PeripheryRecipe::number(number / 5, side, (1 << bits) - 1),
                     raw_payload: on(4),
                     constant: number.is_multiple_of(11),
                     deep: number % 4 < 2,
@@ -189,7 +192,7 @@ fn every_fold_of_a_grid_of_seven() {
                 temporal_min: 2,
                 last_sent: true,
                 blank_irrelevant: true,
-                periphery: None,
+                periphery: PeripheryRecipe::number(fold as usize, 4, 255),
                 raw_payload: false,
                 constant: false,
                 deep: false,
@@ -216,7 +219,7 @@ fn the_largest_region() {
             temporal_min: 9,
             last_sent: shared,
             blank_irrelevant: false,
-            periphery: None,
+            periphery: PeripheryRecipe::number(if raster { 3 } else { 5 }, 64, 65_535),
             raw_payload: true,
             constant: false,
             deep: false,

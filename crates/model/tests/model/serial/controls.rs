@@ -8,7 +8,7 @@ use super::properties::jobs;
 use super::recipe::SerialRecipe;
 use super::waveform::Facts;
 use crate::frames::Content;
-use crate::recipe::{FeatureRecipe, Recipe};
+use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
 
 fn recipe() -> SerialRecipe {
     let feature =
@@ -40,8 +40,9 @@ fn recipe() -> SerialRecipe {
 /// Runs the array of the recipe above against an expectation that `spoil` has had its hands on: the
 /// recipe it is made from, or the frames.
 fn expect(built: &SerialRecipe, spoil: &Spoil) -> Check {
-    use Content::{AlmostFlat, Noise, Repeat, Touch};
-    let script = vec![(Noise, 5), (Touch, 2), (Repeat, 3), (AlmostFlat, 4), (Touch, 6), (Noise, 7)];
+    use Content::{AlmostFlat, Noise, Nudge, Repeat, Touch};
+    let contents = [Noise, Touch, Repeat, AlmostFlat, Nudge, Touch, Noise];
+    let script = contents.into_iter().zip(5..).collect();
     let mut expected = built.clone();
     let mut jobs_of_both = jobs(built, &script);
     if let Spoil::Recipe(change) = spoil {
@@ -90,10 +91,42 @@ fn every_planted_fault_is_noticed() {
         ("pipelining", Spoil::Recipe(|recipe| recipe.base.deep = true)),
         ("depth", Spoil::Recipe(|recipe| recipe.base.bits = 9)),
     ];
+    check(&recipe(), &faults);
+}
+
+#[test]
+fn every_planted_fault_of_a_summary_is_noticed() {
+    let mut recipe = recipe();
+    recipe.base.side = 4;
+    set(&mut recipe, 2, 3);
+    let faults = [
+        ("clock", Spoil::Clock),
+        ("regions swapped", Spoil::Facts(|facts| facts.swap(0, 3))),
+        ("one mean of a region", Spoil::Facts(|facts| facts[1].means[3] ^= 1)),
+        ("blocks swapped", Spoil::Facts(|facts| facts[4].means.swap(1, 2))),
+        ("all is sent", Spoil::Facts(|facts| facts[2].summary = !facts[2].srs)),
+        ("nothing is sent", Spoil::Facts(|facts| facts[2].summary = false)),
+        ("level", Spoil::Recipe(|recipe| set(recipe, 2, 0))),
+        ("blocks", Spoil::Recipe(|recipe| set(recipe, 1, 3))),
+        ("irrelevant", Spoil::Recipe(|recipe| recipe.base.periphery = None)),
+        ("payload", Spoil::Recipe(|recipe| recipe.base.raw_payload = true)),
+        ("reference", Spoil::Recipe(|recipe| recipe.base.last_sent = false)),
+        ("fold", Spoil::Recipe(|recipe| recipe.fold = 3)),
+        ("pipelining", Spoil::Recipe(|recipe| recipe.base.deep = true)),
+    ];
+    check(&recipe, &faults);
+}
+
+fn set(recipe: &mut SerialRecipe, blocks: i64, level: i64) {
+    recipe.base.periphery = Some(PeripheryRecipe { blocks, level });
+}
+
+/// Every fault is noticed with both feeds, and none where there is none.
+fn check(recipe: &SerialRecipe, faults: &[(&str, Spoil)]) {
     for raster in [false, true] {
-        let recipe = SerialRecipe { raster, ..recipe() };
+        let recipe = SerialRecipe { raster, ..recipe.clone() };
         assert_eq!(expect(&recipe, &Spoil::Nothing), Ok(()));
-        for (fault, spoil) in &faults {
+        for (fault, spoil) in faults {
             assert!(expect(&recipe, spoil).is_err(), "{fault} goes unnoticed");
         }
     }

@@ -98,6 +98,38 @@ fn two_slots_one_of_them_empty() {
     assert_eq!(outputs.len() - 1, 32 + 584 + 1);
 }
 
+/// The same with irrelevant regions of four blocks: 4 * (4 + 2 + 2) steps for means after the count, and after the 16 to
+/// unload pixels 4 * (2 + 2) to unload means, together in every fourth; with raster feed 4 * 3 after 48, one by one.
+#[test]
+fn means_leave_where_pixels_have_left() {
+    let toml = "[frame]\nwidth = 12\nheight = 4\npixel_bits = 1\n[region]\nsize = 4\n\
+         [denoise]\nfilter = \"none\"\n[temporal]\nlevel = 0\nmin_count = 0\n\
+         [render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 2\n\
+         [[spatial]]\nfeature = \"edge\"\nlevel = 1\nmin_score = 1\n\
+         [hardware]\norganization = \"serial\"\nfold = 2\n";
+    let (outputs, _) = play(&design(toml), 32);
+    assert_eq!(
+        scores(&outputs),
+        [(81, 0, 0), (82, 0, 2), (339, 1, 0), (340, 1, 2), (421, 0, 1), (679, 1, 1)]
+    );
+    assert_eq!(decisions(&outputs), [(339, 0), (340, 2), (679, 1)]);
+    assert!([339, 340, 679].iter().all(|&edge| outputs[edge].summary && !outputs[edge].active));
+    let leaving = [360, 364, 368, 372, 700, 704, 708, 712];
+    assert_eq!(forwarding(&outputs), leaving);
+    assert_eq!(leaving.map(|edge| outputs[edge].forward_position), [5, 7, 13, 15, 5, 7, 13, 15]);
+    let (slot_0, slot_1) = (&outputs[360], &outputs[700]);
+    assert_eq!((&slot_0.forward_pixel[..], slot_0.forward_slot), (&[1, 1][..], 0));
+    assert_eq!((&slot_1.forward_valid[..], slot_1.forward_slot), (&[true, false][..], 1));
+    assert_eq!(outputs.len() - 1, 32 + 2 * 340 + 1);
+
+    let (outputs, _) = play(&design(&format!("{toml}feed = \"raster\"\n")), 48);
+    let leaving = [406, 407, 409, 410, 412, 413, 415, 416, 774, 777, 780, 783];
+    assert_eq!(forwarding(&outputs), leaving);
+    let place = |edge: usize| (outputs[edge].forward_region, outputs[edge].forward_position);
+    assert_eq!([406, 407, 416, 774].map(place), [(0, 5), (2, 5), (2, 15), (1, 5)]);
+    assert_eq!(outputs.len() - 1, 48 + 2 * 368 + 1);
+}
+
 /// Two regions of 4x4 with a halo of 1. Column x is shown 2 1 1 2 2 1 1 2 times, row y 2 1 1 2 times; so
 /// the first row takes 24 clocks, the next two 12, the last 24, and T0 is edge 72.
 #[test]

@@ -35,6 +35,9 @@ fn changed(recipe: &Recipe, seed: u64) -> Recipe {
     }
     recipe.temporal_level /= 1 + random.below(3);
     recipe.temporal_min /= 1 + random.below(3);
+    if let Some(periphery) = &mut recipe.periphery {
+        periphery.level /= 1 + random.below(3);
+    }
     recipe
 }
 

@@ -5,7 +5,7 @@ use foveate_design::{Design, Feed, Organization};
 use proptest::prelude::*;
 use proptest::sample::select;
 
-use crate::recipe::{FeatureRecipe, Recipe, recipes_of};
+use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe, recipes_of};
 
 #[derive(Clone, Debug)]
 pub(crate) struct SerialRecipe {
@@ -20,6 +20,7 @@ pub(crate) enum Phase {
     Hidden(i64),
     Rotation,
     Unload,
+    UnloadMeans,
 }
 
 impl SerialRecipe {
@@ -86,7 +87,7 @@ impl SerialRecipe {
 
     /// The phases of a slot.
     pub(crate) fn phases(&self) -> Vec<Phase> {
-        use Phase::{Hidden, Rotation, Unload};
+        use Phase::{Hidden, Rotation, Unload, UnloadMeans};
         let (n, p, q) = (self.base.n(), i64::from(self.base.bits), self.address_to_data());
         let (median, last_sent) = (self.base.median, self.base.last_sent);
         let mut phases = Vec::new();
@@ -101,6 +102,10 @@ impl SerialRecipe {
             phases.push(Hidden(if last_sent { 3 * n } else { n * (3 + q) }));
         }
         phases.push(Rotation);
+        if let Some(PeripheryRecipe { blocks, .. }) = self.base.periphery {
+            let pixels = (self.base.side / blocks).pow(2);
+            phases.push(Hidden(blocks.pow(2) * (pixels + 2 + self.settling() + self.lanes())));
+        }
         for feature in &self.base.features {
             phases.push(Hidden(self.pass(feature)));
             phases.push(Rotation);
@@ -109,6 +114,7 @@ impl SerialRecipe {
             phases.push(Hidden(n * (2 + q)));
         }
         phases.push(Unload);
+        phases.extend(self.base.periphery.map(|_| UnloadMeans));
         phases
     }
 
@@ -132,9 +138,23 @@ impl SerialRecipe {
         match phase {
             Phase::Hidden(steps) => steps,
             Phase::Rotation => self.settling() + self.lanes(),
-            Phase::Unload if self.raster => self.base.n() * (1 + self.lanes()),
-            Phase::Unload => self.base.n(),
+            Phase::Unload => self.base.n() * self.round(phase),
+            Phase::UnloadMeans => self.means() * self.round(phase),
         }
+    }
+
+    /// Steps in which a pixel or a mean of every lane leaves.
+    pub(crate) fn round(&self, phase: Phase) -> i64 {
+        match phase {
+            _ if self.raster => 1 + self.lanes(),
+            Phase::UnloadMeans => self.lanes() + 2 + self.address_to_data(),
+            Phase::Unload | Phase::Hidden(_) | Phase::Rotation => 1,
+        }
+    }
+
+    /// q*q.
+    pub(crate) fn means(&self) -> i64 {
+        self.base.periphery.map_or(0, |periphery| periphery.blocks.pow(2))
     }
 
     /// J.
@@ -171,8 +191,8 @@ impl SerialRecipe {
 /// Every kind of serial design, with a few regions.
 pub(crate) fn serial_recipes() -> impl Strategy<Value = SerialRecipe> {
     let sides = prop_oneof![6 => select(vec![4i64, 4, 5, 6, 7, 8]), 1 => 4i64..=11];
-    (recipes_of(sides), any::<bool>(), 0i64..=9).prop_map(|(base, raster, fold)| {
+    (recipes_of(sides), any::<[bool; 2]>(), 0i64..=9).prop_map(|(base, [raster, deep], fold)| {
         let regions = base.columns() * base.rows();
-        SerialRecipe { fold: 1 + fold % regions, raster, base }
+        SerialRecipe { fold: 1 + fold % regions, raster, base: Recipe { deep, ..base } }
     })
 }

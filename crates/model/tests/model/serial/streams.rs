@@ -53,7 +53,9 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
                     scores: scores.collect(),
                     srs: output.srs,
                     trs: output.trs,
+                    summary: output.summary,
                     payload: Vec::new(),
+                    means: Vec::new(),
                 });
             }
             if output.forward_valid {
@@ -62,12 +64,21 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
         }
     }
     for (facts, leaving) in facts.iter_mut().zip(leaving) {
-        let active = facts.iter_mut().filter(|facts| facts.srs && facts.trs);
-        for (facts, pixels) in active.zip(leaving.chunks_exact(recipe.base.n() as usize)) {
-            facts.payload = pixels.to_vec();
+        let mut leaving = leaving.into_iter();
+        for facts in facts.iter_mut() {
+            let (payload, means) = lengths(recipe, facts);
+            facts.payload = leaving.by_ref().take(payload).collect();
+            facts.means = leaving.by_ref().take(means).collect();
         }
     }
     (0..streams.len()).map(|frame| facts.iter().map(|of| of[frame].clone()).collect()).collect()
+}
+
+/// How many pixels and how many means leave of a region.
+fn lengths(recipe: &SerialRecipe, facts: &Facts) -> (usize, usize) {
+    let pixels = if facts.active() { recipe.base.n() } else { 0 };
+    let means = if facts.summary { recipe.means() } else { 0 };
+    (pixels as usize, means as usize)
 }
 
 proptest! {

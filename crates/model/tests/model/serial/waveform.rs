@@ -9,18 +9,37 @@ use foveate_model::SerialOutput;
 use super::recipe::{Phase, SerialRecipe};
 use crate::oracle::Seen;
 
-/// What is known of one region and frame: the temporal count and the scores, the decision, and the
-/// pixels that leave if it is active.
+/// What is known of one region and frame: the temporal count and the scores, the decision, the pixels that leave if it is
+/// active, and the means that leave if its summary is sent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Facts {
     pub(crate) scores: Vec<u64>,
     pub(crate) srs: bool,
     pub(crate) trs: bool,
+    pub(crate) summary: bool,
     pub(crate) payload: Vec<u16>,
+    pub(crate) means: Vec<u16>,
+}
+
+impl Facts {
+    pub(crate) fn active(&self) -> bool {
+        self.srs && self.trs
+    }
+
+    /// The pixels that leave.
+    fn payload(&self) -> &[u16] {
+        if self.active() { &self.payload } else { &[] }
+    }
+
+    /// The means that leave.
+    fn means(&self) -> &[u16] {
+        if self.summary { &self.means } else { &[] }
+    }
 }
 
 /// What the oracle knows.
 pub(crate) fn facts(seen: &Seen) -> Vec<Facts> {
+    let pixels = |values: &[i64]| values.iter().map(|&value| value as u16).collect();
     let facts = |region: &crate::oracle::SeenRegion| Facts {
         scores: std::iter::once(&region.temporal_count)
             .chain(&region.scores)
@@ -28,7 +47,9 @@ pub(crate) fn facts(seen: &Seen) -> Vec<Facts> {
             .collect(),
         srs: region.srs,
         trs: region.trs,
-        payload: region.payload.iter().map(|&pixel| pixel as u16).collect(),
+        summary: region.action == "summarize",
+        payload: pixels(&region.payload),
+        means: pixels(&region.means),
     };
     seen.regions.iter().map(facts).collect()
 }
@@ -38,8 +59,8 @@ pub(crate) fn facts(seen: &Seen) -> Vec<Facts> {
 pub(crate) struct Shown {
     /// Index, region, score.
     pub(crate) score: Option<(u32, u32, u64)>,
-    /// SRS, TRS, active.
-    pub(crate) decision: Option<(bool, bool, bool)>,
+    /// SRS, TRS, active, summary.
+    pub(crate) decision: Option<[bool; 4]>,
     /// Port, pixel.
     pub(crate) pixels: Vec<(usize, u16)>,
     /// Position, slot, region, where there are pixels.
@@ -48,8 +69,8 @@ pub(crate) struct Shown {
 
 impl Shown {
     pub(crate) fn by(output: &SerialOutput) -> Self {
-        let decision = (output.srs, output.trs, output.active);
-        assert!(output.decision_valid || decision == (false, false, false));
+        let decision = [output.srs, output.trs, output.active, output.summary];
+        assert!(output.decision_valid || decision == [false; 4]);
         let ports = output.forward_valid.iter().zip(&output.forward_pixel).enumerate();
         let pixels: Vec<(usize, u16)> = ports
             .filter(|(_, (valid, _))| **valid)
@@ -78,10 +99,9 @@ pub(crate) fn steps(recipe: &SerialRecipe, facts: &[Facts]) -> Vec<(i64, Shown)>
                     shown.extend(rotate(recipe, facts, slot, rotation, start));
                     rotation += 1;
                 }
-                Phase::Unload if recipe.raster => {
-                    shown.extend(unload_raster(recipe, facts, slot, start));
+                Phase::Unload | Phase::UnloadMeans => {
+                    shown.extend(unload(recipe, facts, slot, phase, start));
                 }
-                Phase::Unload => shown.extend(unload_lanes(recipe, facts, slot, start)),
             }
             start += recipe.steps(phase);
         }
@@ -105,7 +125,7 @@ fn rotate(
     let last = number == recipe.base.features.len();
     let score = |(lane, region): (i64, i64)| {
         let facts = &facts[region as usize];
-        let decision = (facts.srs, facts.trs, facts.srs && facts.trs);
+        let decision = [facts.srs, facts.trs, facts.active(), facts.summary];
         let score = Some((number as u32, region as u32, facts.scores[number]));
         (
             start + recipe.settling() + lane,
@@ -115,48 +135,50 @@ fn rotate(
     served(recipe, slot).into_iter().map(score).collect()
 }
 
-fn unload_lanes(
+fn unload(
     recipe: &SerialRecipe,
     facts: &[Facts],
     slot: i64,
+    phase: Phase,
     start: i64,
 ) -> Vec<(i64, Shown)> {
+    let round = recipe.round(phase);
     let mut shown = Vec::new();
-    for position in 0..recipe.base.n() {
-        let mut pixels = Vec::new();
+    for number in 0..recipe.steps(phase) / round {
+        let position = position(recipe, phase, number) as u32;
+        let mut together = Vec::new();
         for (lane, region) in served(recipe, slot) {
             let facts = &facts[region as usize];
-            if facts.srs && facts.trs {
-                pixels.push((lane as usize, facts.payload[position as usize]));
+            let leaving = if phase == Phase::Unload { facts.payload() } else { facts.means() };
+            let Some(&pixel) = leaving.get(number as usize) else { continue };
+            if recipe.raster {
+                let (pixels, place) = (vec![(0, pixel)], Some((position, 0, region as u32)));
+                let step = start + number * round + 1 + lane;
+                shown.push((step, Shown { pixels, place, ..Shown::default() }));
+            } else {
+                together.push((lane as usize, pixel));
             }
         }
-        if !pixels.is_empty() {
-            let place = Some((position as u32, slot as u32, 0));
-            shown.push((start + position, Shown { pixels, place, ..Shown::default() }));
+        if !together.is_empty() {
+            let (pixels, place) = (together, Some((position, slot as u32, 0)));
+            let step = start + (number + 1) * round - 1;
+            shown.push((step, Shown { pixels, place, ..Shown::default() }));
         }
     }
     shown
 }
 
-fn unload_raster(
-    recipe: &SerialRecipe,
-    facts: &[Facts],
-    slot: i64,
-    start: i64,
-) -> Vec<(i64, Shown)> {
-    let mut shown = Vec::new();
-    for position in 0..recipe.base.n() {
-        for (lane, region) in served(recipe, slot) {
-            let facts = &facts[region as usize];
-            if facts.srs && facts.trs {
-                let step = start + position * (1 + recipe.lanes()) + 1 + lane;
-                let pixels = vec![(0, facts.payload[position as usize])];
-                let place = Some((position as u32, 0, region as u32));
-                shown.push((step, Shown { pixels, place, ..Shown::default() }));
-            }
-        }
-    }
-    shown
+/// The position of pixel or mean `number`: of a mean that of the last pixel that lies in its block.
+fn position(recipe: &SerialRecipe, phase: Phase, number: i64) -> i64 {
+    let Some(periphery) = recipe.base.periphery.filter(|_| phase == Phase::UnloadMeans) else {
+        return number;
+    };
+    let side = recipe.base.side / periphery.blocks;
+    let block = |at: i64| {
+        let (x, y) = (at % recipe.base.side, at / recipe.base.side);
+        y / side * periphery.blocks + x / side
+    };
+    (0..recipe.base.n()).rfind(|&at| block(at) == number).unwrap()
 }
 
 /// What is due, by edge.
