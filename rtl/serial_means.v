@@ -4,8 +4,8 @@
 `default_nettype none
 
 module serial_means #(
-    parameter WIDTH = 8,        // bits of a mean
-    parameter WORDS = 3136,     // means, at least 2
+    parameter WIDTH = 8,         // bits of a mean
+    parameter WORDS = 3136,      // means, at least 2
     parameter ADDRESS_BITS = 12  // ceil(log2(WORDS))
 ) (
     input  wire                    clk_i,            // clock, rising edge

@@ -96,9 +96,7 @@ module serial_states #(
     reg [1:0] job;
     reg [3:0] tap_q;
     reg [1:0] part_q;
-    reg averaging_q;  // blocks are summed, and their sums pass
     reg averaging;
-    reg returning_q;  // means leave
     reg returning;
 
     // A frame.
@@ -141,8 +139,8 @@ module serial_states #(
     wire keeping = (SUMS || SUMMARIES) && state_q == KEEP;
 
     // A mean.
-    wire is_averaging = SUMMARIES && averaging_q;
-    wire is_returning = SUMMARIES && returning_q;
+    wire is_averaging;  // blocks are summed, and their sums pass
+    wire is_returning;  // means leave
     wire storing = SUMMARIES && RASTER == 0 && state_q == STORE;
     wire showing = SUMMARIES && RASTER == 0 && state_q == SHOW;
 
@@ -230,7 +228,7 @@ module serial_states #(
                 else if (SUMMARIES && last_center_i) state = ROTATE;
             end
             SHIFT: if (last_lane_i) state = UNLOAD;
-            STORE: state = SHOW;
+            STORE: state = SUMMARIES ? SHOW : LOAD;
             SHOW: state = ROTATE;
             default: state = LOAD;
         endcase
@@ -246,15 +244,34 @@ module serial_states #(
         if (rst_i) begin
             state_q <= LOAD;
             job_q   <= TEMPORAL;
-            averaging_q <= 1'b0;
-            returning_q <= 1'b0;
         end else begin
             state_q <= state;
             job_q   <= job;
-            averaging_q <= averaging;
-            returning_q <= returning;
         end
     end
+
+    generate
+        if (SUMMARIES != 0) begin : g_summaries
+            reg averaging_q;
+            reg returning_q;
+            assign is_averaging = averaging_q;
+            assign is_returning = returning_q;
+
+            always @(posedge clk_i) begin
+                if (rst_i) begin
+                    averaging_q <= 1'b0;
+                    returning_q <= 1'b0;
+                end else begin
+                    averaging_q <= averaging;
+                    returning_q <= returning;
+                end
+            end
+        end else begin : g_no_summaries
+            wire unused_phases = averaging || returning;
+            assign is_averaging = 1'b0;
+            assign is_returning = 1'b0;
+        end
+    endgenerate
 
     // Inside a pixel.
     always @(posedge clk_i) begin

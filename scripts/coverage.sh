@@ -54,7 +54,7 @@ names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
-        serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute
+        serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute
         array_sync serial_sync raster_sync)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
@@ -68,6 +68,7 @@ if [ "${1:-}" != --quick ]; then
         "paper $serial --set region.size=4 --set region.neighborhood='shared' --set temporal.reference='last-sent' --set hardware.fold=2"
         "paper $serial --set region.size=5 --set region.neighborhood='shared' --set hardware.feed='raster' --set hardware.fold=4"
         "bare $serial --set region.size=16 --set frame.pixel_bits=10 --set hardware.fold=4 --set spatial=[$edge,$fraction] --set render.payload='raw'"
+        "paper $serial --set region.size=6 --set render={irrelevant='mean',payload='raw'} --set hardware.fold=4"
         "paper $serial $deep --set region.size=4 --set temporal.reference='last-sent' --set hardware.fold=2 --set spatial=$all"
         "bare $serial $deep --set region.size=5 --set hardware.fold=2 --set hardware.feed='raster' --set hardware.memory='block' --set spatial=[$corner,$fraction]"
         "paper $deep --rounds 4 --set temporal.reference='last-sent' --set spatial=$all"

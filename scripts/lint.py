@@ -62,6 +62,8 @@ def summaries():
         ("pixels", 4, 4, EDGE, "denoise.filter='median3x3'"),
         ("deep", 12, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant'}"),
         ("second", 6, 1, FEATURES[2], "render={irrelevant='mean',payload='raw'}"),
+        ("serial", 8, 4, EDGE, "hardware={organization='serial',fold=2}"),
+        ("deep_serial", 5, 1, FEATURES[2], "hardware={organization='serial',feed='raster',pipelining='deep'}"),
     ]:
         yield f"m_{name}_{size}x{size}", [
             f"spatial=[{features}]",

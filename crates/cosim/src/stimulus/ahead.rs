@@ -51,12 +51,13 @@ impl Aimer {
     }
 
     /// Thresholds near the data of one region of the frame that the model takes next: its stream, and what it
-    /// is compared with. With `largest` levels near the largest values that there are, by turns.
+    /// is compared with, and the means that the screen shows of it. With `largest` levels near the largest values that there are, by turns.
     pub(super) fn exact(
         &mut self,
         region: u32,
         stream: &[u16],
         reference: Option<&[u16]>,
+        shown: Option<&[u16]>,
         largest: Option<u32>,
         random: &mut Random,
     ) -> Thresholds {
@@ -74,7 +75,14 @@ impl Aimer {
         }
         let scores = self.scorer.scores(reference, &thresholds);
         let count = self.scorer.temporal_count(reference, &thresholds);
-        self.ranges.aim_minima(&scores, count, &mut thresholds, random);
+        self.minima(&scores, count, &mut thresholds, random);
+        if largest.is_none() {
+            let widest = shown.and_then(|shown| {
+                let means = self.scorer.means();
+                means.iter().zip(shown).map(|(now, then)| now.abs_diff(*then).into()).max()
+            });
+            self.summary_level(widest, &mut thresholds, random);
+        }
         thresholds
     }
 

@@ -283,8 +283,9 @@ impl<'a> Driver<'a> {
         let region = self.aimer.any_region(&mut self.random);
         let mut stream = Vec::new();
         region_stream(self.design, frame, region, &mut stream);
-        let reference = self.core.reference(region);
-        self.thresholds = self.aimer.exact(region, &stream, reference, largest, &mut self.random);
+        let (reference, shown) = (self.core.reference(region), self.core.summary(region));
+        let random = &mut self.random;
+        self.thresholds = self.aimer.exact(region, &stream, reference, shown, largest, random);
     }
 
     /// The first square of a frame: its first region, or all of a region with its halo.

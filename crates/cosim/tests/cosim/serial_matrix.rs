@@ -64,7 +64,7 @@ fn check_all(cases: &[Case]) {
 
 /// Lets the keys that are no axis of a test take turns.
 fn with_turns(mut config: Config, turn: usize) -> Config {
-    config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % 2];
+    config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % Irrelevant::ALL.len()];
     config.camera.render.payload = Payload::ALL[turn / 3 % 2];
     config.camera.decision.combine = Combine::ALL[turn / 5 % 2];
     config
@@ -219,6 +219,50 @@ fn deep_arrays_agree() {
         }
     }
     assert_eq!(cases.len(), 16);
+    check_all(&cases);
+}
+
+/// Means of blocks where there is more to them than that: one pixel, 3x3 pixels, the whole region, many words; a feature that
+/// keeps sums and one that does not; what leaves is raw, by each feed, of each memory.
+#[test]
+fn summaries_agree() {
+    let (distributed, block) = (MemoryKind::Distributed, MemoryKind::Block);
+    let (plain, deep) = (Pipelining::Plain, Pipelining::Deep);
+    let mut cases = Vec::new();
+    for (turn, (size, blocks, bits, kinds, fold, memory, pipelining)) in [
+        (4, 4, 8, &[Edge][..], 1, block, deep),
+        (6, 2, 8, &[Edge, Corner], 2, distributed, plain),
+        (12, 4, 8, &[Mad], 4, distributed, deep),
+        (5, 1, 16, &[Corner], 6, block, plain),
+        (8, 1, 8, &[Variance], 1, distributed, deep),
+        (8, 1, 1, &[Edge], 3, block, plain),
+        (6, 1, 10, &[Variance], 2, block, deep),
+        (4, 2, 16, &[Edge], 6, distributed, deep),
+    ]
+    .into_iter()
+    .enumerate()
+    {
+        let features: Vec<_> = kinds.iter().map(|&kind| feature(kind, 2)).collect();
+        let mut config = config(&features);
+        if bits == 1 {
+            config.camera.spatial[0].level = Some(1);
+            config.camera.temporal.level = Some(0);
+        }
+        config.camera.region.size = size;
+        config.camera.frame.pixel_bits = bits;
+        config.camera.render.irrelevant = Irrelevant::Mean;
+        config.camera.periphery.blocks = Some(blocks);
+        config.camera.render.payload = Payload::ALL[turn / 2 % 2];
+        config.camera.denoise.filter = Filter::ALL[(turn + turn / 4) % 2];
+        config.camera.temporal.reference = Reference::ALL[turn % 3 % 2];
+        config.camera.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
+        config.hardware.thresholds = Thresholds::ALL[turn / 6];
+        config.hardware.feed = Some(Feed::ALL[turn % 2]);
+        config.hardware.memory = Some(memory);
+        config.hardware.pipelining = Some(pipelining);
+        config.hardware.fold = fold;
+        cases.push(Case::array(config, (3, 2)));
+    }
     check_all(&cases);
 }
 

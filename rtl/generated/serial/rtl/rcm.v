@@ -54,7 +54,8 @@ module rcm #(
     wire [(SLOTS > 1 ? $clog2(SLOTS) : 1)-1:0] region;
     wire [5:0] position;
     wire [1:0] slot;
-    wire unused_beside = |region || |position || |slot || edge_level_i[0];
+    wire summary;
+    wire unused_beside = |region || |position || |slot || summary || edge_level_i[0];
 
     serial_array #(
         .COLUMNS(COLUMNS), .ROWS(ROWS), .LANES(LANES), .FOLD(4),
@@ -95,8 +96,10 @@ module rcm #(
         .edge_half_i(edge_level_i[10:1]),
         .corner_level_i(8'd0),
         .minima_i({edge_min_i, temporal_min_i}),
+        .summary_level_i(8'd0),
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),
         .decision_valid_o(decision_valid_o), .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o),
+        .summary_o(summary),
         .forward_valid_o(forward_valid_o), .forward_pixel_o(forward_pixel_o),
         .forward_slot_o(slot), .forward_position_o(position)
     );

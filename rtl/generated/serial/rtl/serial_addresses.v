@@ -13,22 +13,27 @@ module serial_addresses #(
     parameter CLAMPS = 1,           // 1: a window repeats the border of its square
     parameter LAST_SENT = 0,        // 1: the reference is `last-sent`, else `previous`
     parameter RAW_PAYLOAD = 0,      // 1: raw pixels leave, not those that are scored
+    parameter BLOCKS = 0,           // blocks of a region's side of which means are sent: 1, 2 or 4; 0: none
+    parameter BLOCK_BITS = 1,       // of the number of a block, at least 1
     parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
     parameter REFERENCE_BASE = 64,  // where the reference starts
     parameter WORD_BITS = 7,        // of an address inside a slot
     parameter POSITION_BITS = 6     // of the number of a pixel in the larger square of centers
 ) (
     input  wire                     clk_i,          // clock, rising edge
-    input  wire [             29:0] step_i,         // what goes on, see serial_states
+    input  wire [             33:0] step_i,         // what goes on, see serial_states
     input  wire [              3:0] tap_i,          // number of the neighbor
     input  wire [              1:0] part_i,         // half of a gradient, part of a ring's step, side of the border
     input  wire                     walks_i,        // the next step is about the next center
     input  wire                     slot_ends_i,    // ... about the next slot
     input  wire                     last_lane_i,    // the score of the last lane passes
+    input  wire                     first_score_i,  // ... and the first score of the slot
     input  wire                     last_score_i,   // ... and the last score of the slot
+    input  wire [   BLOCK_BITS-1:0] block_i,        // number of the block
+    input  wire                     last_block_i,   // it is the last of the region
     output wire [    WORD_BITS-1:0] address_o,      // of the word, inside the slot
     output wire                     write_o,        // write the accumulator there
-    output wire [POSITION_BITS-1:0] position_o,     // number of the center in its square
+    output wire [POSITION_BITS-1:0] position_o,     // number of the center in its square, or of the last of a block
     output wire                     last_column_o,  // it is the last of its row
     output wire                     last_center_o,  // ... of its square
     output wire                     counts_o        // it is a pixel of the region
@@ -39,10 +44,13 @@ module serial_addresses #(
     localparam LEAVING_SIDE = RAW_PAYLOAD != 0 ? RAW_SIDE : SCORED_SIDE;
     localparam SIDE_BITS = $clog2(DENOISED_SIDE);
     localparam BORDERS = MEDIAN != 0 && INNER != 0;
+    localparam SUMMARIES = BLOCKS != 0;
+    localparam BLOCK = SIDE / (BLOCKS == 0 ? 1 : BLOCKS);
 
     // Numbers that fit where they are put.
     /* verilator lint_off WIDTH */
-    // First centers of the passes.
+    // First centers of the passes; and a word that nothing needs when means leave, in the raw square.
+    localparam [WORD_BITS-1:0] MEAN_AT = 0;
     localparam [WORD_BITS-1:0] WINDOW_START = (RAW_SIDE - DENOISED_SIDE) / 2 * (RAW_SIDE + 1);
     localparam [WORD_BITS-1:0] SCORED_START = MEDIAN != 0 ? DENOISED_BASE + INNER * (DENOISED_SIDE + 1)
         : (RAW_SIDE - SIDE) / 2 * (RAW_SIDE + 1);
@@ -57,6 +65,8 @@ module serial_addresses #(
     localparam [WORD_BITS-1:0] WINDOW_SKIP = RAW_SIDE - DENOISED_SIDE + 1;
     localparam [WORD_BITS-1:0] SCORED_SKIP = SCORED_SIDE - SIDE + 1;
     localparam [WORD_BITS-1:0] LEAVING_SKIP = LEAVING_SIDE - SIDE + 1;
+    localparam [WORD_BITS-1:0] BLOCK_SKIP = LEAVING_SIDE - BLOCK + 1;
+    localparam [WORD_BITS-1:0] NEXT_BLOCK = 1 - (BLOCK - 1) * LEAVING_SIDE;
     localparam [WORD_BITS-1:0] ONE = 1;
     localparam [WORD_BITS-1:0] WINDOW_STRIDE = RAW_SIDE;
     localparam [WORD_BITS-1:0] SCORED_STRIDE = SCORED_SIDE;
@@ -66,6 +76,7 @@ module serial_addresses #(
     localparam [SIDE_BITS-1:0] LAST_WIDE = DENOISED_SIDE - 1;
     localparam [SIDE_BITS-1:0] LAST_SIDE = SIDE - 1;
     localparam [SIDE_BITS-1:0] LAST_COUNTED = SIDE;
+    localparam [SIDE_BITS-1:0] LAST_OF_BLOCK = BLOCK - 1;
     /* verilator lint_on WIDTH */
 
     // The step.
@@ -73,30 +84,64 @@ module serial_addresses #(
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire [8:0] unused_sums;
+    wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        unused_sums
+        unused_sums,
+        averaging, returning, storing, showing
     } = step_i;
-    wire unused_step = starting || adjusting || reading || gradient_test || ring_test || ring_last;
+    wire unused_step = starting || adjusting || reading || gradient_test || ring_test || ring_last || showing;
 
-    // The walk over the centers.
+    // The center.
     reg [SIDE_BITS-1:0] column_q;
     reg [SIDE_BITS-1:0] row_q;
     reg [WORD_BITS-1:0] center_q;
     reg [POSITION_BITS-1:0] position_q;
 
+    // Blocks.
+    wire sums_start = SUMMARIES && first_score_i && !averaging;
+    wire row_of_blocks_ends;
+
+    generate
+        if (BLOCKS > 1) begin : g_blocks
+            localparam ROW_BITS = BLOCK_BITS / 2;
+            wire [ROW_BITS-1:0] block_column = block_i[0+:ROW_BITS];
+            wire [ROW_BITS-1:0] block_row = block_i[ROW_BITS+:ROW_BITS];
+            assign row_of_blocks_ends = &block_column;
+            // The number of its last pixel.
+            /* verilator lint_off WIDTH */
+            wire [POSITION_BITS-1:0] last_of_block = block_row * (BLOCK * SIDE) + block_column * BLOCK
+                + ((BLOCK - 1) * SIDE + BLOCK - 1);
+            /* verilator lint_on WIDTH */
+            assign position_o = returning ? last_of_block : position_q;
+        end else if (SUMMARIES) begin : g_block
+            localparam [POSITION_BITS-1:0] LAST = SIDE * SIDE - 1;
+            wire unused_block = |block_i;
+            assign row_of_blocks_ends = 1'b1;
+            assign position_o = returning ? LAST : position_q;
+        end else begin : g_no_blocks
+            wire unused_block = |block_i || returning;
+            assign row_of_blocks_ends = 1'b1;
+            assign position_o = position_q;
+        end
+    endgenerate
+
+    // The walk over the centers.
     wire wide_pass = BORDERS && (denoising || bordering);
-    wire [SIDE_BITS-1:0] last_place = wide_pass ? LAST_WIDE : LAST_SIDE;
+    wire [SIDE_BITS-1:0] last_place = wide_pass ? LAST_WIDE : averaging ? LAST_OF_BLOCK : LAST_SIDE;
     wire last_column = column_q == last_place;
     wire last_row = row_q == last_place;
     wire last_center = last_column && last_row;
     wire [WORD_BITS-1:0] skip = denoising ? WINDOW_SKIP
         : (unloading || shifting) ? LEAVING_SKIP : SCORED_SKIP;
 
-    assign position_o = position_q;
+    // From the last center of a row of a block, and of a block.
+    wire [WORD_BITS-1:0] block_skip = !last_row ? BLOCK_SKIP : row_of_blocks_ends ? LEAVING_SKIP : NEXT_BLOCK;
+    wire [WORD_BITS-1:0] onward = !last_column ? ONE : averaging ? block_skip : skip;
+
     assign last_column_o = last_column;
     assign last_center_o = last_center;
 
@@ -119,10 +164,11 @@ module serial_addresses #(
             column_q   <= last_column ? {SIDE_BITS{1'b0}} : column_q + 1'b1;
             if (last_column) row_q <= last_row ? {SIDE_BITS{1'b0}} : row_q + 1'b1;
             position_q <= last_center ? {POSITION_BITS{1'b0}} : position_q + 1'b1;
-            center_q   <= center_q + (last_column ? skip : ONE);
-            if (last_center)
-                center_q <= writing ? LEAVING_START : testing && BORDERS ? LEFT_START : SCORED_START;
-        end else if (rotating && last_lane_i && last_score_i && LAST_SENT == 0) begin
+            center_q   <= center_q + onward;
+            if (last_center && !(averaging && !last_block_i))
+                center_q <= writing ? LEAVING_START : testing && BORDERS ? LEFT_START
+                    : SUMMARIES && unloading ? MEAN_AT : SCORED_START;
+        end else if (rotating && last_lane_i && (sums_start || (last_score_i && LAST_SENT == 0 && !returning))) begin
             center_q <= LEAVING_START;
         end
     end
@@ -206,7 +252,7 @@ module serial_addresses #(
     wire to_reference = relating || (writing && (copying || (MEDIAN == 0 && temporal)));
 
     assign address_o = to_denoised ? DENOISED_AT + position : to_reference ? reference : center_q + near;
-    assign write_o = writing && temporal;
+    assign write_o = (writing && temporal) || storing;
 
 endmodule
 

@@ -31,6 +31,12 @@ module serial_array #(
     parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
     parameter ALL = 0,              // 1: every feature must vote; 0: one vote is enough
     parameter FRACTION = 0,         // fraction bits of the mean of `mad`, 0 to 12
+    parameter BLOCKS = 0,           // blocks of a region's side of which means are sent: 1, 2 or 4; 0: none
+    parameter MEAN_DROPPED = 0,     // bits of a block's sum that stay in the lane
+    parameter MEAN_SUM_BITS = 8,    // bits of what leaves it
+    parameter MEAN_FACTOR_BITS = 1, // bits of MEAN_FACTOR
+    parameter [MEAN_FACTOR_BITS-1:0] MEAN_FACTOR = 1,  // what leaves it * MEAN_FACTOR >> MEAN_SHIFT is the mean
+    parameter MEAN_SHIFT = 0,       // bits that are dropped of the product
     parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
     parameter REFERENCE_BASE = 0,   // where the reference starts in a slot
     parameter WORD_BITS = 7,        // of an address inside a slot
@@ -57,6 +63,7 @@ module serial_array #(
     input  wire [                          WIDTH+1:0] edge_half_i,        // half the level of `edge`, rounded down
     input  wire [                          WIDTH-1:0] corner_level_i,     // level of `corner`
     input  wire [        (FEATURES+1)*SCORE_BITS-1:0] minima_i,           // of the scores, that of the count lowest
+    input  wire [                          WIDTH-1:0] summary_level_i,    // means that differ by more are sent again
     output wire                                       score_valid_o,      // a score of a region stands at the ports
     output wire [                     INDEX_BITS-1:0] score_index_o,      // which: 0 the temporal count
     output wire [                    REGION_BITS-1:0] region_o,           // whose
@@ -65,7 +72,8 @@ module serial_array #(
     output wire                                       srs_o,              // spatial relevance, or 0
     output wire                                       trs_o,              // temporal relevance, or 0
     output wire                                       active_o,           // both
-    output wire [      (RASTER != 0 ? 1 : LANES)-1:0] forward_valid_o,    // a pixel of an active region leaves
+    output wire                                       summary_o,          // its means are sent, or 0
+    output wire [      (RASTER != 0 ? 1 : LANES)-1:0] forward_valid_o,    // a pixel of an active region leaves, or a mean
     output wire [(RASTER != 0 ? 1 : LANES)*WIDTH-1:0] forward_pixel_o,    // that pixel
     output wire [                      SLOT_BITS-1:0] forward_slot_o,     // `parallel`: slot of its region in its lane
     output wire [                  POSITION_BITS-1:0] forward_position_o  // number of that pixel in its region
@@ -111,6 +119,13 @@ module serial_array #(
         if (ALL != 0 && ALL != 1) begin : g_all ALL_must_be_0_or_1 u_refused (); end
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
         if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
+        if (BLOCKS != 0 && BLOCKS != 1 && BLOCKS != 2 && BLOCKS != 4) begin : g_blocks
+            BLOCKS_must_be_0_1_2_or_4 u_refused ();
+        end
+        if (BLOCKS > 1 && SIDE % (BLOCKS > 1 ? BLOCKS : 1) != 0) begin : g_divides BLOCKS_must_divide_SIDE u_refused (); end
+        if (BLOCKS != 0 && MEAN_SUM_BITS > CHAIN_BITS) begin : g_mean_sum_bits
+            MEAN_SUM_BITS_must_be_CHAIN_BITS_or_less u_refused ();
+        end
         if (SLOT_BITS != (FOLD > 1 ? $clog2(FOLD) : 1)) begin : g_slot_bits
             SLOT_BITS_must_number_the_slots u_refused ();
         end
@@ -146,8 +161,10 @@ module serial_array #(
     localparam VARIANCE = KINDS[1:0] == 3 || (FEATURES > 1 && KINDS[3:2] == 3)
         || (FEATURES > 2 && KINDS[5:4] == 3) || (FEATURES > 3 && KINDS[7:6] == 3);
     localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
-    localparam FLAGS = FEATURES > 1 ? 2 : 1;
-    localparam CONTROL_BITS = 25;  // of the control word
+    localparam SUMMARIES = BLOCKS != 0 ? 1 : 0;
+    localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
+    localparam BLOCK_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;
+    localparam CONTROL_BITS = 27;  // of the control word
     // Clocks from an address to the word in hand, and to the accumulator.
     localparam WORD = (BLOCK != 0 ? 1 : 0) + (DEEP != 0 ? 1 : 0);
     localparam LATE = WORD + (DEEP != 0 && (MAD || VARIANCE) ? 1 : 0);
@@ -186,7 +203,8 @@ module serial_array #(
     wire [SLOT_BITS-1:0] slot;
     wire [WORD_BITS-1:0] word;
     wire write;
-    wire rotate, unload;
+    wire rotate, average, returns, unload;
+    wire [BLOCK_BITS-1:0] block;
     wire [INDEX_BITS-1:0] index;
     wire [REGION_BITS-1:0] region;
     wire [POSITION_BITS-1:0] position;
@@ -197,8 +215,8 @@ module serial_array #(
         .WIDTH(WIDTH), .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN),
         .CLAMPS(SHARED != 0 ? 0 : 1), .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .RASTER(RASTER),
         .LATE(LATE), .DEEP(DEEP), .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS),
-        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION),
-        .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
+        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS),
+        .FRACTION(FRACTION), .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .SLOT_BITS(SLOT_BITS),
         .REGION_BITS(REGION_BITS), .POSITION_BITS(POSITION_BITS), .INDEX_BITS(INDEX_BITS),
         .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS)
@@ -206,7 +224,7 @@ module serial_array #(
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start), .temporal_level_i(temporal_level_i),
         .edge_half_i(edge_half_i), .corner_level_i(corner_level_i), .working_o(working),
         .reopen_o(reopen), .slot_o(slot), .address_o(word), .write_o(write), .constant_o(constant),
-        .controls_o(controls), .rotate_o(rotate), .unload_o(unload), .index_o(index), .region_o(region),
+        .controls_o(controls), .rotate_o(rotate), .average_o(average), .return_o(returns), .block_o(block), .unload_o(unload), .index_o(index), .region_o(region),
         .position_o(position)
     );
 
@@ -215,16 +233,21 @@ module serial_array #(
     wire unused_slot = |full_address;
 
     // The numbers that go with the scores and pixels at the ports.
-    localparam SHOWN_BITS = REGION_BITS + SLOT_BITS + POSITION_BITS + INDEX_BITS + 2;
-    wire [SHOWN_BITS-1:0] shown;
-    wire shown_rotate, shown_unload;
+    localparam SHOWN_BITS = REGION_BITS + BLOCK_BITS + SLOT_BITS + POSITION_BITS + INDEX_BITS + 4;
+    wire [SHOWN_BITS-1:0] shown, next_shown;
+    wire shown_rotate, shown_average, shown_return, shown_unload;
+    wire [BLOCK_BITS-1:0] shown_block;
     wire [SLOT_BITS-1:0] shown_slot;
 
     serial_shown #(.WIDTH(SHOWN_BITS), .LATE(LATE)) u_shown (
-        .clk_i(clk_i), .rst_i(rst_i), .bits_i({rotate, unload, slot, position, index, region}),
-        .bits_o(shown)
+        .clk_i(clk_i), .rst_i(rst_i),
+        .bits_i({rotate, average, returns, unload, slot, position, index, block, region}),
+        .next_o(next_shown), .bits_o(shown)
     );
-    assign {shown_rotate, shown_unload, shown_slot, forward_position_o, score_index_o, region_o} = shown;
+    assign {
+        shown_rotate, shown_average, shown_return, shown_unload, shown_slot, forward_position_o, score_index_o,
+        shown_block, region_o
+    } = shown;
     assign forward_slot_o = shown_slot;
 
     // Groups.
@@ -243,7 +266,7 @@ module serial_array #(
             serial_group #(
                 .WIDTH(WIDTH), .ADDRESS_BITS(ADDRESS_BITS), .WORD(WORD), .LATE(LATE), .RASTER(RASTER),
                 .GROUP(i), .LANE_BITS(LANE_BITS), .ACC_BITS(ACC_BITS), .COPIES(LAST_SENT), .BORDERS(BORDERS),
-                .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE)
+                .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .SUMMARIES(SUMMARIES)
             ) u_group (
                 .clk_i(clk_i), .rst_i(rst_i), .open_i(open), .valid_i(valid_i), .take_i(take),
                 .pixel_i(pixel_i[WIDTH-1:0]), .place_i(place), .lane_i(place_lane),
@@ -262,7 +285,12 @@ module serial_array #(
     wire [(LANES+1)*FLAGS-1:0] flags;
     wire [LANES*WIDTH-1:0] words;
 
-    assign ring[LANES*CHAIN_BITS+:CHAIN_BITS] = {CHAIN_BITS{1'b0}};
+    wire [WIDTH-1:0] mean;
+    wire [CHAIN_BITS+WIDTH-1:0] wide_mean = {{CHAIN_BITS{1'b0}}, mean};
+    wire unused_mean = |wide_mean[CHAIN_BITS+:WIDTH];
+
+    assign ring[LANES*CHAIN_BITS+:CHAIN_BITS] =
+        RASTER == 0 && shown_return ? wide_mean[CHAIN_BITS-1:0] : {CHAIN_BITS{1'b0}};
 
     generate
         for (i = 0; i < LANES; i = i + 1) begin : g_lane
@@ -290,7 +318,8 @@ module serial_array #(
                 .WIDTH(WIDTH), .WORDS(FOLD << WORD_BITS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK), .DEEP(DEEP),
                 .ACC_BITS(ACC_BITS), .CHAIN_BITS(CHAIN_BITS), .FLAGS(FLAGS), .RASTER(RASTER),
                 .COPIES(LAST_SENT), .BORDERS(BORDERS), .MEDIAN(MEDIAN), .EDGE(EDGE), .CORNER(CORNER),
-                .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION), .AUX_BITS(AUX_BITS)
+                .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION), .SUMMARIES(SUMMARIES), .DROPPED(MEAN_DROPPED),
+                .AUX_BITS(AUX_BITS)
             ) u_lane (
                 .clk_i(clk_i), .loading_i(loading[GROUP]), .pixel_i(pixel), .address_i(address),
                 .write_i(writes[GROUP]), .select_row_i(rows[GROUP*8+(i%64)/8]),
@@ -318,22 +347,39 @@ module serial_array #(
 
     serial_decision #(
         .CHAIN_BITS(CHAIN_BITS), .SCORE_BITS(SCORE_BITS), .PIXELS(SIDE * SIDE), .FEATURES(FEATURES),
-        .ALL(ALL), .FLAGS(FLAGS), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .REGIONS(COLUMNS * ROWS),
+        .ALL(ALL), .SUMMARIES(SUMMARIES), .FLAGS(FLAGS), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .REGIONS(COLUMNS * ROWS),
         .SLOTS(LANES * FOLD), .REGION_BITS(REGION_BITS), .INDEX_BITS(INDEX_BITS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(reopen), .rotate_i(shown_rotate),
         .index_i(score_index_o), .region_i(region_o),
         .word_i(ring[CHAIN_BITS-1:0]), .flags_i(flags[FLAGS-1:0]), .minima_i(minima_i),
-        .flags_o(flags[LANES*FLAGS+:FLAGS]), .region_valid_o(region_valid),
+        .summary_i(summary_o), .flags_o(flags[LANES*FLAGS+:FLAGS]), .region_valid_o(region_valid),
         .score_valid_o(score_valid_o), .score_o(score_o), .decision_valid_o(decision_valid_o),
         .srs_o(srs_o), .trs_o(trs_o), .active_o(active_o)
     );
     wire unused_region_valid = region_valid;
 
     generate
+        if (SUMMARIES) begin : g_summary
+            serial_summary #(
+                .WIDTH(WIDTH), .MEANS(BLOCKS * BLOCKS), .BLOCK_BITS(BLOCK_BITS), .SUM_BITS(MEAN_SUM_BITS),
+                .FACTOR_BITS(MEAN_FACTOR_BITS), .FACTOR(MEAN_FACTOR), .SHIFT(MEAN_SHIFT), .SLOTS(LANES * FOLD),
+                .REGION_BITS(REGION_BITS)
+            ) u_summary (
+                .clk_i(clk_i), .rst_i(rst_i), .frame_i(reopen), .next_region_i(next_shown[REGION_BITS-1:0]),
+                .next_block_i(next_shown[REGION_BITS+:BLOCK_BITS]), .region_i(region_o), .block_i(shown_block),
+                .average_i(shown_average), .sum_i(ring[MEAN_SUM_BITS-1:0]), .decided_i(decision_valid_o),
+                .srs_i(srs_o), .active_i(active_o), .level_i(summary_level_i), .summary_o(summary_o), .mean_o(mean)
+            );
+            wire unused_next = |next_shown[SHOWN_BITS-1:REGION_BITS+BLOCK_BITS];
+        end else begin : g_no_summary
+            wire unused_summary = |summary_level_i || |next_shown || shown_average || |shown_block;
+            assign summary_o = 1'b0;
+            assign mean = {WIDTH{1'b0}};
+        end
         if (RASTER != 0) begin : g_forward
-            assign forward_valid_o = shown_unload && flags[0];
-            assign forward_pixel_o = ring[WIDTH-1:0];
+            assign forward_valid_o = shown_unload && (shown_return ? flags[FLAGS-1] : flags[0]);
+            assign forward_pixel_o = shown_return ? mean : ring[WIDTH-1:0];
             wire unused_words = |words;
         end else begin : g_parallel_unused
             wire unused_shown = shown_unload || |pixels;

@@ -10,13 +10,14 @@ module serial_constant #(
     parameter MAD = 0,         // 1: the design has the feature `mad`
     parameter VARIANCE = 0,    // ... `variance`
     parameter FRACTION = 0,    // fraction bits of the mean of `mad`
+    parameter BLOCK = 1,       // pixels of a block of which the mean is sent
     parameter SUM_BITS = 14,   // of the sum of a region
     parameter COUNT_BITS = 7,  // of the pixels of a region
     parameter SCALE_BITS = 8,  // of the number that is shifted
     parameter ACC_BITS = 11    // of the accumulator
 ) (
     input  wire                clk_i,             // clock, rising edge
-    input  wire [        29:0] step_i,            // what goes on, see serial_states
+    input  wire [        33:0] step_i,            // what goes on, see serial_states
     input  wire                last_center_i,     // the center is the last of its square
     input  wire                squares_i,         // the feature under way is `variance`
     input  wire [   WIDTH-1:0] temporal_level_i,  // a pixel has changed above this difference
@@ -36,6 +37,7 @@ module serial_constant #(
     localparam SUMS = MAD || VARIANCE;
     /* verilator lint_off WIDTH */
     localparam [ACC_BITS-1:0] HALF_PIXELS = PIXELS / 2;
+    localparam [ACC_BITS-1:0] HALF_BLOCK = BLOCK / 2;
     localparam [SCALE_BITS-1:0] UNIT = 1;
     localparam [SCALE_BITS-1:0] DIVISOR = PIXELS;
     localparam [COUNT_BITS-1:0] FACTOR = PIXELS;
@@ -46,15 +48,18 @@ module serial_constant #(
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping;
+    wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping,
+        averaging, returning, storing, showing
     } = step_i;
     wire unused_step = draining || rotating || denoising || bordering || temporal || copying || searching || reading
-        || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping;
+        || writing || relating || gradient_test || ring_test || ring_last || deviating || keeping
+        || returning || storing || showing;
 
     // The squares of `variance`: bit by bit of the result from above, all pairs of bits of n and of
     // a word that meet there. `zip_q` has a 1 at each bit of a word that meets a 1 of n.
@@ -107,7 +112,7 @@ module serial_constant #(
     always @(posedge clk_i) begin
         // Made ready in the states that come before it is needed, so that it does not wait for the next state.
         if (MEDIAN != 0 && (loading || testing || unloading || shifting)) scale_q <= UNIT << (WIDTH - 1);
-        else if (summing) scale_q <= squares_i ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
+        else if (SUMS && summing) scale_q <= squares_i ? UNIT << (SUM_BITS - 1) : DIVISOR << (WIDTH + FRACTION - 1);
         else if (VARIANCE && clearing) scale_q <= UNIT << (PLACES - 1);
         else if (starting || adjusting || dividing || place_ends) scale_q <= scale_q >> 1;
     end
@@ -126,7 +131,7 @@ module serial_constant #(
         if (testing) constant = wide_temporal[ACC_BITS-1:0];
         else if (gradient) constant = wide_half[ACC_BITS-1:0];
         else if (ring) constant = wide_corner[ACC_BITS-1:0];
-        else if (halving) constant = HALF_PIXELS;
+        else if (halving) constant = averaging ? HALF_BLOCK : HALF_PIXELS;
         else if (squaring) constant = wide_lowest[ACC_BITS-1:0];
         else if (MEDIAN != 0 || SUMS) constant = wide_scale[ACC_BITS-1:0];
     end

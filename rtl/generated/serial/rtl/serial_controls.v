@@ -7,14 +7,15 @@
 
 module serial_controls #(
     parameter LAST_SENT = 0,  // 1: the reference is `last-sent`, else `previous`
-    parameter RASTER = 0      // 1: pixels leave by the chain of scores
+    parameter RASTER = 0,     // 1: pixels leave by the chain of scores
+    parameter KEEPS = 0       // 1: the score becomes the accumulator, for `mad`, `variance` or the sum of a block
 ) (
-    input  wire [29:0] step_i,     // what goes on, see serial_states
+    input  wire [33:0] step_i,     // what goes on, see serial_states
     input  wire [ 3:0] tap_i,      // number of the neighbor
     input  wire [ 1:0] part_i,     // half of a gradient, part of a ring's step, side of the border
     input  wire        counts_i,   // the center is a pixel of the region
     input  wire        spent_i,    // the number that is shifted is shifted out
-    output wire [24:0] controls_o  // the control word
+    output wire [26:0] controls_o  // the control word
 );
 
     // The step.
@@ -22,14 +23,16 @@ module serial_controls #(
     wire starting, searching, adjusting, reading, writing, relating, testing;
     wire gradient, gradient_test, ring, ring_test, ring_last;
     wire summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping;
+    wire averaging, returning, storing, showing;
     assign {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping,
+        averaging, returning, storing, showing
     } = step_i;
-    wire unused_step = denoising || |tap_i;
+    wire unused_step = denoising || averaging || returning || |tap_i;
 
     wire idle = loading || draining;
     wire compares = searching && !adjusting;                  // a neighbor with the candidate
@@ -42,6 +45,7 @@ module serial_controls #(
     wire write_active = LAST_SENT != 0 && writing && copying;  // ... if the first flag is set
     wire write_border = writing && bordering;                  // ... if the side is on the frame's border
     wire [1:0] side = part_i;                                  // ... left, right, top, bottom
+    wire write_mean = storing;                                 // ... the score, and not the accumulator
 
     // With the word read: the operand is the constant, or
     wire from_memory = !tests && !starting && !adjusting && !halving && !dividing;  // ... the word
@@ -70,16 +74,18 @@ module serial_controls #(
     wire twice = doubling;                                     // the operand is the accumulator itself
     wire divide = dividing;                                    // keep the sum only if it is not negative
     wire shift = rotating || shifting;                         // scores move on by one lane
-    wire keep = keeping;                                       // the score becomes the accumulator
-    wire fetch = RASTER != 0 && unloading;                     // the score becomes the word read
+    wire coded = RASTER != 0 && KEEPS != 0;                    // both of the next two: scores move on, too
+    wire keep = keeping || (coded && shift);                   // the score becomes the accumulator
+    wire fetch = RASTER != 0 && (unloading || (coded && shift));  // ... the word read
     wire unload = RASTER == 0 && unloading;                    // the word read leaves if its region is active
+    wire unload_mean = showing;                                // ... if its summary is sent; the score becomes 0
 
     assign controls_o = {
-        write_active, write_border, side,
+        write_active, write_border, side, write_mean,
         from_memory, deviate, masked, from_aux,
         subtract, by_sign, by_run, carry, enable, clear,
         run, run_corner, run_clear, count, count_corner,
-        twice, divide, shift, keep, fetch, unload
+        twice, divide, shift, keep, fetch, unload, unload_mean
     };
 
 endmodule

@@ -12,7 +12,8 @@ module serial_decision #(
     parameter PIXELS = 64,       // pixels of a region
     parameter FEATURES = 1,      // spatial features, 1 to 4
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
-    parameter FLAGS = 1,         // 1 for one feature, else 2
+    parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
+    parameter FLAGS = 1,         // 1 for one feature without summaries, else 2
     parameter LAST_SENT = 0,     // 1: the reference is `last-sent`, else `previous`
     parameter BLANKS = 1,        // 1: with SRS = 0 nothing that was sent is left
     parameter REGIONS = 784,     // regions of the frame
@@ -29,6 +30,7 @@ module serial_decision #(
     input  wire [             CHAIN_BITS-1:0] word_i,            // the score that passes
     input  wire [                  FLAGS-1:0] flags_i,           // the flags of its region
     input  wire [(FEATURES+1)*SCORE_BITS-1:0] minima_i,          // by index
+    input  wire                               summary_i,         // with SUMMARIES: the region sends its means
     output wire [                  FLAGS-1:0] flags_o,           // back into the ring
     output wire                               region_valid_o,    // the slot is not empty
     output wire                               score_valid_o,     // a score of a region passes
@@ -42,8 +44,8 @@ module serial_decision #(
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
-        if (FLAGS != (FEATURES > 1 ? 2 : 1)) begin : g_flags
-            FLAGS_must_be_1_for_one_feature_else_2 u_refused ();
+        if (FLAGS != (FEATURES > 1 || SUMMARIES != 0 ? 2 : 1)) begin : g_flags
+            FLAGS_must_be_1_for_one_feature_without_summaries_else_2 u_refused ();
         end
         if (SCORE_BITS > CHAIN_BITS) begin : g_score_bits
             SCORE_BITS_must_be_CHAIN_BITS_or_less u_refused ();
@@ -91,7 +93,7 @@ module serial_decision #(
     assign score_valid_o = rotate_i && region_valid_o;
     assign score_o = temporal && !reference ? EVERY : word_i[SCORE_BITS-1:0];
 
-    // Flags: TRS, at last whether the region is active; and SRS so far.
+    // Flags: TRS, at last whether the region is active; and SRS so far, at last whether its summary is sent.
     wire active = flags_i[0] && srs && region_valid_o;
     assign flags_o[0] = !rotate_i ? flags_i[0] : temporal ? vote : last ? active : flags_i[0];
     assign decision_valid_o = score_valid_o && last;
@@ -100,11 +102,18 @@ module serial_decision #(
     assign active_o = decision_valid_o && active;
 
     generate
-        if (FLAGS > 1) begin : g_votes
+        if (FEATURES > 1) begin : g_votes
             assign srs = ALL != 0 ? flags_i[1] && vote : flags_i[1] || vote;
-            assign flags_o[1] = temporal ? ALL != 0 : srs;
         end else begin : g_vote
             assign srs = vote;
+        end
+        if (SUMMARIES != 0) begin : g_sent
+            assign flags_o[FLAGS-1] = !rotate_i ? flags_i[FLAGS-1] : temporal ? ALL != 0 : last ? summary_i : srs;
+        end else begin : g_not_sent
+            wire unused_summary = summary_i;
+            if (FLAGS > 1) begin : g_srs
+                assign flags_o[1] = temporal ? ALL != 0 : srs;
+            end
         end
         if (LAST_SENT != 0) begin : g_last_sent
             // One bit per region: it has a reference.

@@ -33,6 +33,8 @@ module serial_lane #(
     parameter MAD = 0,           // ... `mad`
     parameter VARIANCE = 0,      // ... `variance`
     parameter FRACTION = 0,      // fraction bits of the mean of `mad`
+    parameter SUMMARIES = 0,     // 1: irrelevant regions send the means of their blocks
+    parameter DROPPED = 0,       // bits of a block's sum that the score does not take; 0 with `mad` or `variance`
     parameter AUX_BITS = 1       // bits of the second word of `mad` and `variance`
 ) (
     input  wire                    clk_i,            // clock, rising edge
@@ -46,29 +48,34 @@ module serial_lane #(
     input  wire [             3:0] sides_i,          // {bottom, top, right, left}
     // What to do.
     input  wire [    ACC_BITS-1:0] constant_i,       // the constant
-    input  wire [            24:0] controls_i,       // the control word, see serial_controls
+    input  wire [            26:0] controls_i,       // the control word, see serial_controls
     // Chain of scores.
     input  wire [  CHAIN_BITS-1:0] word_i,           // score of the lane behind
-    input  wire [       FLAGS-1:0] flags_i,          // flags of the lane behind: active or TRS; SRS so far
+    input  wire [       FLAGS-1:0] flags_i,          // flags of the lane behind: active or TRS; SRS so far, then sent
     output wire [  CHAIN_BITS-1:0] word_o,           // the score
     output wire [       FLAGS-1:0] flags_o,          // its flags
     // Unloading.
-    output wire                    leaves_o,         // the word read is a pixel of an active region
+    output wire                    leaves_o,         // the word read is a pixel of an active region, or a mean that is sent
     output wire [       WIDTH-1:0] pixel_o           // the word read, as the operand
 );
 
     localparam SUMS = MAD != 0 || VARIANCE != 0;
+    localparam KEEPS = SUMS || SUMMARIES != 0;  // the score takes sums
 
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
         if (WIDTH < 1 || WIDTH > 16) begin : g_width WIDTH_must_be_1_to_16 u_refused (); end
         if (ACC_BITS <= WIDTH) begin : g_acc_bits ACC_BITS_must_be_more_than_WIDTH u_refused (); end
         if (FLAGS < 1 || FLAGS > 2) begin : g_flags FLAGS_must_be_1_or_2 u_refused (); end
-        if (RASTER != 0 && CHAIN_BITS < WIDTH) begin : g_chain_bits
+        if ((RASTER != 0 || SUMMARIES != 0) && CHAIN_BITS < WIDTH) begin : g_chain_bits
             CHAIN_BITS_must_hold_a_pixel u_refused ();
         end
         if (SUMS && CHAIN_BITS > ACC_BITS) begin : g_chain_bits_2
             CHAIN_BITS_must_be_ACC_BITS_or_less u_refused ();
+        end
+        if (SUMMARIES != 0 && FLAGS != 2) begin : g_flags_2 FLAGS_must_be_2_with_SUMMARIES u_refused (); end
+        if (DROPPED < 0 || DROPPED >= ACC_BITS || (SUMS && DROPPED != 0)) begin : g_dropped
+            DROPPED_must_be_0_with_sums_else_below_ACC_BITS u_refused ();
         end
         if (SUMS && (AUX_BITS < 2 || AUX_BITS > ACC_BITS)) begin : g_aux_bits
             AUX_BITS_must_be_2_to_ACC_BITS u_refused ();
@@ -81,14 +88,15 @@ module serial_lane #(
     // The control word.
     wire write_active, write_border, from_memory, deviate, masked, from_aux;
     wire subtract, by_sign, by_run, carry, enable, clear, run, run_corner, run_clear, count, count_corner;
-    wire twice, divide, shift, keep, fetch, unload;
+    wire twice, divide, shift, keep, fetch, unload, unload_mean;
+    wire write_mean;
     wire [1:0] side;
     assign {
-        write_active, write_border, side,
+        write_active, write_border, side, write_mean,
         from_memory, deviate, masked, from_aux,
         subtract, by_sign, by_run, carry, enable, clear,
         run, run_corner, run_clear, count, count_corner,
-        twice, divide, shift, keep, fetch, unload
+        twice, divide, shift, keep, fetch, unload, unload_mean
     } = controls_i;
 
     reg  [  ACC_BITS-1:0] acc_q;
@@ -105,19 +113,40 @@ module serial_lane #(
 
     assign word_o  = chain_q;
     assign flags_o = flags_q;
-    assign leaves_o = RASTER == 0 && unload && flags_q[0];
+
+    generate
+        if (RASTER != 0) begin : g_leaves_by_chain
+            wire unused_unload = unload || unload_mean;
+            assign leaves_o = 1'b0;
+        end else if (SUMMARIES != 0) begin : g_leaves_or_mean
+            assign leaves_o = (unload && flags_q[0]) || (unload_mean && flags_q[FLAGS-1]);
+        end else begin : g_leaves
+            wire unused_unload_mean = unload_mean;
+            assign leaves_o = unload && flags_q[0];
+        end
+    endgenerate
 
     // Memory.
     wire selected = RASTER != 0 && select_row_i && select_column_i;
     wire copied   = COPIES != 0 && write_active && flags_q[0];
     wire repeated = BORDERS != 0 && write_border && sides_i[side];
+    wire [WIDTH-1:0] result;
+
+    generate
+        if (SUMMARIES != 0 && RASTER == 0) begin : g_mean_returns
+            assign result = write_mean ? chain_q[WIDTH-1:0] : acc_q[WIDTH-1:0];
+        end else begin : g_no_mean_returns
+            wire unused_write_mean = write_mean;
+            assign result = acc_q[WIDTH-1:0];
+        end
+    endgenerate
 
     serial_memory #(
         .WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(ADDRESS_BITS), .BLOCK(BLOCK),
         .LATE(DEEP)
     ) u_memory (
         .clk_i(clk_i), .write_i(write_i || selected || copied || repeated), .address_i(address_i),
-        .data_i(loading_i ? pixel_i : acc_q[WIDTH-1:0]), .data_o(word)
+        .data_i(loading_i ? pixel_i : result), .data_o(word)
     );
 
     // Accumulator.
@@ -271,11 +300,11 @@ module serial_lane #(
         end
     endgenerate
 
-    // Chain of scores. Nothing clears it: scores that move on leave zeros behind. What is in it after a reset
+    // Chain of scores. Scores that move on leave zeros behind, so nothing clears them. What is in it after a reset
     // moves on with the temporal counts of the first frame, which are not shown.
     wire [CHAIN_BITS-1:0] summed;
     wire [CHAIN_BITS-1:0] fetched;
-    wire [CHAIN_BITS-1:0] moved = shift ? word_i : fetch ? fetched : keep ? summed : chain_q;
+    wire [CHAIN_BITS-1:0] moved;
     wire scores = count && hit;
     wire scored;
     wire [CHAIN_BITS-1:0] counted;
@@ -293,10 +322,18 @@ module serial_lane #(
         end else begin : g_scored_at_once
             assign scored = scores;
         end
-        if (SUMS) begin : g_summed
-            assign summed = acc_q[CHAIN_BITS-1:0];
-        end else begin : g_not_summed
+        if (KEEPS && RASTER != 0) begin : g_coded
+            // Both select the lane behind, so that one LUT per bit is enough.
+            assign moved = fetch ? (keep ? word_i : fetched) : keep ? summed : chain_q;
+        end else begin : g_chosen
+            assign moved = shift ? word_i : fetch ? fetched : keep ? summed : chain_q;
+        end
+        if (!KEEPS) begin : g_not_summed
             assign summed = chain_q;
+        end else if (CHAIN_BITS > ACC_BITS - DROPPED) begin : g_summed_extended
+            assign summed = {{(CHAIN_BITS - ACC_BITS + DROPPED) {1'b0}}, acc_q[ACC_BITS-1:DROPPED]};
+        end else begin : g_summed
+            assign summed = acc_q[DROPPED+:CHAIN_BITS];
         end
         if (RASTER == 0) begin : g_not_fetched
             assign fetched = chain_q;
@@ -308,9 +345,20 @@ module serial_lane #(
     endgenerate
 
     always @(posedge clk_i) begin
-        chain_q <= counted;
         if (shift) flags_q <= flags_i;
     end
+
+    generate
+        if (SUMMARIES != 0 && RASTER == 0) begin : g_emptied
+            // A mean that has left is no score.
+            always @(posedge clk_i) begin
+                if (unload_mean) chain_q <= {CHAIN_BITS{1'b0}};
+                else chain_q <= counted;
+            end
+        end else begin : g_not_emptied
+            always @(posedge clk_i) chain_q <= counted;
+        end
+    endgenerate
 
 endmodule
 

@@ -9,6 +9,8 @@ module serial_regions #(
     parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
     parameter MAD = 0,              // 1: `mad` is one of them
     parameter VARIANCE = 0,         // ... `variance`
+    parameter MEANS = 0,            // blocks of a region of which means are sent: 1, 4 or 16; 0: none
+    parameter BLOCK_BITS = 1,       // of the number of a block, at least 1
     parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
     parameter REGION_BITS = 10,     // of the number of a region, empty slots included
     parameter INDEX_BITS = 1        // of the number of a score
@@ -17,11 +19,16 @@ module serial_regions #(
     input  wire                   loading_i,     // a frame enters
     input  wire                   rotating_i,    // a score passes
     input  wire                   shifting_i,    // ... or a pixel, lane by lane
+    input  wire                   averaging_i,   // what passes is the sum of a block
+    input  wire                   block_ends_i,  // the block is done
     input  wire                   slot_ends_i,   // the slot is done
     output wire [  SLOT_BITS-1:0] slot_o,        // the slot
     output wire                   last_slot_o,   // it is the last of the frame
     output wire [ INDEX_BITS-1:0] index_o,       // number of the score
+    output wire                   first_score_o, // it is the first of the slot
     output wire                   last_score_o,  // it is the last of the slot
+    output wire [ BLOCK_BITS-1:0] block_o,       // the block
+    output wire                   last_block_o,  // it is the last of the region
     output wire [            1:0] next_kind_o,   // the feature that comes next: edge, corner, mad, variance
     output wire                   squares_o,     // the feature under way is `variance`
     output wire [REGION_BITS-1:0] region_o,      // the region that passes
@@ -40,18 +47,40 @@ module serial_regions #(
     wire [7:0] kinds = KINDS >> {index_q, 1'b0};
     wire unused_kinds = |kinds;
 
+    // With means, the count is done when the sums of all blocks have passed.
+    wire waits = MEANS != 0 && (averaging_i ? !last_block_o : first_score_o);
+
     assign index_o = index_q;
+    assign first_score_o = index_q == {INDEX_BITS{1'b0}};
     assign last_score_o = index_q == LAST_SCORE;
     assign next_kind_o = FEATURES == 1 ? KINDS[1:0] : kinds[1:0];
     assign squares_o = VARIANCE && (!MAD || squares_q);
 
     always @(posedge clk_i) begin
         if (loading_i || slot_ends_i) index_q <= {INDEX_BITS{1'b0}};
-        else if (rotating_i && last_lane_o && !last_score_o) begin
+        else if (rotating_i && last_lane_o && !last_score_o && !waits) begin
             index_q   <= index_q + 1'b1;
             squares_q <= next_kind_o == 2'd3;
         end
     end
+
+    // Blocks.
+    generate
+        if (MEANS > 1) begin : g_block
+            reg [BLOCK_BITS-1:0] block_q;
+            assign block_o = block_q;
+            assign last_block_o = &block_q;
+
+            always @(posedge clk_i) begin
+                if (loading_i) block_q <= {BLOCK_BITS{1'b0}};
+                else if (block_ends_i) block_q <= block_q + 1'b1;
+            end
+        end else begin : g_no_block
+            wire unused_block = block_ends_i;
+            assign block_o = {BLOCK_BITS{1'b0}};
+            assign last_block_o = 1'b1;
+        end
+    endgenerate
 
     // Slots.
     generate

@@ -25,6 +25,8 @@ module serial_sequencer #(
     parameter CORNER = 0,           // ... `corner`
     parameter MAD = 0,              // ... `mad`
     parameter VARIANCE = 0,         // ... `variance`
+    parameter BLOCKS = 0,           // blocks of a region's side of which means are sent: 1, 2 or 4; 0: none
+    parameter BLOCK_BITS = 1,       // of the number of a block, at least 1
     parameter FRACTION = 0,         // fraction bits of the mean of `mad`
     parameter SUM_BITS = 14,        // of the sum of a region
     parameter COUNT_BITS = 7,       // of the pixels of a region
@@ -51,9 +53,12 @@ module serial_sequencer #(
     output wire [    WORD_BITS-1:0] address_o,         // the address inside the slot
     output wire                     write_o,           // write the accumulator there
     output wire [     ACC_BITS-1:0] constant_o,        // the constant
-    output wire [             24:0] controls_o,        // the control word, see serial_controls
+    output wire [             26:0] controls_o,        // the control word, see serial_controls
     // The decision's inputs.
     output wire                     rotate_o,          // scores pass
+    output wire                     average_o,         // sums of blocks pass
+    output wire                     return_o,          // means leave
+    output wire [   BLOCK_BITS-1:0] block_o,           // of which block
     output wire                     unload_o,          // the word read leaves if its region is active
     output wire [   INDEX_BITS-1:0] index_o,           // of the score
     output wire [  REGION_BITS-1:0] region_o,          // that passes
@@ -71,59 +76,69 @@ module serial_sequencer #(
 
     localparam BORDERS = MEDIAN != 0 && DENOISED_SIDE != SIDE;
 
-    wire [29:0] step;
+    wire [33:0] step;
     wire [3:0] tap;
     wire [1:0] part;
-    wire walks, slot_ends, last_column, last_center, counts, last_lane, last_score, last_slot, squares;
+    wire walks, block_ends, slot_ends, last_column, last_center, counts, squares;
+    wire last_lane, first_score, last_score, last_block, last_slot;
     wire spent, divided, last_place, corrects, any_pairs, more_pairs;
     wire [1:0] next_kind;
 
     wire loading, draining, rotating, unloading, shifting;
+    wire averaging, returning;
     wire [24:0] unused_step;
-    assign {loading, draining, rotating, unloading, shifting, unused_step} = step;
+    wire [1:0] unused_last;
+    assign {loading, draining, rotating, unloading, shifting, unused_step, averaging, returning, unused_last} = step;
     assign working_o = !loading && !draining;
     assign reopen_o = draining;
-    assign rotate_o = rotating;
+    assign rotate_o = rotating && !averaging && !returning;
+    assign average_o = rotating && averaging;
+    assign return_o = returning;
     assign unload_o = RASTER != 0 ? shifting : unloading;
 
     // Whose.
     serial_regions #(
         .FOLD(FOLD), .LANES(LANES), .FEATURES(FEATURES), .KINDS(KINDS), .MAD(MAD), .VARIANCE(VARIANCE),
-        .SLOT_BITS(SLOT_BITS), .REGION_BITS(REGION_BITS), .INDEX_BITS(INDEX_BITS)
+        .MEANS(BLOCKS * BLOCKS), .BLOCK_BITS(BLOCK_BITS), .SLOT_BITS(SLOT_BITS), .REGION_BITS(REGION_BITS),
+        .INDEX_BITS(INDEX_BITS)
     ) u_regions (
         .clk_i(clk_i), .loading_i(loading), .rotating_i(rotating), .shifting_i(shifting),
-        .slot_ends_i(slot_ends), .slot_o(slot_o), .last_slot_o(last_slot), .index_o(index_o),
-        .last_score_o(last_score), .next_kind_o(next_kind), .squares_o(squares), .region_o(region_o),
+        .averaging_i(averaging), .block_ends_i(block_ends), .slot_ends_i(slot_ends), .slot_o(slot_o),
+        .last_slot_o(last_slot), .index_o(index_o), .first_score_o(first_score), .last_score_o(last_score),
+        .block_o(block_o), .last_block_o(last_block), .next_kind_o(next_kind), .squares_o(squares), .region_o(region_o),
         .last_lane_o(last_lane)
     );
 
     // Which step.
     serial_states #(
         .MEDIAN(MEDIAN), .BORDERS(BORDERS), .LAST_SENT(LAST_SENT), .RASTER(RASTER), .LATE(LATE), .DEEP(DEEP),
-        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION)
+        .EDGE(EDGE), .CORNER(CORNER), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION),
+        .SUMMARIES(BLOCKS != 0 ? 1 : 0)
     ) u_states (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(start_i), .last_column_i(last_column),
-        .last_center_i(last_center), .last_lane_i(last_lane), .last_score_i(last_score),
-        .last_slot_i(last_slot), .next_kind_i(next_kind), .squares_i(squares), .spent_i(spent),
+        .last_center_i(last_center), .last_lane_i(last_lane), .first_score_i(first_score), .last_score_i(last_score),
+        .last_block_i(last_block), .last_slot_i(last_slot), .next_kind_i(next_kind), .squares_i(squares), .spent_i(spent),
         .divided_i(divided), .last_place_i(last_place), .corrects_i(corrects), .any_pairs_i(any_pairs),
         .more_pairs_i(more_pairs), .step_o(step), .tap_o(tap), .part_o(part), .walks_o(walks),
-        .slot_ends_o(slot_ends)
+        .block_ends_o(block_ends), .slot_ends_o(slot_ends)
     );
 
     // Where.
     serial_addresses #(
         .SIDE(SIDE), .RAW_SIDE(RAW_SIDE), .DENOISED_SIDE(DENOISED_SIDE), .MEDIAN(MEDIAN), .CLAMPS(CLAMPS),
-        .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .DENOISED_BASE(DENOISED_BASE),
+        .LAST_SENT(LAST_SENT), .RAW_PAYLOAD(RAW_PAYLOAD), .BLOCKS(BLOCKS), .BLOCK_BITS(BLOCK_BITS), .DENOISED_BASE(DENOISED_BASE),
         .REFERENCE_BASE(REFERENCE_BASE), .WORD_BITS(WORD_BITS), .POSITION_BITS(POSITION_BITS)
     ) u_addresses (
         .clk_i(clk_i), .step_i(step), .tap_i(tap), .part_i(part), .walks_i(walks), .slot_ends_i(slot_ends),
-        .last_lane_i(last_lane), .last_score_i(last_score), .address_o(address_o), .write_o(write_o),
+        .last_lane_i(last_lane), .first_score_i(first_score), .last_score_i(last_score), .block_i(block_o),
+        .last_block_i(last_block), .address_o(address_o), .write_o(write_o),
         .position_o(position_o), .last_column_o(last_column), .last_center_o(last_center), .counts_o(counts)
     );
 
     // On what, and how.
     serial_constant #(
         .WIDTH(WIDTH), .SIDE(SIDE), .MEDIAN(MEDIAN), .MAD(MAD), .VARIANCE(VARIANCE), .FRACTION(FRACTION),
+        .BLOCK(BLOCKS != 0 ? (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) * (SIDE / (BLOCKS != 0 ? BLOCKS : 1)) : 1),
         .SUM_BITS(SUM_BITS), .COUNT_BITS(COUNT_BITS), .SCALE_BITS(SCALE_BITS), .ACC_BITS(ACC_BITS)
     ) u_constant (
         .clk_i(clk_i), .step_i(step), .last_center_i(last_center), .squares_i(squares),
@@ -132,7 +147,9 @@ module serial_sequencer #(
         .corrects_o(corrects), .any_pairs_o(any_pairs), .more_pairs_o(more_pairs)
     );
 
-    serial_controls #(.LAST_SENT(LAST_SENT), .RASTER(RASTER)) u_controls (
+    serial_controls #(
+        .LAST_SENT(LAST_SENT), .RASTER(RASTER), .KEEPS(MAD || VARIANCE || BLOCKS != 0 ? 1 : 0)
+    ) u_controls (
         .step_i(step), .tap_i(tap), .part_i(part), .counts_i(counts), .spent_i(spent), .controls_o(controls_o)
     );
 

@@ -9,6 +9,7 @@ module serial_shown #(
     input  wire             clk_i,   // clock, rising edge
     input  wire             rst_i,   // synchronous reset, active high
     input  wire [WIDTH-1:0] bits_i,  // from the sequencer
+    output wire [WIDTH-1:0] next_o,  // at the ports at the next clock
     output wire [WIDTH-1:0] bits_o   // at the ports
 );
 
@@ -28,6 +29,7 @@ module serial_shown #(
         else bits_q <= bits[(LATE+1)*WIDTH-1:0];
     end
 
+    assign next_o = bits[LATE*WIDTH+:WIDTH];
     assign bits_o = bits_q[LATE*WIDTH+:WIDTH];
 
 endmodule

@@ -16,7 +16,8 @@ module serial_states #(
     parameter CORNER = 0,     // ... `corner`
     parameter MAD = 0,        // ... `mad`
     parameter VARIANCE = 0,   // ... `variance`
-    parameter FRACTION = 0    // fraction bits of the mean of `mad`
+    parameter FRACTION = 0,   // fraction bits of the mean of `mad`
+    parameter SUMMARIES = 0   // 1: irrelevant regions send the means of their blocks
 ) (
     input  wire        clk_i,          // clock, rising edge
     input  wire        rst_i,          // synchronous reset, active high
@@ -25,7 +26,9 @@ module serial_states #(
     input  wire        last_column_i,  // its center is the last of a row
     input  wire        last_center_i,  // ... of the square
     input  wire        last_lane_i,    // the score of the last lane passes
+    input  wire        first_score_i,  // ... and the first score of the slot
     input  wire        last_score_i,   // ... and the last score of the slot
+    input  wire        last_block_i,   // ... that of the last block
     input  wire        last_slot_i,    // the slot is the last of the frame
     input  wire [ 1:0] next_kind_i,    // the feature that comes next: edge, corner, mad, variance
     input  wire        squares_i,      // the feature under way is `variance`
@@ -37,10 +40,11 @@ module serial_states #(
     input  wire        any_pairs_i,    // ... squares of words have
     input  wire        more_pairs_i,   // ... another one than that under way
     // The step.
-    output wire [29:0] step_o,         // what goes on
+    output wire [33:0] step_o,         // what goes on
     output wire [ 3:0] tap_o,          // number of the neighbor
     output wire [ 1:0] part_o,         // half of a gradient, part of a ring's step, side of the border
     output wire        walks_o,        // the next step is about the next center
+    output wire        block_ends_o,   // ... about the next block, as a sum or as a mean
     output wire        slot_ends_o     // ... about the next slot
 );
 
@@ -70,8 +74,11 @@ module serial_states #(
     localparam [4:0] WAIT = 5'd23;     // ... two steps
     localparam [4:0] LONGER = 5'd24;   // ... three steps
     localparam [4:0] SETTLE = 5'd25;   // the score becomes whole
+    localparam [4:0] STORE = 5'd26;    // a mean that has come back
+    localparam [4:0] SHOW = 5'd27;     // ... leaves
     localparam [4:0] FIRST = MEDIAN != 0 ? START : READ;
     localparam [4:0] BEHIND = LATE == 0 ? WRITE : LATE == 1 ? IDLE : LATE == 2 ? WAIT : LONGER;
+    localparam [4:0] RETURNED = LATE == 0 ? STORE : BEHIND;
     localparam [4:0] SCORED = DEEP != 0 ? SETTLE : ROTATE;
 
     localparam [1:0] TEMPORAL = 2'b00;
@@ -89,6 +96,8 @@ module serial_states #(
     reg [1:0] job;
     reg [3:0] tap_q;
     reg [1:0] part_q;
+    reg averaging;
+    reg returning;
 
     // A frame.
     wire loading = state_q == LOAD;
@@ -119,22 +128,29 @@ module serial_states #(
     wire border_ends = bordering && writing && last_column_i && part_q == 2'd3;
 
     // A sum.
-    wire summing = SUMS && state_q == SUM;
+    wire summing = (SUMS || SUMMARIES) && state_q == SUM;
     wire doubling = SUMS && state_q == DOUBLE;
-    wire halving = MAD && state_q == HALF;
+    wire halving = (MAD || SUMMARIES) && state_q == HALF;
     wire dividing = SUMS && state_q == DIVIDE;
     wire clearing = SUMS && state_q == CLEAR;
     wire deviating = MAD && state_q == DEVIATE;
     wire squaring = VARIANCE && state_q == SQUARE;
     wire correcting = VARIANCE && state_q == CORRECT;
-    wire keeping = SUMS && state_q == KEEP;
+    wire keeping = (SUMS || SUMMARIES) && state_q == KEEP;
+
+    // A mean.
+    wire is_averaging;  // blocks are summed, and their sums pass
+    wire is_returning;  // means leave
+    wire storing = SUMMARIES && RASTER == 0 && state_q == STORE;
+    wire showing = SUMMARIES && RASTER == 0 && state_q == SHOW;
 
     assign step_o = {
         loading, draining, rotating, unloading, shifting,
         denoising, bordering, temporal, copying,
         starting, searching, adjusting, reading, writing, relating, testing,
         gradient, gradient_test, ring, ring_test, ring_last,
-        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping
+        summing, doubling, halving, dividing, clearing, deviating, squaring, correcting, keeping,
+        is_averaging, is_returning, storing, showing
     };
     assign tap_o = tap_q;
     assign part_o = part_q;
@@ -142,14 +158,19 @@ module serial_states #(
     assign walks_o = testing || (writing && !temporal)
         || (gradient_test && part_q[0]) || (ring_test && ring_last)
         || summing || deviating || squaring
-        || (unloading && RASTER == 0) || (shifting && last_lane_i);
+        || (unloading && RASTER == 0) || (shifting && last_lane_i && !is_returning);
     wire pass_ends = walks_o && last_center_i;
-    assign slot_ends_o = pass_ends && (unloading || shifting);
+    wire unloaded = pass_ends && (unloading || shifting);
+    wire returned = is_returning && (showing || (shifting && last_lane_i));
+    assign block_ends_o = returned || (is_averaging && rotating && last_lane_i);
+    assign slot_ends_o = SUMMARIES ? returned && last_block_i : unloaded;
 
     // The next step.
     always @* begin
         state = state_q;
         job = job_q;
+        averaging = is_averaging;
+        returning = is_returning;
         case (state_q)
             LOAD: if (start_i) begin
                 state = FIRST;
@@ -164,7 +185,7 @@ module serial_states #(
             end
             LONGER: state = WAIT;
             WAIT: state = IDLE;
-            IDLE: state = WRITE;
+            IDLE: state = is_returning ? STORE : WRITE;
             SETTLE: state = ROTATE;
             WRITE: begin
                 if (temporal) state = LAST_SENT != 0 ? REFERENCE : TEST;
@@ -181,18 +202,21 @@ module serial_states #(
             end
             ROTATE: if (last_lane_i) begin
                 job = COPY;
-                if (last_score_i) state = LAST_SENT != 0 ? READ : UNLOAD;
+                averaging = SUMMARIES && (is_averaging ? !last_block_i : first_score_i);
+                if (is_returning) state = RETURNED;
+                else if (averaging) state = HALF;
+                else if (last_score_i) state = LAST_SENT != 0 ? READ : UNLOAD;
                 else if (EDGE && next_kind_i == 2'd0) state = GRADIENT;
                 else if (CORNER && next_kind_i == 2'd1) state = RING;
                 else state = SUM;
             end
             GRADIENT, RING: if (pass_ends) state = SCORED;
-            SUM: if (pass_ends) state = squares_i ? DIVIDE : FRACTION != 0 ? DOUBLE : HALF;
+            SUM: if (pass_ends) state = is_averaging ? KEEP : squares_i ? DIVIDE : FRACTION != 0 ? DOUBLE : HALF;
             DOUBLE: begin
                 if (squares_i) state = any_pairs_i ? SQUARE : corrects_i ? CORRECT : DOUBLE;
                 else if (tap_q == LAST_DOUBLE) state = HALF;
             end
-            HALF: state = DIVIDE;
+            HALF: state = is_averaging ? SUM : DIVIDE;
             DIVIDE: if (divided_i) state = CLEAR;
             CLEAR: state = squares_i ? DOUBLE : DEVIATE;
             DEVIATE: if (pass_ends) state = KEEP;
@@ -201,12 +225,19 @@ module serial_states #(
             KEEP: state = SCORED;
             UNLOAD: begin
                 if (RASTER != 0) state = SHIFT;
-                else if (last_center_i) state = last_slot_i ? DRAIN : FIRST;
+                else if (SUMMARIES && last_center_i) state = ROTATE;
             end
-            SHIFT: if (last_lane_i) state = !last_center_i ? UNLOAD : last_slot_i ? DRAIN : FIRST;
+            SHIFT: if (last_lane_i) state = UNLOAD;
+            STORE: state = SUMMARIES ? SHOW : LOAD;
+            SHOW: state = ROTATE;
             default: state = LOAD;
         endcase
-        if (slot_ends_o) job = TEMPORAL;
+        if (SUMMARIES && unloaded) returning = 1'b1;
+        if (slot_ends_o) begin
+            state = last_slot_i ? DRAIN : FIRST;
+            job = TEMPORAL;
+            returning = 1'b0;
+        end
     end
 
     always @(posedge clk_i) begin
@@ -218,6 +249,29 @@ module serial_states #(
             job_q   <= job;
         end
     end
+
+    generate
+        if (SUMMARIES != 0) begin : g_summaries
+            reg averaging_q;
+            reg returning_q;
+            assign is_averaging = averaging_q;
+            assign is_returning = returning_q;
+
+            always @(posedge clk_i) begin
+                if (rst_i) begin
+                    averaging_q <= 1'b0;
+                    returning_q <= 1'b0;
+                end else begin
+                    averaging_q <= averaging;
+                    returning_q <= returning;
+                end
+            end
+        end else begin : g_no_summaries
+            wire unused_phases = averaging || returning;
+            assign is_averaging = 1'b0;
+            assign is_returning = 1'b0;
+        end
+    endgenerate
 
     // Inside a pixel.
     always @(posedge clk_i) begin

@@ -19,7 +19,10 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
     // The pixels of the last slot leave last.
     let unloading = End::Finishing(timing.phases().last().expect("a frame has phases").1);
     let ready = End::Finishing(2);
-    vec![
+    let passes = |&&(phase, _): &&(Phase, u64)| matches!(phase, Phase::RotateCount | Phase::Means);
+    let passing =
+        End::Rotating(timing.phases().iter().filter(passes).map(|&(_, steps)| steps).sum());
+    let mut list = vec![
         Sequence { mixed: false, ..mixed("extremes", &[Max, Zero, Checkerboard, TwoPoint]) },
         cut("reset while loading", &[Noise, Ramp], loading),
         mixed("steps", &[Step, Ring, HotCorner, Ramp]),
@@ -41,5 +44,24 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
             aim: ThresholdAim::Largest,
             ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
         },
-    ]
+    ];
+    if design.periphery().is_some() {
+        // Means that meet the level or miss it by one; in arrays of a few regions by turns.
+        list.splice(
+            3..3,
+            [
+                mixed(
+                    "means",
+                    &[HalfMean, MeanStep, MeanStep, MeanStep, Noise, MeanStep, MeanStep],
+                ),
+                cut("reset while means leave", &[Flat, MeanStep], unloading),
+                cut("reset while means pass", &[MeanStep, Flat], passing),
+                Sequence {
+                    aim: ThresholdAim::Design,
+                    ..mixed("means kept", &[Flat, MeanStep, MeanStep, Step, MeanStep, MeanStep])
+                },
+            ],
+        );
+    }
+    list
 }

@@ -7,6 +7,7 @@ mod faults;
 mod planted;
 mod raster_faults;
 mod serial_faults;
+mod serial_summary_faults;
 mod summary_faults;
 mod sync_faults;
 
@@ -88,6 +89,11 @@ fn every_planted_fault_of_the_serial_organization_is_caught() {
 }
 
 #[test]
+fn every_planted_fault_of_serial_summaries_is_caught() {
+    all_are_caught(serial_summary_faults::FAULTS);
+}
+
+#[test]
 fn every_planted_fault_of_the_raster_organization_is_caught() {
     all_are_caught(raster_faults::FAULTS);
 }
@@ -104,6 +110,7 @@ fn all_faults() -> impl Iterator<Item = &'static Fault> {
         deep_faults::FAULTS,
         summary_faults::FAULTS,
         serial_faults::FAULTS,
+        serial_summary_faults::FAULTS,
         raster_faults::FAULTS,
         sync_faults::FAULTS,
     ];

@@ -42,6 +42,12 @@ pub(crate) enum Planted {
     MeansPixel,
     /// Means of blocks of 3x3 with a second pass.
     MeansSecond,
+    /// Serial: means of four blocks of raw pixels, two slots per lane.
+    SerialMeans,
+    /// Serial: means of blocks of 3x3, raster feed, deep.
+    SerialMeansRaster,
+    /// Serial: means of blocks of one pixel, more than distributed memory takes, deep.
+    SerialMeansMany,
     /// Serial: the paper's scores in small regions.
     SerialPaper,
     /// Serial: edges alone, no filter.
@@ -141,6 +147,21 @@ impl Planted {
             Self::MeansSecond => {
                 "[region]\nsize = 6\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
                  [render]\nirrelevant = \"mean\"\n"
+            }
+            Self::SerialMeans => {
+                "[region]\nsize = 4\n[render]\npayload = \"raw\"\nirrelevant = \"mean\"\n\
+                 [hardware]\norganization = \"serial\"\nfold = 2\n"
+            }
+            Self::SerialMeansRaster => {
+                "[region]\nsize = 6\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
+                 [temporal]\nreference = \"last-sent\"\n[render]\nirrelevant = \"mean\"\n[hardware]\n\
+                 organization = \"serial\"\nfeed = \"raster\"\npipelining = \"deep\"\n"
+            }
+            Self::SerialMeansMany => {
+                "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"edge\"\n\
+                 [[spatial]]\nfeature = \"corner\"\n[render]\nirrelevant = \"mean\"\n[periphery]\n\
+                 blocks = 4\n[hardware]\norganization = \"serial\"\nmemory = \"block\"\n\
+                 pipelining = \"deep\"\n"
             }
             Self::SerialPaper => "[region]\nsize = 4\n[hardware]\norganization = \"serial\"\n",
             Self::SerialEdge => {
@@ -255,7 +276,8 @@ impl Planted {
             Self::SerialRaster => (3, 3),
             Self::SerialFold => (3, 1),
             Self::SerialDeepSent => (3, 2),
-            Self::SerialBlock => (5, 1),
+            Self::SerialBlock | Self::SerialMeansMany => (5, 1),
+            Self::SerialMeans => (3, 1),
             Self::SerialMany => (13, 6),
             Self::SerialPaper
             | Self::SyncPipelined
@@ -265,6 +287,7 @@ impl Planted {
             | Self::SerialMad
             | Self::SerialVariance
             | Self::SerialDeep
+            | Self::SerialMeansRaster
             | Self::SerialConstant => (2, 1),
             _ => (1, 1),
         }
