@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // One region, any of all, is followed through its rotations: its temporal count, its features in order. The
 // flags that travel with the ring come back as they left. What is decided must be Table I of its scores.
-module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 1) (
-    input wire clk_i, rst_i, frame, rotate,
+module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 1, parameter SUMMARIES = 0) (
+    input wire clk_i, rst_i, frame, rotate, summary,
     input wire [1:0] index, input wire [2:0] region,
     input wire [2:0] word, input wire [1:0] some_flags, input wire [3*(FEATURES+1)-1:0] minima
 );
     `include "reset.vh"
-    localparam FLAGS = FEATURES > 1 ? 2 : 1;
+    localparam FLAGS = FEATURES > 1 || SUMMARIES ? 2 : 1;
     localparam INDEX_BITS = FEATURES > 1 ? 2 : 1;
     localparam PIXELS = 4;
     localparam REGIONS = 5, SLOTS = 6;
@@ -25,13 +25,13 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
     wire region_valid, score_valid, decision_valid, srs, trs, active;
     wire [2:0] score;
     serial_decision #(
-        .CHAIN_BITS(3), .SCORE_BITS(3), .PIXELS(PIXELS), .FEATURES(FEATURES), .ALL(ALL), .FLAGS(FLAGS),
-        .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .REGIONS(REGIONS), .SLOTS(SLOTS), .REGION_BITS(3),
+        .CHAIN_BITS(3), .SCORE_BITS(3), .PIXELS(PIXELS), .FEATURES(FEATURES), .ALL(ALL), .SUMMARIES(SUMMARIES),
+        .FLAGS(FLAGS), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .REGIONS(REGIONS), .SLOTS(SLOTS), .REGION_BITS(3),
         .INDEX_BITS(INDEX_BITS)
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .frame_i(frame), .rotate_i(rotate), .index_i(index[INDEX_BITS-1:0]),
         .region_i(region), .word_i(word), .flags_i(here ? kept : some_flags[FLAGS-1:0]),
-        .minima_i(minima), .flags_o(flags), .region_valid_o(region_valid), .score_valid_o(score_valid),
+        .minima_i(minima), .summary_i(summary), .flags_o(flags), .region_valid_o(region_valid), .score_valid_o(score_valid),
         .score_o(score), .decision_valid_o(decision_valid), .srs_o(srs), .trs_o(trs), .active_o(active)
     );
     // The sequencer: each rotation once, in order; the frame is done after the last.
@@ -71,6 +71,7 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
         assert(score_valid == (rotate && region < REGIONS));
         if (!decision_valid) assert(!srs && !trs && !active);
         if (region >= REGIONS && rotate && index == FEATURES) assert(!flags[0]);  // an empty slot is never active
+        if (SUMMARIES != 0 && !rotate) assert(flags == some_flags);  // what is on its way stays as it is
         if (here) begin
             assert(score == final_score);
             assert(decision_valid == (index == FEATURES));
@@ -79,6 +80,7 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
                 assert(trs == voted_trs);
                 assert(active == (relevant && voted_trs));
                 assert(flags[0] == active);
+                if (SUMMARIES != 0) assert(flags[FLAGS-1] == summary);
             end
         end
     end

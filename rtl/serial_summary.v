@@ -37,7 +37,6 @@ module serial_summary #(
 
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
-        if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (MEANS != 1 && MEANS != 4 && MEANS != 16) begin : g_means MEANS_must_be_1_4_or_16 u_refused (); end
         if (BLOCK_BITS != (MEANS > 1 ? $clog2(MEANS) : 1)) begin : g_block_bits
             BLOCK_BITS_must_number_the_blocks u_refused ();

@@ -16,8 +16,11 @@ always @* begin
 end
 
 // Places. A frame enters or is worked on, never both.
-wire f_write_active = controls[24];
-wire f_write_border = controls[23];
+wire f_write_active = controls[26];
+wire f_write_border = controls[25];
+wire f_write_mean = controls[22];
+wire f_shift = controls[4];
+wire f_shows_mean = controls[0];
 wire f_in_reference = F_HAS_REFERENCE && word >= REFERENCE_BASE && word < REFERENCE_BASE + F_N;
 wire f_in_denoised = MEDIAN != 0 && word >= DENOISED_BASE && word < DENOISED_BASE + F_DENOISED;
 always @* if (started) begin
@@ -34,43 +37,77 @@ always @* if (started) begin
         assert(slot < FOLD);
     end
     if (write || f_write_active || f_write_border) assert(working);
-    if (write) assert(MEDIAN != 0 ? f_in_denoised : f_in_reference);
+    if (f_write_mean) assert(write && returns && RASTER == 0);
+    if (write) assert(f_write_mean ? word < F_RAW : MEDIAN != 0 ? f_in_denoised : f_in_reference);
     if (f_write_border) assert(f_in_denoised);
     if (f_write_active) assert(f_in_reference);
 end
 
-// Rotations: for each slot, each score, each lane, without a gap from lane to lane. Then the pixels of the slot.
-reg [7:0] f_slot, f_index, f_lane, f_position;
+// Rotations: for each slot, each score, each lane, without a gap from lane to lane; behind the first the sums of all blocks.
+// Then the pixels of the slot, and the means of all blocks.
+localparam F_MEANS = BLOCKS * BLOCKS;
+localparam F_BLOCKS = BLOCKS == 0 ? 1 : BLOCKS;
+localparam F_LAST_OF_BLOCK = SIDE / F_BLOCKS - 1;
+reg [7:0] f_slot, f_index, f_lane, f_position, f_block;
+reg f_averaged, f_unloaded;
 wire f_scored = f_index > FEATURES;
 wire f_last_lane = f_lane == LANES - 1;
-wire f_leaves = RASTER != 0 ? unload && f_last_lane : unload;
+wire f_leaves = !returns && (RASTER != 0 ? unload && f_last_lane : unload);
+wire f_returned = returns && (RASTER != 0 ? unload && f_last_lane : f_shows_mean);
+wire f_last_block = f_block == F_MEANS - 1;
+wire f_slot_ends = BLOCKS != 0 ? f_returned && f_last_block : f_leaves && f_position == F_N - 1;
 always @(posedge clk_i) begin
     if (rst_i || reopen) begin
         f_slot     <= 0;
         f_index    <= 0;
         f_lane     <= 0;
         f_position <= 0;
+        f_block    <= 0;
+        f_averaged <= 0;
+        f_unloaded <= 0;
     end else begin
-        if (rotate || (unload && RASTER != 0)) f_lane <= f_last_lane ? 0 : f_lane + 1;
+        if (f_shift) f_lane <= f_last_lane ? 0 : f_lane + 1;
+        if ((average && f_last_lane) || f_returned) f_block <= f_last_block ? 0 : f_block + 1;
+        if (average && f_last_lane && f_last_block) f_averaged <= 1;
         if (rotate && f_last_lane) f_index <= f_index + 1;
         if (f_leaves) begin
             f_position <= f_position + 1;
             if (f_position == F_N - 1) begin
                 f_position <= 0;
-                f_index    <= 0;
-                f_slot     <= f_slot + 1;
+                f_unloaded <= 1;
             end
+        end
+        if (f_slot_ends) begin
+            f_index    <= 0;
+            f_averaged <= 0;
+            f_unloaded <= 0;
+            f_slot     <= f_slot + 1;
         end
     end
 end
 always @* if (started) begin
-    if (f_lane != 0) assert(rotate || unload);
+    if (f_lane != 0) assert(f_shift);
+    assert(f_shift == (rotate || average || (RASTER != 0 ? unload : returns && f_shift)));
+    if (average || returns || f_shows_mean || f_write_mean) assert(BLOCKS != 0);
+    if (average) begin
+        assert(!rotate && !unload && !returns && f_index == 1 && index == 0 && !f_averaged);
+        assert(f_slot < FOLD && slot == f_slot && block == f_block && region == f_lane * FOLD + f_slot);
+    end
+    if (returns) begin
+        assert(f_unloaded && !rotate && slot == f_slot && block == f_block);
+        if (f_shift) assert(region == f_lane * FOLD + f_slot);
+        if (BLOCKS != 0) assert(position == (f_block / F_BLOCKS * (F_LAST_OF_BLOCK + 1) + F_LAST_OF_BLOCK) * SIDE
+            + f_block % F_BLOCKS * (F_LAST_OF_BLOCK + 1) + F_LAST_OF_BLOCK);
+    end
+    if (f_shows_mean) assert(returns && f_lane == 0);
     if (rotate) begin
+        if (BLOCKS != 0) assert(f_averaged == (f_index != 0));
         assert(!unload && !f_scored && f_slot < FOLD && slot == f_slot && index == f_index);
         assert(region == f_lane * FOLD + f_slot);
     end
     if (unload) begin
-        assert(f_scored && slot == f_slot && position == f_position);
+        assert(f_scored && slot == f_slot);
+        if (!returns) assert(!f_unloaded && position == f_position);
         if (RASTER != 0) assert(region == f_lane * FOLD + f_slot);
     end
     if (reopen) assert(f_slot == FOLD && f_index == 0 && f_lane == 0);
@@ -103,7 +140,8 @@ localparam F_STEPS = FOLD * (
     + f_pass(KINDS[1:0]) + (FEATURES > 1 ? f_pass(KINDS[3:2]) : 0)
     + (FEATURES > 2 ? f_pass(KINDS[5:4]) : 0) + (FEATURES > 3 ? f_pass(KINDS[7:6]) : 0)
     + (F_SENT ? F_N * (2 + F_Q) : 0)
-    + (RASTER != 0 ? F_N * (1 + LANES) : F_N));
+    + (RASTER != 0 ? F_N * (1 + LANES) : F_N)
+    + (BLOCKS != 0 ? F_N + F_MEANS * (2 + LANES + (DEEP != 0 ? 1 : 0)) + F_MEANS * (LANES + (RASTER != 0 ? 1 : 2 + F_Q)) : 0));
 reg [15:0] f_since;
 reg f_waits, f_done;
 always @(posedge clk_i) begin

@@ -48,7 +48,7 @@ fn a_periphery_is_checked_generated_and_refused() {
     let core: Value = serde_json::from_str(&succeed_in(dir.path(), &plain)).unwrap();
     assert!(core["benches"][0].get("summaries").is_none());
 
-    for organization in ["serial", "raster"] {
+    for organization in ["raster"] {
         let key = format!("hardware.organization=\"{organization}\"");
         let asked = [&["check", "--set", &key], &fovea[..]].concat();
         fail_in(dir.path(), 2, &asked, &["`render.irrelevant` = \"mean\"", organization]);

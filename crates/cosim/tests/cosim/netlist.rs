@@ -33,6 +33,11 @@ const MEANS_DEEP: &str = "[region]\nsize = 6\n[denoise]\nfilter = \"none\"\n[[sp
 const FOLDED: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
                       organization = \"serial\"\nfeed = \"raster\"\nfold = 2\n";
 
+/// Means of single pixels in block RAM, which come back around the ring of lanes.
+const FOLDED_MEANS: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[render]\n\
+                            irrelevant = \"mean\"\n[periphery]\nblocks = 4\n[hardware]\n\
+                            organization = \"serial\"\nfold = 3\n";
+
 /// A core of `raster` with its memories in block RAM of two ports: one port writes, the other reads.
 const RASTER: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
                       organization = \"raster\"\n";
@@ -69,6 +74,7 @@ fn netlists_agree_with_the_model() {
         (MEANS, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
         (MEANS_DEEP, Level::Rpu, (1, 1)),
         (FOLDED, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
+        (FOLDED_MEANS, Level::Rcm { columns: 5, rows: 1 }, (5, 1)),
         (RASTER, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
         (RASTER_DEEP, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
     ];

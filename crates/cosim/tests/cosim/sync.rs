@@ -35,6 +35,7 @@ const DESIGNS: &[&[&str]] = &[
         "region.size=4",
         "hardware.organization='serial'",
         "hardware.fold=2",
+        "render.irrelevant='mean'",
     ],
     &[
         "frame={width=8,height=8}",
