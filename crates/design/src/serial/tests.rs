@@ -160,6 +160,36 @@ fn means_pass_the_ports_once_and_leave_once() {
     assert_eq!(departure.forward_clocks - departure.decision_clocks, 25 + 7);
 }
 
+/// 16 pixels of 8 bits and half of them are at most 4,088, 12 bits; 64 at most 16,352, 14 bits; 25 at most 6,387, 13.
+#[test]
+fn what_a_lane_drops_of_a_sum_need_not_pass() {
+    let own = |more: &[&str]| {
+        let design = design(&[&["render.irrelevant=mean"], more].concat());
+        let design = design.serial().unwrap();
+        let sums = design.block_sums().unwrap();
+        let widths = design.lane_widths();
+        (sums, (widths.accumulator, widths.chain))
+    };
+    let (four, widths) = own(&[]);
+    assert_eq!(four, BlockSums { sum: 12, dropped: 4, passing: 8, factor: 1, shift: 0 });
+    assert_eq!(widths, (12, 8));
+    let (one, widths) = own(&["periphery.blocks=1"]);
+    assert_eq!((one.sum, one.dropped, one.passing), (14, 6, 8));
+    assert_eq!(widths, (14, 8));
+    // A lane that keeps sums for a score anyway.
+    let (all, widths) = own(&["spatial=[{feature=\"mad\"}]"]);
+    assert_eq!(all, BlockSums { sum: 12, dropped: 0, passing: 12, factor: 1, shift: 4 });
+    let none = design(&["spatial=[{feature=\"mad\"}]"]).serial().unwrap().lane_widths();
+    assert_eq!(widths, (none.accumulator, none.chain));
+    // No power of two.
+    let (odd, widths) = own(&["region.size=5"]);
+    assert_eq!((odd.sum, odd.dropped, odd.passing), (13, 0, 13));
+    assert_eq!(widths, (13, 13));
+    let exact = |sum: u64| (sum * odd.factor) >> odd.shift;
+    assert_eq!([24, 25, 6387].map(exact), [0, 1, 255]);
+    assert_eq!(design(&[]).serial().unwrap().block_sums(), None);
+}
+
 #[test]
 fn the_configuration_may_name_the_memory() {
     let of = |overrides: &[&str]| {
