@@ -98,6 +98,8 @@ pub enum PortRole {
     ForwardAbort,
     /// Number of the frame of its region, modulo [`crate::FRAME_NUMBERS`] (`raster`).
     ForwardFrame,
+    /// That word is the mean of a block (`raster`, designs with a periphery).
+    ForwardSummary,
     /// A region was lost since reset (`raster`).
     Lost,
     /// How many (`raster`).
@@ -159,6 +161,7 @@ impl PortRole {
             | Self::ForwardFirst
             | Self::ForwardLast
             | Self::ForwardAbort
+            | Self::ForwardSummary
             | Self::Lost
             | Self::LostValid => false,
         }
@@ -302,6 +305,7 @@ fn port_name(role: PortRole) -> String {
         PortRole::ForwardLast => "forward_last_o".to_owned(),
         PortRole::ForwardAbort => "forward_abort_o".to_owned(),
         PortRole::ForwardFrame => "forward_frame_o".to_owned(),
+        PortRole::ForwardSummary => "forward_summary_o".to_owned(),
         PortRole::Lost => "lost_o".to_owned(),
         PortRole::LostCount => "lost_count_o".to_owned(),
         PortRole::LostValid => "lost_valid_o".to_owned(),

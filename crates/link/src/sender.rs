@@ -27,8 +27,8 @@ pub struct Sent {
     pub rows: Vec<u64>,
     /// The same of every slot; one slot where no regions share a unit.
     pub slots: Vec<u64>,
-    /// Which regions are active.
-    pub active: Vec<bool>,
+    /// What becomes of every region.
+    pub actions: Vec<Action>,
     /// Events of the pixels of every row.
     pub events: Vec<u64>,
 }
@@ -44,8 +44,7 @@ impl Sent {
             rows[(region / design.columns()) as usize] += values;
             slots[(region % design.slots()) as usize] += values;
         }
-        let active = actions.iter().map(|action| *action == Action::Forward).collect();
-        Self { rows, slots, active, events }
+        Self { rows, slots, actions: actions.to_vec(), events }
     }
 }
 
@@ -178,7 +177,7 @@ impl<'a> Cameras<'a> {
         let mut array = Streamed::new(timing, self.timeline, self.clock_hz);
         let mut units = Vec::new();
         for (frame, sent) in (0..).zip(sent) {
-            let rows = array.next(&sent.active).into_iter().zip(&sent.rows);
+            let rows = array.next(&sent.actions).into_iter().zip(&sent.rows);
             for (row, (Leaving { decided, sent }, &pixels)) in (0..).zip(rows) {
                 let read = self.timeline.row(frame, row * self.design.region_size());
                 units.push(Unit { frame, read, decided, sent: decided, bits: map });

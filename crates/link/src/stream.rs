@@ -4,7 +4,7 @@
 //! [`RasterStream`] counts in ticks. Here a tick is a nanosecond divided by the clock in Hz, so that nanoseconds and
 //! clocks are whole numbers of them. Without a clock the array takes no time, and ticks are nanoseconds.
 
-use foveate_design::{RasterStream, RasterTiming, RowDeparture};
+use foveate_design::{Action, RasterStream, RasterTiming, RowDeparture};
 
 use crate::Timeline;
 
@@ -34,7 +34,7 @@ impl<'a> Streamed<'a> {
     }
 
     /// The next frame, row of regions by row of regions.
-    pub(crate) fn next(&mut self, active: &[bool]) -> Vec<Leaving> {
+    pub(crate) fn next(&mut self, actions: &[Action]) -> Vec<Leaving> {
         let (timeline, frame, of_nano) = (self.timeline, self.frame, self.of_nano);
         self.frame += 1;
         let read = |row: u32| {
@@ -46,7 +46,7 @@ impl<'a> Streamed<'a> {
             (ticks(begin), ticks(timeline.row(frame, row)))
         };
         let nanos = |ticks: u128| u64::try_from(ticks.div_ceil(of_nano)).unwrap_or(u64::MAX);
-        let rows = self.stream.frame(read, active).into_iter();
+        let rows = self.stream.frame(read, actions).into_iter();
         rows.map(|row| Leaving { decided: nanos(row.decided), sent: row.left.map(nanos) }).collect()
     }
 }
@@ -59,7 +59,7 @@ pub(crate) fn own_clocks(timing: RasterTiming, regions: u32) -> u64 {
     // What a frame leaves behind delays the second; it leaves as much behind as the first.
     const FRAMES: u128 = 3;
     let interval = u128::from(timing.most_clocks_per_frame()) * CLOCK;
-    let active = vec![true; regions as usize];
+    let active = vec![Action::Forward; regions as usize];
     let (mut with, mut without) = (RasterStream::new(timing, CLOCK), RasterStream::new(timing, 0));
     let mut most = 0;
     for frame in 0..FRAMES {

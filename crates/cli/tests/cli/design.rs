@@ -48,10 +48,10 @@ fn a_periphery_is_checked_generated_and_refused() {
     let core: Value = serde_json::from_str(&succeed_in(dir.path(), &plain)).unwrap();
     assert!(core["benches"][0].get("summaries").is_none());
 
-    for organization in ["raster"] {
+    for organization in ["serial", "raster"] {
         let key = format!("hardware.organization=\"{organization}\"");
         let asked = [&["check", "--set", &key], &fovea[..]].concat();
-        fail_in(dir.path(), 2, &asked, &["`render.irrelevant` = \"mean\"", organization]);
+        assert!(succeed_in(dir.path(), &asked).contains("irrelevant"), "{organization}");
     }
 }
 

@@ -3,7 +3,9 @@
 
 use crate::takes::Takes;
 use crate::{HardwareConfig, Organization, Pipelining, Store, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference, in_range};
+use foveate_camera::{
+    Camera, ConfigError, FeatureKind, Irrelevant, Periphery, Reference, in_range,
+};
 
 /// Pixels that a word may have.
 const WORDS: [u32; 3] = [1, 2, 4];
@@ -44,8 +46,7 @@ impl Takes for Raster {
 
     fn takes_irrelevant(irrelevant: Irrelevant) -> bool {
         match irrelevant {
-            Irrelevant::Zero | Irrelevant::Hold => true,
-            Irrelevant::Mean => false,
+            Irrelevant::Zero | Irrelevant::Hold | Irrelevant::Mean => true,
         }
     }
 
@@ -77,6 +78,9 @@ impl Takes for Raster {
         let pixels = pixels_per_clock.unwrap_or(WORDS[0]);
         check_word(asked, pixels, camera.region_size())?;
         check_reference(asked, camera.temporal().reference)?;
+        if let Some(periphery) = camera.periphery() {
+            check_summaries(asked, pixels, periphery)?;
+        }
         let why = " for organization = \"raster\"; use a narrower frame, or \"serial\"";
         in_range("frame.width", camera.width(), 1..=MAX_WIDTH, why)?;
         let size = camera.region_size();
@@ -175,6 +179,32 @@ fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), C
             clash("hardware.store", format!("\"{store}\""), remedy)
         }
     }
+}
+
+/// Refuses words of two blocks, and screens that show what never left.
+fn check_summaries(
+    asked: &HardwareConfig,
+    pixels: u32,
+    periphery: &Periphery,
+) -> Result<(), ConfigError> {
+    let clash = |key: &str, value: String, with: String, remedy: String| {
+        Err(ConfigError::Combination { key: key.to_owned(), value, with, remedy })
+    };
+    if asked.forward == Some(false) {
+        let with = format!("render.irrelevant = \"{}\"", Irrelevant::Mean);
+        let remedy = "what the screen shows is what has left; leave the key out, or show something \
+                      else";
+        return clash("hardware.forward", false.to_string(), with, remedy.to_owned());
+    }
+    let side = periphery.block_side;
+    if side.is_multiple_of(pixels) {
+        return Ok(());
+    }
+    let with = format!("periphery.blocks = {}", periphery.blocks);
+    let remedy = format!(
+        "a word must lie in one block of {side}x{side} pixels; use fewer pixels, or fewer blocks"
+    );
+    clash("hardware.pixels_per_clock", pixels.to_string(), with, remedy)
 }
 
 /// The fewest regions side by side, for regions and words of so many pixels.

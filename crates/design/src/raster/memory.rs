@@ -5,7 +5,8 @@
 use super::RasterTiming;
 use super::feature::SummedUp;
 use crate::{
-    Filter, RasterDesign, Reference, SpatialFeature, Store, Written, bits_for, index_bits,
+    Design, Filter, Periphery, RasterDesign, Reference, SpatialFeature, Store, Written, bits_for,
+    index_bits,
 };
 
 /// Bits of the row of regions that waits in a queue, modulo 8.
@@ -47,8 +48,15 @@ impl RasterMemory {
     #[must_use]
     pub fn all_of(design: RasterDesign<'_>) -> Vec<Self> {
         let sizes = Sizes::of(design);
-        [sizes.pixels(design), sizes.rows(design), sizes.scores(design), sizes.queues(design)]
-            .concat()
+        let means = design.periphery().map(|periphery| sizes.means(periphery, &design));
+        [
+            sizes.pixels(design),
+            sizes.rows(design),
+            sizes.scores(design),
+            sizes.queues(design),
+            means.unwrap_or_default(),
+        ]
+        .concat()
     }
 }
 
@@ -144,6 +152,34 @@ impl Sizes {
         list
     }
 
+    /// Means of blocks: being summed, ready to leave, and those that the screen shows.
+    fn means(&self, periphery: &Periphery, design: &Design) -> Vec<RasterMemory> {
+        let (side, means) = (u64::from(periphery.blocks), u64::from(periphery.means()));
+        let pixel = design.pixel_bits();
+        // The numbers of the rows of regions are counted modulo a power of two.
+        let rows = u64::from(self.timing.buffer_rows).next_power_of_two();
+        let shown = |holds| RasterMemory { holds, words: self.regions, bits: 1 };
+        vec![
+            RasterMemory {
+                holds: "sums of blocks, and whether their means differ",
+                words: self.columns * side,
+                bits: periphery.sum_bits + 1,
+            },
+            RasterMemory {
+                holds: "means that may leave",
+                words: self.columns * rows * means,
+                bits: pixel,
+            },
+            RasterMemory {
+                holds: "means that were sent",
+                words: self.regions * means,
+                bits: pixel,
+            },
+            shown("which regions show a summary, by decisions"),
+            shown("which regions show a summary, by losses"),
+        ]
+    }
+
     /// Bits of the number of a frame that wait with its region. The row of regions that is decided is up to B behind it,
     /// and the frame of that is known.
     fn frame_bits(&self, design: RasterDesign<'_>) -> u32 {
@@ -160,11 +196,21 @@ impl Sizes {
             Written::WithEveryFrame => 0,
             Written::WhenSent => index_bits(self.timing.words()) + 1,
         };
+        // Where its means are, whether they are meant, and what a loss writes.
+        let summary = match design.periphery() {
+            None => 0,
+            Some(_) => index_bits(self.columns) + 2,
+        };
         let mut list = Vec::new();
         if design.forwards() {
             list.push(queue(
                 "active regions that wait for the sink",
-                ROW_BITS + design.region_bits() + start + self.frame_bits(design) + reference,
+                ROW_BITS
+                    + design.region_bits()
+                    + start
+                    + self.frame_bits(design)
+                    + reference
+                    + summary,
             ));
         }
         let bits = |feature: &SpatialFeature| match SummedUp::of(feature) {
@@ -173,6 +219,7 @@ impl Sizes {
             SummedUp::Squares(_) => feature.score_bits(),
         };
         let judged = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
+        let judged = judged + u32::from(design.periphery().is_some());
         list.extend(design.features().iter().filter_map(|feature| match SummedUp::of(feature) {
             SummedUp::Hits | SummedUp::Squares(_) => None,
             SummedUp::Deviations(mean) => Some(queue(

@@ -102,6 +102,10 @@ fn decided(design: &Design) -> Vec<Port> {
         output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
         output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
     ];
+    if design.periphery().is_some() {
+        let doc = "its means will leave; 0 unless decision_valid_o";
+        list.push(output(PortRole::Summary, 1, doc));
+    }
     for feature in design.features() {
         let doc = "score; only with decision_valid_o";
         list.push(with(PortRole::Score(feature.kind()), feature.score_bits(), doc));
@@ -123,6 +127,26 @@ fn forwarded(design: &Design, word: u32) -> Stream {
     let abort = "its region was lost in the middle: no more comes; only with forward_valid_o";
     let frame = "number of its frame since reset, modulo 256; only with forward_valid_o";
     let count = "regions lost since reset, at most 65,535";
+    let mut payload = vec![
+        with(PortRole::ForwardRegion, regions, region),
+        with(PortRole::ForwardPosition, design.position_bits(), position),
+        with(PortRole::ForwardPixel, word, pixels),
+        with(PortRole::ForwardFirst, 1, first),
+        with(PortRole::ForwardLast, 1, last),
+        with(PortRole::ForwardAbort, 1, abort),
+        with(PortRole::ForwardFrame, frames, frame),
+    ];
+    let (beat, leaves) = match design.periphery() {
+        None => ("a word of an active region", "a word of an active region leaves"),
+        Some(_) => {
+            let doc = "the word is the mean of a block; only with forward_valid_o";
+            payload.push(with(PortRole::ForwardSummary, 1, doc));
+            (
+                "a word of an active region, or a mean of one that sends its summary",
+                "a word of a region leaves",
+            )
+        }
+    };
     Stream {
         ready: Some(input(PortRole::ForwardReady, 1, ready)),
         region: BeatRegion::Number(PortRole::ForwardRegion),
@@ -133,17 +157,9 @@ fn forwarded(design: &Design, word: u32) -> Stream {
         ],
         ..Stream::out_of_core(
             StreamRole::Forwarded,
-            "a word of an active region",
-            output(PortRole::ForwardValid, 1, "a word of an active region leaves"),
-            vec![
-                with(PortRole::ForwardRegion, regions, region),
-                with(PortRole::ForwardPosition, design.position_bits(), position),
-                with(PortRole::ForwardPixel, word, pixels),
-                with(PortRole::ForwardFirst, 1, first),
-                with(PortRole::ForwardLast, 1, last),
-                with(PortRole::ForwardAbort, 1, abort),
-                with(PortRole::ForwardFrame, frames, frame),
-            ],
+            beat,
+            output(PortRole::ForwardValid, 1, leaves),
+            payload,
         )
     }
 }

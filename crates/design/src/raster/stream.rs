@@ -7,7 +7,7 @@
 //! *ticks*, of which a clock has any number: a sensor need not know the clock. A word that comes between two edges
 //! is taken when it comes; up to a clock more, until the next edge, is left out.
 
-use crate::RasterTiming;
+use crate::{Action, RasterTiming};
 
 /// A raster core, frame after frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -18,6 +18,8 @@ pub struct RasterStream {
     ready: u128,
     /// The last edge of the second pass before.
     passed: u128,
+    /// When the readout can hold the next region, having held one not long ago.
+    rested: u128,
     /// When the readout has fetched the last word of the region before.
     fetched: u128,
 }
@@ -27,7 +29,7 @@ pub struct RasterStream {
 pub struct RowDeparture {
     /// When the last decision of a row of regions is on the ports.
     pub decided: u128,
-    /// When the last word of its active regions is; none where none is active or no pixels leave.
+    /// When the last word of its regions is; none where none of them sends pixels or means.
     pub left: Option<u128>,
 }
 
@@ -71,35 +73,35 @@ impl RasterStream {
     /// A core after reset, with a clock of so many ticks: none for a core that takes no time.
     #[must_use]
     pub fn new(timing: RasterTiming, clock: u128) -> Self {
-        Self { timing, clock, ready: 0, passed: 0, fetched: 0 }
+        Self { timing, clock, ready: 0, passed: 0, rested: 0, fetched: 0 }
     }
 
     /// The next frame. `read` says of every row when the sensor begins it and when it has read it; the words of a
     /// row come evenly in between, at most one at every clock. Answers for every row of regions.
     ///
     /// # Panics
-    /// When `active` has not one bit per region.
+    /// When there is not one action per region.
     pub fn frame(
         &mut self,
         read: impl Fn(u32) -> (u128, u128),
-        active: &[bool],
+        actions: &[Action],
     ) -> Vec<RowDeparture> {
         let timing = self.timing;
         let columns = timing.row_words / timing.region_row_words;
         let region_rows = timing.region_words / timing.region_row_words;
         let rows = (timing.rows / region_rows) as usize;
-        assert_eq!(active.len(), rows * columns as usize, "a bit per region");
+        assert_eq!(actions.len(), rows * columns as usize, "an action per region");
         let edges = self.edges(read);
         let row_of_regions = u64::from(region_rows) * u64::from(timing.row_words);
         let lasts = (1..).map(|row| row * row_of_regions - u64::from(timing.row_words));
-        let departures: Vec<_> = (active.chunks_exact(columns as usize).zip(lasts))
-            .map(|(active, last_row)| {
+        let departures: Vec<_> = (actions.chunks_exact(columns as usize).zip(lasts))
+            .map(|(actions, last_row)| {
                 let mut departure = RowDeparture { decided: 0, left: None };
-                for (&active, number) in active.iter().zip(1_u64..) {
+                for (&action, number) in actions.iter().zip(1_u64..) {
                     let last = last_row + number * u64::from(timing.region_row_words) - 1;
                     departure.decided = self.decide(edges.of(last + timing.tail_delay()));
-                    if active && timing.forwards {
-                        departure.left = Some(self.leave(departure.decided));
+                    if let Some(words) = timing.words_sent(action) {
+                        departure.left = Some(self.leave(departure.decided, words));
                     }
                 }
                 departure
@@ -138,13 +140,15 @@ impl RasterStream {
         self.passed + self.clocks(pass.decision_latency.into())
     }
 
-    /// When the last word of an active region leaves. It is held from the edge on at which the last word of the
+    /// When the last of so many words of a region leaves. It is held from the edge on at which the last word of the
     /// region before is fetched, or later; its own are fetched at the edges after that. A word is on the ports a
-    /// clock after it was fetched. (A region has at least two words, so the readout has always rested.)
-    fn leave(&mut self, decided: u128) -> u128 {
+    /// clock after it was fetched.
+    fn leave(&mut self, decided: u128, words: u32) -> u128 {
         let entered = decided + self.clock;
-        let held = self.fetched.max(entered + self.clocks(self.timing.queue_latency.into()));
-        self.fetched = held + self.clocks(self.timing.region_words.into());
+        let oldest = entered + self.clocks(self.timing.queue_latency.into());
+        let held = self.fetched.max(self.rested).max(oldest);
+        self.rested = held + self.clocks(2);
+        self.fetched = held + self.clocks(words.into());
         self.fetched + self.clock
     }
 

@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod stores;
+mod summaries;
 
 use super::*;
 use crate::{Array, Config, Design, Direction, Pipelining, PortRole, Qualifier, Store};

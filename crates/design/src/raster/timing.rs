@@ -3,7 +3,7 @@
 
 use super::feature::SummedUp;
 use crate::timing::Departure;
-use crate::{Filter, Pipelining, RasterDesign, Timing, Written};
+use crate::{Action, Filter, Periphery, Pipelining, RasterDesign, Timing, Written};
 
 /// Clocks of a stalling sink that the readout needs for itself, without a second pass, beside those of the queue.
 const STALL_MARGIN: u32 = 1;
@@ -42,6 +42,8 @@ pub struct RasterTiming {
     pub forwards: bool,
     /// The second pass, of designs with `mad`.
     pub second_pass: Option<SecondPass>,
+    /// q*q: words of a region that sends its summary, of designs with a periphery.
+    pub summary_words: Option<u32>,
     /// Whether a frame of at most B rows of regions waits until no region of the frame before is pending.
     pub waits_for_pending: bool,
 }
@@ -83,9 +85,9 @@ impl RasterTiming {
             (None, false) => 0,
         };
         // What is sent of a frame is what the next one is compared with.
-        let waits_for_sent = match design.temporal().reference.written() {
-            Written::WithEveryFrame => false,
-            Written::WhenSent => design.rows() <= buffer_rows,
+        let compares_with_sent = match design.temporal().reference.written() {
+            Written::WithEveryFrame => design.periphery().is_some(),
+            Written::WhenSent => true,
         };
         Self {
             word_pixels,
@@ -103,7 +105,8 @@ impl RasterTiming {
             queue_latency,
             forwards: design.forwards(),
             second_pass,
-            waits_for_pending: waits_for_sent,
+            summary_words: design.periphery().map(Periphery::means),
+            waits_for_pending: compares_with_sent && design.rows() <= buffer_rows,
         }
     }
 
@@ -186,6 +189,16 @@ impl RasterTiming {
         }
     }
 
+    /// Words of a region that leave with an action; none where none do.
+    #[must_use]
+    pub fn words_sent(&self, action: Action) -> Option<u32> {
+        match action {
+            Action::Forward => self.forwards.then_some(self.region_words),
+            Action::Summarize => self.summary_words,
+            Action::Hold | Action::Blank => None,
+        }
+    }
+
     /// Clocks from one frame to the next that follows at once; more where a frame waits for pending regions.
     #[must_use]
     pub fn clocks_per_frame(&self) -> u64 {
@@ -220,6 +233,9 @@ impl RasterTiming {
             ("decision_latency", self.decision_latency.into()),
             ("buffer_rows", self.buffer_rows.into()),
         ];
+        if let Some(words) = self.summary_words {
+            figures.push(("summary_words", words.into()));
+        }
         let mut decision = format!("{} clocks after its region's last word", self.decided_after());
         if let Some(pass) = self.second_pass {
             figures.push(("second_pass_words", self.region_words.into()));

@@ -4,7 +4,7 @@
 
 use std::collections::VecDeque;
 
-use foveate_design::{RasterStream, RasterTiming, RowDeparture};
+use foveate_design::{Action, RasterStream, RasterTiming, RowDeparture};
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
@@ -66,11 +66,11 @@ fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<Ras
     shown
 }
 
-/// What was seen of a frame: its active regions, and of every row of regions the edges after which its last decision
+/// What was seen of a frame: what became of its regions, and of every row of regions the edges after which its last decision
 /// and its last word were on the ports.
 #[derive(Default)]
 struct Seen {
-    active: Vec<bool>,
+    actions: Vec<Action>,
     rows: Vec<RowDeparture>,
 }
 
@@ -85,8 +85,8 @@ fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
                 frames.push(Seen::default());
             }
             let (frame, row) = (frames.len() - 1, (i64::from(output.region) / columns) as usize);
-            let Seen { active, rows } = &mut frames[frame];
-            active.push(output.active);
+            let Seen { actions, rows } = &mut frames[frame];
+            actions.push(if output.active { Action::Forward } else { Action::Hold });
             rows.resize(row + 1, RowDeparture { decided: 0, left: None });
             rows[row].decided = edge as u128;
             waiting.extend((output.active && recipe.forward).then_some((frame, row)));
@@ -97,7 +97,7 @@ fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
         }
     }
     assert!(waiting.is_empty() && !shown.last().unwrap().lost);
-    assert!(frames.iter().all(|seen| seen.active.len() as i64 == regions));
+    assert!(frames.iter().all(|seen| seen.actions.len() as i64 == regions));
     frames
 }
 
@@ -114,10 +114,12 @@ fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> (usize, usize
             let begin = begin + u64::from(row) * of_row;
             (begin.into(), (begin + of_row).into())
         };
-        assert_eq!(stream.frame(read, &seen.active), seen.rows, "{paces:?}, {recipe:?}");
+        assert_eq!(stream.frame(read, &seen.actions), seen.rows, "{paces:?}, {recipe:?}");
         rows += seen.rows.len();
-        let of_row = seen.active.chunks(recipe.base.columns() as usize);
-        partly += of_row.filter(|row| row.contains(&true) && row.contains(&false)).count();
+        let of_row = seen.actions.chunks(recipe.base.columns() as usize);
+        partly += of_row
+            .filter(|row| row.contains(&Action::Forward) && row.contains(&Action::Hold))
+            .count();
     }
     (rows, partly)
 }
