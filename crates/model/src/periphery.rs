@@ -57,6 +57,11 @@ impl Summary {
         self.shown.as_deref()
     }
 
+    /// What the screen shows is not known.
+    pub(crate) fn forget(&mut self) {
+        self.shown = None;
+    }
+
     /// What the screen shows behind an action.
     pub(crate) fn follow(&mut self, action: Action, means: &[u16]) {
         match action {

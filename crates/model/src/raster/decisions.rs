@@ -45,16 +45,6 @@ pub(super) struct Decided {
     pub(super) action: Action,
 }
 
-impl Decided {
-    /// Whether something of the region leaves.
-    pub(super) fn sends(&self) -> bool {
-        match self.action {
-            Action::Forward | Action::Summarize => true,
-            Action::Hold | Action::Blank => false,
-        }
-    }
-}
-
 /// The regions that are judged and not yet decided, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Decisions {

@@ -14,7 +14,7 @@
 //!             | a row of regions  +---------+     +-----------+
 //!             |                   | regions |---->| decisions |----> decision ports
 //!             v                   +---------+     +-----------+
-//!           +-----------+ due       ^ references     |  active
+//!           +-----------+ due       ^ references     |  words
 //!           | staleness |--------> +---------+       |
 //!           +-----------+          | readout |<------+
 //!           forward_ready_i ------>|         |---------------------> forward ports, lost_o
@@ -33,6 +33,7 @@ mod rcm;
 mod readout;
 mod regions;
 mod staleness;
+mod word;
 
 pub use ports::RasterOutput;
 pub use rcm::RasterRcm;

@@ -5,7 +5,8 @@ use foveate_design::{Action, FRAME_NUMBERS, FeatureKind, PortRole};
 
 use super::decisions::Decided;
 use super::outside::Stored;
-use super::readout::{Loss, Word};
+use super::readout::Loss;
+use super::word::Word;
 
 /// What the outputs of the core show after an edge. A port that means nothing, or that the core does not have,
 /// shows 0.
@@ -57,6 +58,8 @@ pub struct RasterOutput {
     pub forward_abort: bool,
     /// `forward_frame_o`.
     pub forward_frame: u32,
+    /// `forward_summary_o`.
+    pub forward_summary: bool,
     /// `lost_o`.
     pub lost: bool,
     /// `lost_count_o`.
@@ -96,6 +99,7 @@ impl RasterOutput {
             forward_last: false,
             forward_abort: false,
             forward_frame: 0,
+            forward_summary: false,
             lost: false,
             lost_count: 0,
             lost_valid: false,
@@ -134,6 +138,7 @@ impl RasterOutput {
         self.forward_last = word.is_some_and(|word| word.is_last);
         self.forward_abort = word.is_some_and(|word| word.is_aborted);
         self.forward_frame = word.map_or(0, |word| number(word.frame));
+        self.forward_summary = word.is_some_and(|word| word.is_mean);
         match word {
             Some(word) => self.forward_pixels.copy_from_slice(&word.pixels),
             None => self.forward_pixels.fill(0),
@@ -182,6 +187,7 @@ impl RasterOutput {
             PortRole::ForwardLast => self.forward_last.into(),
             PortRole::ForwardAbort => self.forward_abort.into(),
             PortRole::ForwardFrame => self.forward_frame.into(),
+            PortRole::ForwardSummary => self.forward_summary.into(),
             PortRole::Lost => self.lost.into(),
             PortRole::LostCount => self.lost_count.into(),
             PortRole::LostValid => self.lost_valid.into(),

@@ -123,12 +123,13 @@ impl RasterRcm {
         self.regions.summary(region)
     }
 
-    /// Whether a region is not yet decided though its last word has come to the tail, or has pixels that have
+    /// Whether a region is not yet decided though its last word has come to the tail, or has words that have
     /// not left.
     #[must_use]
     pub fn is_pending(&self) -> bool {
-        let sends = self.decided.as_ref().is_some_and(Decided::sends);
-        sends && self.timing.forwards || self.is_deciding() || !self.readout.is_empty()
+        self.decided.as_ref().is_some_and(|decided| self.leaves(decided))
+            || self.is_deciding()
+            || !self.readout.is_empty()
     }
 
     /// Whether a region is lost in the middle at the next edge, unless that is a reset: for a sink that is to be ready
@@ -142,6 +143,11 @@ impl RasterRcm {
     #[must_use]
     pub fn is_deciding(&self) -> bool {
         !self.decisions.is_empty() || self.outside.as_ref().is_some_and(Outside::is_asking)
+    }
+
+    /// Whether something of a region leaves.
+    fn leaves(&self, decided: &Decided) -> bool {
+        self.timing.words_sent(decided.action).is_some()
     }
 
     fn reset(&mut self) {
@@ -230,10 +236,9 @@ impl RasterRcm {
     /// the ports before it stands there no more.
     fn read(&mut self, sink_takes: bool) {
         if let Some(decided) = self.decided.take()
-            && decided.sends()
-            && self.timing.forwards
+            && self.leaves(&decided)
         {
-            self.readout.enter(self.now, decided.judged);
+            self.readout.enter(self.now, self.regions.departing(&decided));
         }
         let fresh = self.staleness.step(self.now);
         let read = self.readout.step(self.now, sink_takes, fresh);

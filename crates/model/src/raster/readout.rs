@@ -1,34 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the pixels of active regions leave: the queue, the region that is held, the word that is fetched and
+//! How regions leave, their pixels or their means: the queue, the region that is held, the word that is fetched and
 //! the word on the ports.
 
 use std::collections::VecDeque;
 
 use foveate_design::RasterTiming;
 
-use super::decisions::Judged;
-use crate::number::index;
+use super::word::{Departing, Word};
 
 /// Edges from one holding to the next, at least.
 const REST: u64 = 2;
-
-/// A word on its way out.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct Word {
-    pub(super) region: u32,
-    /// The number in its region of its first pixel.
-    pub(super) position: u32,
-    /// As it leaves.
-    pub(super) pixels: Vec<u16>,
-    /// As it was scored.
-    pub(super) scored: Vec<u16>,
-    /// The number of the frame of its region since reset.
-    pub(super) frame: u64,
-    /// The last that comes of its region.
-    pub(super) is_last: bool,
-    /// It is, because its region was lost.
-    pub(super) is_aborted: bool,
-}
 
 /// A region that was lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,8 +20,8 @@ pub(super) struct Loss {
 }
 
 impl Loss {
-    fn of(judged: &Judged) -> Self {
-        Self { region: judged.region, frame: judged.frame }
+    fn of(departing: &Departing) -> Self {
+        Self { region: departing.region, frame: departing.frame }
     }
 }
 
@@ -56,12 +37,10 @@ pub(super) struct Read {
 /// The readout.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Readout {
-    /// K.
-    word_pixels: u32,
     /// Edges from entering the queue to holding, at least.
     queue_latency: u64,
-    /// Active regions with the edges at which they entered.
-    queue: VecDeque<(u64, Judged)>,
+    /// Regions that leave, with the edges at which they entered.
+    queue: VecDeque<(u64, Departing)>,
     held: Option<Held>,
     /// The edge at which it last started to hold a region.
     started: Option<u64>,
@@ -74,36 +53,25 @@ pub(super) struct Readout {
 /// A region that is held.
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
-    judged: Judged,
-    /// The first pixel of the next word.
-    next: u32,
+    departing: Departing,
+    /// Whether a word of it was fetched.
+    has_begun: bool,
 }
 
 impl Held {
-    fn fetch(&mut self, word_pixels: u32) -> Word {
-        let own = index(self.next)..index(self.next + word_pixels);
-        let word = Word {
-            region: self.judged.region,
-            position: self.next,
-            pixels: self.judged.payload[own.clone()].to_vec(),
-            scored: self.judged.scored[own.clone()].to_vec(),
-            frame: self.judged.frame,
-            is_last: own.end == self.judged.payload.len(),
-            is_aborted: false,
-        };
-        self.next += word_pixels;
-        word
+    fn fetch(&mut self) -> Option<Word> {
+        self.has_begun = true;
+        self.departing.words.pop_front()
     }
 
     fn is_fetched(&self) -> bool {
-        index(self.next) == self.judged.payload.len()
+        self.departing.words.is_empty()
     }
 }
 
 impl Readout {
     pub(super) fn new(timing: &RasterTiming) -> Self {
         Self {
-            word_pixels: timing.word_pixels,
             queue_latency: timing.queue_latency.into(),
             queue: VecDeque::new(),
             held: None,
@@ -114,9 +82,9 @@ impl Readout {
         }
     }
 
-    /// An active region enters the queue at edge `now`.
-    pub(super) fn enter(&mut self, now: u64, judged: Judged) {
-        self.queue.push_back((now, judged));
+    /// A region enters the queue at edge `now`.
+    pub(super) fn enter(&mut self, now: u64, departing: Departing) {
+        self.queue.push_back((now, departing));
     }
 
     /// The word on the ports.
@@ -136,7 +104,7 @@ impl Readout {
 
     /// Whether it holds a region that is of a row below `fresh`, and has fetched a word of it.
     pub(super) fn has_begun_below(&self, fresh: u64) -> bool {
-        self.held.as_ref().is_some_and(|held| held.judged.row < fresh && held.next > 0)
+        self.held.as_ref().is_some_and(|held| held.departing.row < fresh && held.has_begun)
     }
 
     /// Whether there is nothing that has to leave.
@@ -148,24 +116,24 @@ impl Readout {
     /// Edge `now`, at which the sink takes a word or not; rows of regions below `fresh` are stale.
     pub(super) fn step(&mut self, now: u64, sink_takes: bool, fresh: u64) -> Read {
         let mut may_start = self.held.is_none();
-        let stale = self.held.take_if(|held| held.judged.row < fresh);
-        let lost = stale.as_ref().map(|held| Loss::of(&held.judged));
+        let stale = self.held.take_if(|held| held.departing.row < fresh);
+        let lost = stale.as_ref().map(|held| Loss::of(&held.departing));
         let mut read = Read { has_fetched: false, lost };
-        if stale.is_some_and(|held| held.next > 0) {
+        if stale.is_some_and(|held| held.has_begun) {
             self.abort();
         }
         if self.shown.is_none() || sink_takes {
             self.shown = self.fetched.take();
-            self.fetched = self.held.as_mut().map(|held| held.fetch(self.word_pixels));
+            self.fetched = self.held.as_mut().and_then(Held::fetch);
             read.has_fetched = self.fetched.is_some();
             may_start |= self.held.take_if(|held| held.is_fetched()).is_some();
         }
-        if may_start && let Some(judged) = self.next(now) {
+        if may_start && let Some(departing) = self.next(now) {
             self.started = Some(now);
-            if judged.row < fresh {
-                read.lost = Some(Loss::of(&judged));
+            if departing.row < fresh {
+                read.lost = Some(Loss::of(&departing));
             } else {
-                self.held = Some(Held { judged, next: 0 });
+                self.held = Some(Held { departing, has_begun: false });
             }
         }
         self.lost += u64::from(read.lost.is_some());
@@ -180,10 +148,11 @@ impl Readout {
     }
 
     /// Takes the oldest region from the queue, if it may be held now.
-    fn next(&mut self, now: u64) -> Option<Judged> {
+    fn next(&mut self, now: u64) -> Option<Departing> {
         let has_rested = self.started.is_none_or(|started| now >= started + REST);
         let is_due =
             self.queue.front().is_some_and(|(entered, _)| now >= entered + self.queue_latency);
-        (has_rested && is_due).then(|| self.queue.pop_front()).flatten().map(|(_, judged)| judged)
+        let next = (has_rested && is_due).then(|| self.queue.pop_front()).flatten();
+        next.map(|(_, departing)| departing)
     }
 }

@@ -5,7 +5,7 @@ use foveate_design::{Action, Camera, RasterDesign, Reference};
 use foveate_frame::Frame;
 
 use super::decisions::{Complete, Decided, Judged};
-use super::readout::Word;
+use super::word::{Departing, Word};
 use crate::number::index;
 use crate::periphery::{Summary, no_summaries};
 use crate::verdict::Verdict;
@@ -18,6 +18,8 @@ pub(super) struct Regions {
     scorer: RegionScorer,
     /// Pixels of a region n.
     pixels: usize,
+    /// K.
+    word_pixels: u32,
     /// What each region is compared with, region by region.
     references: Vec<u16>,
     /// Which regions have a valid reference.
@@ -32,6 +34,7 @@ impl Regions {
         Self {
             scorer: RegionScorer::new(&design),
             pixels,
+            word_pixels: design.pixels_per_clock(),
             references: vec![0; regions * pixels],
             referenced: vec![false; regions],
             summaries: no_summaries(&design),
@@ -101,6 +104,11 @@ impl Regions {
         Decided { judged, action }
     }
 
+    /// What leaves of a region that was decided.
+    pub(super) fn departing(&self, decided: &Decided) -> Departing {
+        Departing::of(decided, &self.camera, self.word_pixels)
+    }
+
     /// A word was fetched, and will leave. That it becomes the reference an edge later cannot be seen: the
     /// next frame of its region comes later still.
     pub(super) fn send(&mut self, word: &Word) {
@@ -112,6 +120,7 @@ impl Regions {
 
     /// A region was lost: what was sent of it is not known.
     pub(super) fn lose(&mut self, region: u32) {
+        self.summaries[index(region)].forget();
         match self.camera.temporal().reference {
             Reference::Previous => {}
             Reference::LastSent => self.referenced[index(region)] = false,

@@ -28,7 +28,7 @@ pub(crate) struct SeenRegion {
     /// Means of its blocks; none where irrelevant regions send none.
     pub(crate) means: Vec<i64>,
     pub(crate) active: bool,
-    /// Whether not all of its pixels were sent though it is active: a loss of the raster organization.
+    /// Whether not all was sent of what it should have sent: a loss of the raster organization.
     pub(crate) lost: bool,
     /// What becomes of the region on the screen.
     pub(crate) action: &'static str,
@@ -55,7 +55,7 @@ pub(crate) fn watch_changing(recipes: &[Recipe], film: &[Frame]) -> Vec<Seen> {
 fn look(recipe: &Recipe, history: &[Seen], frame: &Frame) -> Seen {
     let mut seen = begin(recipe, frame);
     for region in 0..recipe.columns() * recipe.rows() {
-        seen.regions.push(look_at_region(recipe, history, &seen, region));
+        seen.regions.push(look_at_region(recipe, (history, history), &seen, region));
     }
     seen
 }
@@ -111,10 +111,10 @@ pub(crate) fn cut(recipe: &Recipe, image: &Image, region: i64) -> Vec<i64> {
     positions(recipe, region).iter().map(|&(x, y)| image[y as usize][x as usize]).collect()
 }
 
-/// A region of a frame after those of the history.
+/// A region of a frame after those of the history; its reference comes from those that were `kept`.
 pub(crate) fn look_at_region(
     recipe: &Recipe,
-    history: &[Seen],
+    (history, kept): (&[Seen], &[Seen]),
     frame: &Seen,
     region: i64,
 ) -> SeenRegion {
@@ -141,10 +141,10 @@ pub(crate) fn look_at_region(
     let needed = if recipe.all_must_vote { votes.len() } else { 1 };
     let srs = votes.iter().filter(|&&vote| vote).count() >= needed;
 
-    let temporal_hits: Vec<bool> = match reference(recipe, history, region) {
+    let temporal_hits: Vec<bool> = match reference(recipe, kept, region) {
         None => vec![true; pixels.len()],
         Some(frame) => {
-            let reference = cut(recipe, &history[frame].denoised, region);
+            let reference = cut(recipe, &kept[frame].denoised, region);
             let pairs = pixels.iter().zip(&reference);
             pairs.map(|(a, b)| (a - b).abs() > recipe.temporal_level).collect()
         }
@@ -201,7 +201,8 @@ fn means(recipe: &Recipe, pixels: &[i64]) -> Vec<i64> {
 fn shown(history: &[Seen], region: i64) -> Option<&[i64]> {
     let regions = history.iter().rev().map(|seen| &seen.regions[region as usize]);
     let last = regions.into_iter().find(|region| matches!(region.action, "forward" | "summarize"));
-    last.filter(|region| region.action == "summarize").map(|region| &region.means[..])
+    last.filter(|region| region.action == "summarize" && !region.lost)
+        .map(|region| &region.means[..])
 }
 
 fn near(last: &[i64], now: &[i64], level: i64) -> bool {

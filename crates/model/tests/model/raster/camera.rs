@@ -2,21 +2,23 @@
 //! Whole films: scores, decisions and the rendered frame, against the functional camera, over a matrix of
 //! designs that has every value of every choice beside every other.
 
-use foveate_design::{Design, Payload, Store};
+use foveate_design::{Action, Design, Payload, Store};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome, RasterOutput};
 
 use super::driver::{Driver, Job, Manner, Trace};
 use super::recipe::{Misread, RasterRecipe};
 use crate::hard_cases::hard_frames;
-use crate::recipe::{FeatureRecipe, Recipe};
+use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
 use crate::screen::Screen;
 
 /// The decisions of a frame are those of the camera.
 fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
     let at = shown.region as usize;
-    let due = (outcome.srs[at], outcome.trs[at], outcome.active[at]);
-    assert_eq!((shown.srs, shown.trs, shown.active), due, "decision of region {at}");
+    let summary = outcome.actions[at] == Action::Summarize;
+    let due = (outcome.srs[at], outcome.trs[at], outcome.active[at], summary);
+    let said = (shown.srs, shown.trs, shown.active, shown.summary);
+    assert_eq!(said, due, "decision of region {at}");
     assert_eq!(shown.temporal_count, outcome.temporal_count[at], "region {at}");
     let scores = outcome.scores.iter().map(|scores| scores[at]);
     assert!(scores.eq(shown.scores.into_iter().take(outcome.scores.len())), "region {at}");
@@ -74,9 +76,10 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
                 keep(&mut screen, &driver, frame, shown.region);
             }
             if shown.forward_valid {
+                let region = shown.forward_region;
+                assert_eq!(shown.forward_summary, screen.summaries[region as usize]);
                 for (position, &pixel) in (shown.forward_position..).zip(&shown.forward_pixels) {
-                    let place = screen.place(shown.forward_region, position);
-                    screen.pixels[place] = pixel;
+                    screen.show(region, position, pixel);
                 }
             }
         }
@@ -91,6 +94,8 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
         for region in 0..design.regions() {
             let reference = driver.rcm.reference(region).map(<[u16]>::to_vec);
             assert_eq!(reference, camera.reference(region), "reference of region {region}");
+            let summary = driver.rcm.summary(region);
+            assert_eq!(summary, camera.summary(region), "summary of region {region}");
         }
     }
 }
@@ -110,6 +115,8 @@ pub(super) fn recipe(number: usize) -> RasterRecipe {
     let features = (0..count).map(|turn| all[(number / 4 + turn) % 4].clone()).collect();
     let (side, pixels) = [(4, 4), (4, 1), (5, 1), (6, 2), (8, 4), (3, 1), (2, 2)][number % 7];
     let columns = 4.max((16 * pixels + side - 1) / side);
+    let periphery = PeripheryRecipe::number(number / 3, side, 255)
+        .filter(|periphery| side / periphery.blocks % pixels == 0);
     RasterRecipe {
         base: Recipe {
             width: columns * side - number as i64 % side,
@@ -124,7 +131,7 @@ pub(super) fn recipe(number: usize) -> RasterRecipe {
             temporal_min: side,
             last_sent: on(4),
             blank_irrelevant: on(3),
-            periphery: None,
+            periphery,
             raw_payload: on(6),
             constant: on(5),
             deep: false,
@@ -153,7 +160,7 @@ fn a_core_with_any_store_shows_what_the_camera_shows() {
         let mut recipe = recipe(number);
         recipe.base.last_sent = false;
         recipe.store = [Store::External, Store::SinglePort, Store::External][number % 3];
-        recipe.forward = number % 5 > 1;
+        recipe.forward = number % 5 > 1 || recipe.base.periphery.is_some();
         let film = hard_frames(&recipe.base);
         check(&recipe, &film);
     }

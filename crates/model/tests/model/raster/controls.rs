@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Wrong expectations must be noticed: the same check, with one thing changed in what it expects.
 
+use std::collections::BTreeSet;
+
 use foveate_design::Store;
 
 use super::driver::{Driver, Manner, Sink};
@@ -9,7 +11,7 @@ use super::memory::Faults;
 use super::properties::Film;
 use super::recipe::{Misread, RasterRecipe};
 use crate::frames::{Content, Script};
-use crate::recipe::{FeatureRecipe, Recipe};
+use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
 
 fn feature(name: &'static str, level: i64, min_milli: i64) -> FeatureRecipe {
     FeatureRecipe { name, level, min_milli, fraction_bits: 1 }
@@ -58,8 +60,17 @@ const FEW: Faults = Faults { missing: 4, wrong: 4 };
 
 /// Runs the core of a recipe against what another expects.
 fn expect(built: &RasterRecipe, change: impl Fn(&mut RasterRecipe)) -> Check {
-    let film = Film::new(built, &script());
-    let trace = Driver::new(built, SLOW).run(&film.jobs(), 300, i64::MAX);
+    expect_of(built, &script(), SLOW, change)
+}
+
+fn expect_of(
+    built: &RasterRecipe,
+    script: &Script,
+    manner: Manner,
+    change: impl Fn(&mut RasterRecipe),
+) -> Check {
+    let film = Film::new(built, script);
+    let trace = Driver::new(built, manner).run(&film.jobs(), 300, i64::MAX);
     let mut expected = built.clone();
     change(&mut expected);
     let mut recipes = film.recipes.clone();
@@ -151,6 +162,83 @@ fn faults_of_a_store_outside_are_noticed() {
             assert!(expect(&built, |recipe| recipe.forward ^= true).is_err(), "forwarding");
         }
     }
+}
+
+/// Summaries, of which a slow sink loses some.
+fn with_summaries(pixels: i64) -> RasterRecipe {
+    let mut recipe = recipe(feature("variance", 0, 900_000));
+    (recipe.base.side, recipe.base.width, recipe.base.height) = (8, 31.max(16 * pixels - 3), 37);
+    recipe.base.last_sent = false;
+    recipe.base.periphery = Some(PeripheryRecipe { blocks: 2, level: 3 });
+    recipe.base.features[0].min_milli = 20_000;
+    recipe.pixels = pixels;
+    recipe
+}
+
+/// Flat and busy regions, some of which stay as they are.
+fn flat_script() -> Script {
+    use Content::{AlmostFlat, Noise, Nudge, Repeat, Touch};
+    let contents =
+        [AlmostFlat, Nudge, Repeat, Noise, AlmostFlat, Repeat, Touch, Repeat, AlmostFlat];
+    contents.into_iter().zip(5..).collect()
+}
+
+/// A sink that loses summaries.
+const SLOWER: Manner = Manner { sink: Sink::Turns(2000), ..SLOW };
+
+#[test]
+fn faults_of_summaries_are_noticed() {
+    let expect = |built: &RasterRecipe, change: fn(&mut RasterRecipe)| {
+        expect_of(built, &flat_script(), SLOWER, change)
+    };
+    for pixels in [1, 2, 4] {
+        let built = with_summaries(pixels);
+        assert_eq!(expect(&built, |_| {}), Ok(()));
+        let faults: [Fault; 10] = [
+            ("level", |recipe| recipe.base.periphery.as_mut().unwrap().level = 0),
+            ("blocks", |recipe| recipe.base.periphery.as_mut().unwrap().blocks = 1),
+            ("summaries of lost regions", |recipe| recipe.misread.keeps_reference = true),
+            ("ends of lost regions", |recipe| recipe.misread.endless = true),
+            ("numbers of frames", |recipe| recipe.misread.frame = 1),
+            ("resting", |recipe| recipe.misread.rest = 1),
+            ("buffer", |recipe| recipe.misread.rows = 1),
+            ("irrelevant", |recipe| recipe.base.periphery = None),
+            ("payload", |recipe| recipe.base.raw_payload = true),
+            ("reference", |recipe| recipe.base.last_sent = true),
+        ];
+        for (fault, spoil) in faults {
+            assert!(expect(&built, spoil).is_err(), "{fault} goes unnoticed, {pixels}");
+        }
+    }
+    let mut small = with_summaries(1);
+    small.base.height = 14;
+    assert_eq!(expect(&small, |_| {}), Ok(()));
+    assert!(expect(&small, |recipe| recipe.misread.never_waits = true).is_err(), "waiting");
+    // One mean, for which the readout rests.
+    let mut one = with_summaries(1);
+    one.base.periphery = Some(PeripheryRecipe { blocks: 1, level: 3 });
+    assert_eq!(expect(&one, |_| {}), Ok(()));
+    assert!(expect(&one, |recipe| recipe.misread.rest = -1).is_err(), "not resting");
+}
+
+/// Of a slow sink's losses some are summaries, before a word of them is fetched and in the middle.
+#[test]
+fn a_slow_sink_loses_summaries() {
+    let built = with_summaries(2);
+    let film = Film::new(&built, &flat_script());
+    let trace = Driver::new(&built, SLOWER).run(&film.jobs(), 300, i64::MAX);
+    let (mut frame, mut sent) = (0, BTreeSet::new());
+    let (mut lost, mut aborted) = (0, 0);
+    for shown in &trace.shown {
+        if shown.decision_valid {
+            frame += u32::from(shown.region == 0);
+            sent.extend(shown.summary.then_some((frame - 1, shown.region)));
+        }
+        let loss = (shown.lost_frame, shown.lost_region);
+        lost += usize::from(shown.lost_valid && sent.contains(&loss));
+        aborted += usize::from(shown.forward_valid && shown.forward_abort && shown.forward_summary);
+    }
+    assert!(sent.len() > 50 && lost > 10 && aborted > 0, "{} {lost} {aborted}", sent.len());
 }
 
 /// The controls and the properties are worth something only if these happen.

@@ -78,7 +78,6 @@ fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
     let (columns, regions) = (recipe.base.columns(), recipe.base.columns() * recipe.base.rows());
     let mut frames: Vec<Seen> = Vec::new();
     let mut waiting = VecDeque::new();
-    let last = (recipe.base.n() - recipe.pixels) as u32;
     for (edge, output) in shown.iter().enumerate() {
         if output.decision_valid {
             if output.region == 0 {
@@ -86,12 +85,18 @@ fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
             }
             let (frame, row) = (frames.len() - 1, (i64::from(output.region) / columns) as usize);
             let Seen { actions, rows } = &mut frames[frame];
-            actions.push(if output.active { Action::Forward } else { Action::Hold });
+            let action = match (output.active, output.summary) {
+                (true, _) => Action::Forward,
+                (false, true) => Action::Summarize,
+                (false, false) => Action::Hold,
+            };
+            actions.push(action);
             rows.resize(row + 1, RowDeparture { decided: 0, left: None });
             rows[row].decided = edge as u128;
-            waiting.extend((output.active && recipe.forward).then_some((frame, row)));
+            let leaves = output.active && recipe.forward || output.summary;
+            waiting.extend(leaves.then_some((frame, row)));
         }
-        if output.forward_valid && output.forward_position == last {
+        if output.forward_valid && output.forward_last {
             let (frame, row) = waiting.pop_front().unwrap();
             frames[frame].rows[row].left = Some(edge as u128);
         }
@@ -101,13 +106,23 @@ fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
     frames
 }
 
-/// Rows of regions that have been compared, and how many of them sent some of their regions, but not all.
-fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> (usize, usize) {
+/// Rows of regions that have been compared.
+#[derive(Debug, Default)]
+struct Rows {
+    compared: usize,
+    /// Those that sent the pixels of some of their regions, but nothing of others.
+    partly: usize,
+    /// Those that sent a summary.
+    with_summaries: usize,
+    /// Those that sent pixels, too.
+    mixed: usize,
+}
+
+fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace], rows: &mut Rows) {
     let sensor = sensor(recipe, film, paces);
     let seen = seen(recipe, &shown(recipe, sensor.words));
     assert_eq!(seen.len(), film.len());
     let mut stream = RasterStream::new(RasterTiming::of(recipe.design().raster().unwrap()), 1);
-    let (mut rows, mut partly) = (0, 0);
     for (seen, (begin, (word, _))) in seen.iter().zip(sensor.begins) {
         let of_row = word * recipe.taken_of_row() as u64;
         let read = |row: u32| {
@@ -115,13 +130,15 @@ fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> (usize, usize
             (begin.into(), (begin + of_row).into())
         };
         assert_eq!(stream.frame(read, &seen.actions), seen.rows, "{paces:?}, {recipe:?}");
-        rows += seen.rows.len();
-        let of_row = seen.actions.chunks(recipe.base.columns() as usize);
-        partly += of_row
-            .filter(|row| row.contains(&Action::Forward) && row.contains(&Action::Hold))
-            .count();
+        rows.compared += seen.rows.len();
+        for actions in seen.actions.chunks(recipe.base.columns() as usize) {
+            let has = |action| actions.contains(&action);
+            let (forwards, summarizes) = (has(Action::Forward), has(Action::Summarize));
+            rows.partly += usize::from(forwards && has(Action::Hold));
+            rows.with_summaries += usize::from(summarizes);
+            rows.mixed += usize::from(summarizes && forwards);
+        }
     }
-    (rows, partly)
 }
 
 /// Frames in which every other region, as chance has it, is another than in the frame before.
@@ -141,23 +158,43 @@ fn blinking(recipe: &RasterRecipe) -> Vec<Frame> {
     (0..4).map(frame).collect()
 }
 
-/// K of 1, 2 and 4, N of 2 to 8, ragged frames, with and without median, windows, second pass and pixels that leave,
-/// plain and deep; frames that come as fast as words can, and slower ones, with and without pauses. Regions are
-/// active by chance, or all of them.
+/// What leaves of a frame.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Leaving {
+    /// All regions.
+    All,
+    /// Regions by chance.
+    Some,
+    /// Regions and summaries by chance.
+    Mixed,
+}
+
+/// K of 1, 2 and 4, N of 2 to 8, ragged frames, with and without median, windows, second pass, summaries and pixels that
+/// leave, plain and deep; frames that come as fast as words can, and slower ones, with and without pauses.
 #[test]
 fn every_row_of_regions_leaves_when_the_design_says() {
-    let (mut rows, mut partly) = (0, 0);
-    for (number, least) in (0..56).flat_map(|number| [0, 1].map(|least| (number, least))) {
-        let mut recipe = recipe(number);
-        recipe.forward = number % 9 > 0 || recipe.base.last_sent;
-        recipe.base.temporal_min = least;
-        recipe.base.features.iter_mut().for_each(|feature| feature.min_milli = 0);
-        let film = if least == 0 { hard_frames(&recipe.base) } else { blinking(&recipe) };
-        for paces in [&[(1, 0)][..], &[(3, 0)], &[(1, 400), (7, 11), (2, 0)]] {
-            let (compared, sent) = check(&recipe, &film, paces);
-            (rows, partly) = (rows + compared, partly + sent);
+    let mut rows = Rows::default();
+    for number in 0..56 {
+        for leaving in [Leaving::All, Leaving::Some, Leaving::Mixed] {
+            let mut recipe = recipe(number);
+            let needs_pixels = recipe.base.last_sent || recipe.base.periphery.is_some();
+            recipe.forward = number % 9 > 0 || needs_pixels;
+            recipe.base.temporal_min = i64::from(leaving != Leaving::All);
+            if leaving != Leaving::Mixed {
+                recipe.base.features.iter_mut().for_each(|feature| feature.min_milli = 0);
+            } else if recipe.base.periphery.is_none() {
+                continue;
+            }
+            let film = match leaving {
+                Leaving::All => hard_frames(&recipe.base),
+                Leaving::Some | Leaving::Mixed => blinking(&recipe),
+            };
+            for paces in [&[(1, 0)][..], &[(3, 0)], &[(1, 400), (7, 11), (2, 0)]] {
+                check(&recipe, &film, paces, &mut rows);
+            }
         }
     }
-    // Enough of both kinds: the queue has something to do, and something to leave out.
-    assert!(rows > 3_000 && partly > 1_000, "{rows} {partly}");
+    // Enough of all kinds: the queue has something to do, and something to leave out.
+    assert!(rows.compared > 4_000 && rows.partly > 1_000, "{rows:?}");
+    assert!(rows.with_summaries > 300 && rows.mixed > 50, "{rows:?}");
 }

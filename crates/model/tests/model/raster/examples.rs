@@ -8,7 +8,7 @@ use foveate_design::{Config, Design, RasterTiming};
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
 /// A design with one feature, all of whose regions are active in every frame.
-fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
+pub(super) fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
     let toml = format!(
         "[frame]\nwidth = {}\nheight = {}\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
          [[spatial]]\nfeature = \"{feature}\"\nmin_score = 0\n[temporal]\nmin_count = 0\n\
@@ -20,7 +20,11 @@ fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
 
 /// The outputs after every edge up to `last` while one frame of ones is applied as fast as it is taken; `sink`
 /// says at which edges it is ready.
-fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<RasterOutput> {
+pub(super) fn play(
+    design: &Design,
+    last: usize,
+    sink: impl Fn(usize) -> bool,
+) -> Vec<RasterOutput> {
     let mut rcm = RasterRcm::new(design.raster().unwrap());
     let ones = vec![1; design.raster().unwrap().pixels_per_clock() as usize];
     let thresholds = Thresholds::of(design);
@@ -46,16 +50,16 @@ fn play(design: &Design, last: usize, sink: impl Fn(usize) -> bool) -> Vec<Raste
     outputs
 }
 
-fn edges(outputs: &[RasterOutput], which: impl Fn(&RasterOutput) -> bool) -> Vec<usize> {
+pub(super) fn edges(outputs: &[RasterOutput], which: impl Fn(&RasterOutput) -> bool) -> Vec<usize> {
     (0..outputs.len()).filter(|&edge| which(&outputs[edge])).collect()
 }
 
-fn list(edges: RangeInclusive<usize>) -> Vec<usize> {
+pub(super) fn list(edges: RangeInclusive<usize>) -> Vec<usize> {
     edges.collect()
 }
 
 /// Edges and regions of decisions.
-fn decisions(outputs: &[RasterOutput]) -> Vec<(usize, u32)> {
+pub(super) fn decisions(outputs: &[RasterOutput]) -> Vec<(usize, u32)> {
     let edges = edges(outputs, |output| output.decision_valid);
     edges.into_iter().map(|edge| (edge, outputs[edge].region)).collect()
 }

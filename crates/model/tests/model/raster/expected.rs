@@ -45,7 +45,7 @@ impl<'a> Oracle<'a> {
             trace,
             history: Vec::new(),
             decisions: BTreeMap::new(),
-            readings: Readings::new(recipe.region_words(), recipe.deep, recipe.misread.rest),
+            readings: Readings::new(recipe.deep, recipe.misread.rest),
             streams: Streams::default(),
             begun: Vec::new(),
             ready: vec![false; trace.shown.len()],
@@ -170,10 +170,15 @@ impl<'a> Oracle<'a> {
         let Some(&(frame, region)) = self.decisions.get(&edge) else { return Ok(()) };
         let (before, from) = self.history.split_at(frame);
         let trusts = !self.recipe.is_outside() || self.recipe.misread.trusts;
-        let compared = if trusts { before } else { self.streams.history(frame) };
-        let seen = look_at_region(&recipes[frame].base, compared, &from[0], region);
-        if seen.active && self.recipe.forward {
-            self.readings.enter(frame, region, edge);
+        let kept = if trusts { before } else { self.streams.history(frame) };
+        let seen = look_at_region(&recipes[frame].base, (before, kept), &from[0], region);
+        let words = match seen.action {
+            "forward" if self.recipe.forward => self.recipe.region_words(),
+            "summarize" => seen.means.len() as i64,
+            _ => 0,
+        };
+        if words > 0 {
+            self.readings.enter(frame, region, words, edge);
         }
         self.history[frame].regions.push(seen);
         if self.history[frame].regions.len() as i64 != region + 1 {
@@ -223,10 +228,10 @@ impl<'a> Oracle<'a> {
     }
 
     fn compare_decision(&self, edge: i64, got: &RasterOutput) -> Check {
-        let bits = (got.srs, got.trs, got.active);
+        let bits = [got.srs, got.trs, got.active, got.summary];
         let Some(&(frame, region)) = self.decisions.get(&edge) else {
             return match (got.decision_valid, bits) {
-                (false, (false, false, false)) => Ok(()),
+                (false, [false, false, false, false]) => Ok(()),
                 _ => Err(format!("a decision of region {} after edge {edge}", got.region)),
             };
         };
@@ -234,7 +239,7 @@ impl<'a> Oracle<'a> {
         let scores = seen.scores.iter().map(|&score| score as u64);
         let agrees = got.decision_valid
             && i64::from(got.region) == region
-            && bits == (seen.srs, seen.trs, seen.active)
+            && bits == [seen.srs, seen.trs, seen.active, seen.action == "summarize"]
             && i64::from(got.temporal_count) == seen.temporal_count
             && scores.eq(got.scores.into_iter().take(seen.scores.len()));
         agrees.then_some(()).ok_or_else(|| {
@@ -252,15 +257,22 @@ impl<'a> Oracle<'a> {
             };
         };
         let reading = &self.readings.all[reading];
-        let position = word * self.recipe.pixels;
         let seen = &self.history[reading.frame].regions[reading.region as usize];
-        let pixels = &seen.payload[position as usize..][..self.recipe.pixels as usize];
+        let is_mean = seen.action == "summarize";
+        let (position, pixels) = if is_mean {
+            let position = self.recipe.first_of_block(word);
+            (position, vec![seen.means[word as usize]; self.recipe.pixels as usize])
+        } else {
+            let position = word * self.recipe.pixels;
+            (position, seen.payload[position as usize..][..self.recipe.pixels as usize].to_vec())
+        };
         let ends = !self.recipe.misread.endless;
-        let whole = word + 1 == self.recipe.region_words();
+        let whole = word + 1 == reading.words;
         let flags =
             (word == 0, whole || ends && reading.is_abort(word), reading.is_abort(word) && ends);
         let agrees = got.forward_valid
             && (got.forward_first, got.forward_last, got.forward_abort) == flags
+            && got.forward_summary == is_mean
             && i64::from(got.forward_frame) == self.number(reading.frame)
             && i64::from(got.forward_region) == reading.region
             && i64::from(got.forward_position) == position

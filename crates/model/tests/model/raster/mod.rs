@@ -14,3 +14,4 @@ mod reading;
 mod recipe;
 mod stores;
 mod streams;
+mod summaries;

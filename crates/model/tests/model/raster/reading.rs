@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The readout of `docs/raster.md`, looked up edge by edge in the complete history of what was read.
 
-/// An active region: what happened to it, by edge.
+/// A region that leaves: what happened to it, by edge.
 #[derive(Clone, Debug)]
 pub(crate) struct Reading {
     pub(crate) frame: usize,
     pub(crate) region: i64,
+    pub(crate) words: i64,
     /// The edge after which its decision stands on the ports.
     decided: i64,
     /// The edge from which on it is stale, once that is known.
@@ -16,6 +17,15 @@ pub(crate) struct Reading {
 }
 
 impl Reading {
+    fn is_fetched(&self) -> bool {
+        self.fetched.len() as i64 == self.words
+    }
+
+    fn is_held_before(&self, edge: i64) -> bool {
+        let is_held = self.held.is_some_and(|held| held < edge);
+        is_held && self.lost.is_none() && !self.is_fetched()
+    }
+
     /// Whether that word ends the region because it was lost: it is the last that was fetched.
     pub(crate) fn is_abort(&self, word: i64) -> bool {
         self.lost.is_some() && word + 1 == self.fetched.len() as i64
@@ -28,7 +38,6 @@ pub(crate) type Word = (usize, i64);
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Readings {
     pub(crate) all: Vec<Reading>,
-    words: i64,
     /// Edges from one holding to the next, at least.
     rest: i64,
     /// Edges from entering the queue to holding, at least.
@@ -42,29 +51,24 @@ pub(crate) struct Readings {
 }
 
 impl Readings {
-    /// For regions of so many words. `wrong` is by how many clocks resting is misread.
-    pub(crate) fn new(words: i64, deep: bool, wrong: i64) -> Self {
+    /// `wrong` is by how many clocks resting is misread.
+    pub(crate) fn new(deep: bool, wrong: i64) -> Self {
         let (rest, wait) = (2 + wrong, if deep { 3 } else { 2 } + wrong);
-        Self { words, rest, wait, shown: vec![None], lost: vec![0], ..Self::default() }
+        Self { rest, wait, shown: vec![None], lost: vec![0], ..Self::default() }
     }
 
-    /// A region is active; its decision is on the ports after that edge.
-    pub(crate) fn enter(&mut self, frame: usize, region: i64, decided: i64) {
+    /// So many words of a region leave; its decision is on the ports after that edge.
+    pub(crate) fn enter(&mut self, frame: usize, region: i64, words: i64, decided: i64) {
         let (held, fetched) = (None, Vec::new());
-        let lost = None;
-        self.all.push(Reading { frame, region, decided, stale: i64::MAX, held, fetched, lost });
-    }
-
-    fn is_held_before(&self, reading: &Reading, edge: i64) -> bool {
-        let is_over = reading.fetched.len() as i64 == self.words;
-        reading.held.is_some_and(|held| held < edge) && reading.lost.is_none() && !is_over
+        let (stale, lost) = (i64::MAX, None);
+        self.all.push(Reading { frame, region, words, decided, stale, held, fetched, lost });
     }
 
     /// The next edge.
     pub(crate) fn edge(&mut self, edge: i64, sink: bool) {
         let before = self.shown[edge as usize - 1];
         let steps = before.is_none() || sink;
-        let held = self.all.iter().position(|reading| self.is_held_before(reading, edge));
+        let held = self.all.iter().position(|reading| reading.is_held_before(edge));
         let mut may_hold = held.is_none();
         let mut fetched = None;
         if let Some(number) = held {
@@ -74,7 +78,7 @@ impl Readings {
             } else if steps {
                 fetched = Some((number, reading.fetched.len() as i64));
                 reading.fetched.push(edge);
-                may_hold = reading.fetched.len() as i64 == self.words;
+                may_hold = reading.is_fetched();
             }
         }
         if may_hold {
@@ -111,10 +115,8 @@ impl Readings {
 
     /// Whether a region is pending after that edge, the last that was looked at.
     pub(crate) fn is_pending(&self) -> bool {
-        let left = |reading: &&Reading| {
-            reading.lost.is_none() && (reading.fetched.len() as i64) < self.words
-        };
         let is_shown = self.shown.last().is_some_and(Option::is_some);
-        self.all.iter().any(|reading| left(&reading)) || self.fetched.is_some() || is_shown
+        let is_left = |reading: &Reading| reading.lost.is_none() && !reading.is_fetched();
+        self.all.iter().any(is_left) || self.fetched.is_some() || is_shown
     }
 }

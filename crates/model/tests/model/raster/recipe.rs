@@ -33,7 +33,7 @@ pub(crate) struct Misread {
     pub(crate) rest: i64,
     /// Rows of the buffer, B.
     pub(crate) rows: i64,
-    /// A region that was lost keeps its reference.
+    /// A region that was lost keeps its reference, and its summary.
     pub(crate) keeps_reference: bool,
     /// The edge at which a reference is taken.
     pub(crate) taken: i64,
@@ -146,6 +146,17 @@ impl RasterRecipe {
         self.base.n() / self.pixels
     }
 
+    /// The position of the first pixel that lies in a block.
+    pub(crate) fn first_of_block(&self, number: i64) -> i64 {
+        let blocks = self.base.periphery.unwrap().blocks;
+        let block = |at: i64, of: i64| at % of * blocks / of;
+        let (row, column) = (number / blocks, number % blocks);
+        let side = self.base.side;
+        (0..self.base.n())
+            .find(|&at| (block(at / side, side), block(at, side)) == (row, column))
+            .unwrap()
+    }
+
     /// B.
     pub(crate) fn buffer_rows(&self) -> i64 {
         self.misread.rows + if self.has_mad() { 3 } else { 2 }
@@ -153,7 +164,8 @@ impl RasterRecipe {
 
     pub(crate) fn waits(&self) -> bool {
         let is_small = self.base.rows() <= self.buffer_rows();
-        self.base.last_sent && is_small && !self.misread.never_waits
+        let compares = self.base.last_sent || self.base.periphery.is_some();
+        compares && is_small && !self.misread.never_waits
     }
 
     /// Whether advance `a` takes a word.
@@ -179,9 +191,10 @@ pub(crate) fn raster_recipes() -> impl Strategy<Value = RasterRecipe> {
     let built = (any::<bool>(), stores, select(vec![true, true, false]));
     (recipes_of(sides), select(vec![1i64, 2, 4]), built, size).prop_map(
         |(mut base, pixels, (deep, store, forward), (wide, high, more))| {
-            base.periphery = None;
             let side = base.side;
-            let pixels = if side % pixels == 0 { pixels } else { 1 };
+            let block = base.periphery.map_or(side, |periphery| side / periphery.blocks);
+            let pixels = if block % pixels == 0 { pixels } else { 2 - block % 2 };
+            let forward = forward || base.periphery.is_some();
             let columns = 4.max((16 * pixels + side - 1) / side) + more;
             base.width = (columns - 1) * side + 1 + wide % side;
             // Up to five rows of regions.
