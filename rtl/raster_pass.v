@@ -67,13 +67,13 @@ module raster_pass #(
     end
 
     wire [POSITION_BITS-1:0] unused_position;
-    wire unused_segment_end;
+    wire unused_segment_end, unused_mean;
     raster_walk #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
         .PLACE_BITS(PLACE_BITS)
     ) u_walk (
         .clk_i(clk_i), .begin_i(take), .start_i(oldest[MEAN_BITS+:PLACE_BITS]), .step_i(reading_q),
-        .place_o(place_o), .position_o(unused_position), .first_o(first), .segment_end_o(unused_segment_end),
+        .means_i(1'b0), .mean_o(unused_mean), .place_o(place_o), .position_o(unused_position), .first_o(first), .segment_end_o(unused_segment_end),
         .last_o(last)
     );
     assign read_o = reading_q;

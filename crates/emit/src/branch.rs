@@ -45,6 +45,7 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
         ("raster_core", "raster_ring") => design.forwards() || scored(),
         ("raster_core", "raster_forward") => design.forwards(),
         ("raster_core", "raster_line") => design.forwards() && design.keeps_raw() && window(),
+        ("raster_core", "raster_summary") => design.periphery().is_some(),
         ("raster_decision", "raster_valid") => marks_regions(&design),
         ("raster_store", "raster_pairs") => design.store() == Store::SinglePort,
         ("raster_store", "raster_ring") => design.store() != Store::SinglePort,

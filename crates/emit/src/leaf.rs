@@ -105,13 +105,17 @@ leaves! {
     "raster_readout" => ["raster_queue", "raster_walk"],
     "raster_moments" => ["raster_sums", "raster_variance"],
     "raster_deviation" => ["region_mean", "word_delay", "bit_delay", "raster_start", "raster_pass", "raster_memory"],
+    "raster_blocks" => [],
+    "raster_summary" => [
+        "raster_blocks", "adder", "magnitude_above", "raster_memory", "word_delay", "bit_delay"
+    ],
     "raster_decision" => ["vote", "word_delay", "bit_delay", "raster_valid"],
     "raster_forward" => ["raster_start", "raster_readout", "raster_memory"],
     "raster_core" => [
         "raster_control", "raster_pad", "bit_delay", "word_delay", "raster_window", "median_columns",
         "raster_edge", "raster_corner", "raster_store", "raster_external", "raster_change", "raster_counts",
         "raster_moments", "raster_ring", "raster_deviation", "raster_decision", "raster_forward", "raster_line",
-        "raster_repeat"
+        "raster_repeat", "raster_summary"
     ],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",

@@ -39,7 +39,7 @@ struct Raster {
     /// Minima and scores, those of the last feature first.
     minima: Vec<String>,
     scores: Vec<String>,
-    /// The ports of the core to a frame store outside and for pixels that leave, and what they are connected to.
+    /// The ports of the core to a frame store outside and for what leaves, and what they are connected to.
     streams: Vec<(&'static str, String)>,
     sync: Option<Sync>,
     valid: &'static str,
@@ -156,6 +156,7 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
     }
     let (region, frame) = ("[$clog2(COLUMNS*ROWS)-1:0]".to_owned(), FRAME_NUMBERS.ilog2());
     for (name, range) in [
+        ("summary_o", String::new()),
         ("reference_ready_o", String::new()),
         ("store_valid_o", String::new()),
         ("store_pixel_o", bits(word)),
@@ -169,6 +170,7 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
         ("forward_last_o", String::new()),
         ("forward_abort_o", String::new()),
         ("forward_frame_o", bits(frame)),
+        ("forward_summary_o", String::new()),
         ("lost_o", String::new()),
         ("lost_count_o", bits(16)),
         ("lost_valid_o", String::new()),
@@ -246,6 +248,16 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
             wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
         }
     }
+    if let Some(periphery) = design.periphery() {
+        let factor = periphery.reciprocal.multiplier();
+        list.extend([
+            ("BLOCKS", periphery.blocks),
+            ("BLOCK_SUM_BITS", periphery.sum_bits),
+            ("BLOCK_FACTOR_BITS", bits_for(factor)),
+            ("BLOCK_SHIFT", periphery.reciprocal.shift()),
+        ]);
+        wide.push(("BLOCK_FACTOR", format!("{}'d{factor}", bits_for(factor))));
+    }
     let list = list.into_iter().map(|(name, value)| (name, value.to_string()));
     list.chain(wide).collect()
 }
@@ -300,7 +312,12 @@ fn store(design: RasterDesign<'_>) -> u32 {
 /// What is connected to the inputs of the core for the levels of pixels.
 fn levels(design: RasterDesign<'_>) -> Vec<(String, String)> {
     let temporal = signal(&design, PortRole::TemporalLevel);
-    let mut list = vec![("temporal_level_i".to_owned(), temporal)];
+    let summary = match design.periphery() {
+        Some(_) => signal(&design, PortRole::SummaryLevel),
+        None => format!("{}'d0", design.pixel_bits()),
+    };
+    let mut list =
+        vec![("temporal_level_i".to_owned(), temporal), ("summary_level_i".to_owned(), summary)];
     for &kind in FeatureKind::ALL {
         if let Some(width) = level_bits(design, kind) {
             let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));

@@ -163,7 +163,7 @@ impl Sizes {
             RasterMemory {
                 holds: "sums of blocks, and whether their means differ",
                 words: self.columns * side,
-                bits: periphery.sum_bits + 1,
+                bits: periphery.sum_bits + u32::from(periphery.blocks > 1),
             },
             RasterMemory {
                 holds: "means that may leave",
@@ -176,7 +176,7 @@ impl Sizes {
                 bits: pixel,
             },
             shown("which regions show a summary, by decisions"),
-            shown("which regions show a summary, by losses"),
+            shown("which regions sent one that was lost"),
         ]
     }
 
@@ -196,10 +196,10 @@ impl Sizes {
             Written::WithEveryFrame => 0,
             Written::WhenSent => index_bits(self.timing.words()) + 1,
         };
-        // Where its means are, whether they are meant, and what a loss writes.
+        // Where its means are, and whether they are meant.
         let summary = match design.periphery() {
             None => 0,
-            Some(_) => index_bits(self.columns) + 2,
+            Some(_) => index_bits(self.columns) + 1,
         };
         let mut list = Vec::new();
         if design.forwards() {
@@ -219,7 +219,7 @@ impl Sizes {
             SummedUp::Squares(_) => feature.score_bits(),
         };
         let judged = design.count_bits() + design.features().iter().map(bits).sum::<u32>();
-        let judged = judged + u32::from(design.periphery().is_some());
+        let judged = judged + 2 * u32::from(design.periphery().is_some());
         list.extend(design.features().iter().filter_map(|feature| match SummedUp::of(feature) {
             SummedUp::Hits | SummedUp::Squares(_) => None,
             SummedUp::Deviations(mean) => Some(queue(

@@ -136,10 +136,10 @@ fn memories_of_means() {
     let plain = of(&[]);
     let (queue, others) = plain.split_last().unwrap();
     let means = [(16, 13), (8 * 2 * 4, 8), (64 * 4, 8), (64, 1), (64, 1)];
-    assert_eq!(of(&[MEAN]), [others, &[(queue.0, queue.1 + 5)], &means].concat());
+    assert_eq!(of(&[MEAN]), [others, &[(queue.0, queue.1 + 4)], &means].concat());
     let mad = "spatial=[{feature=\"mad\"}]";
     let (with, without) = (of(&[MEAN, mad]), of(&[mad]));
-    assert_eq!(with[without.len() - 1], (32, without.last().unwrap().1 + 1));
+    assert_eq!(with[without.len() - 1], (32, without.last().unwrap().1 + 2));
     assert_eq!(with[without.len()..], [(16, 13), (8 * 4 * 4, 8), (64 * 4, 8), (64, 1), (64, 1)]);
 }
 
