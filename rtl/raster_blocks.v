@@ -28,9 +28,9 @@ module raster_blocks #(
 
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
-        if (BLOCKS != 1 && BLOCKS != 2 && BLOCKS != 4) begin : g_blocks BLOCKS_must_be_1_2_or_4 u_refused (); end
-        if (SIDE % (BLOCKS * LANES) != 0) begin : g_words a_block_must_have_whole_words u_refused (); end
-        if (COLUMN_BITS != $clog2(COLUMNS * BLOCKS)) begin : g_column_bits
+        if (BLOCKS != 1 && BLOCKS != 2 && BLOCKS != 4) begin : g_blocks_limit BLOCKS_must_be_1_2_or_4 u_refused (); end
+        if (SIDE % (BLOCKS * LANES) != 0) begin : g_words_limit a_block_must_have_whole_words u_refused (); end
+        if (COLUMN_BITS != $clog2(COLUMNS * BLOCKS)) begin : g_column_bits_limit
             COLUMN_BITS_must_be_clog2_of_the_blocks_of_a_row u_refused ();
         end
     endgenerate
