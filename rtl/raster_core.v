@@ -533,7 +533,7 @@ module raster_core #(
 
             // The means of regions that send them.
             wire mean_valid, sent, done_sending, done_lost;
-            wire [REGION_COLUMN_BITS-1:0] mean_column;
+            wire [REGION_COLUMN_BITS-1:0] mean_region;
             wire [1:0] mean_row;
             wire [NUMBER_BITS-1:0] mean_number, sent_number;
             wire [WIDTH-1:0] mean, sent_mean;
@@ -547,7 +547,7 @@ module raster_core #(
                 ) u_summary (
                     .clk_i(clk_i), .rst_i(rst_i), .step_i(arriving_step), .row_end_i(store_row_end),
                     .word_i(RAW ? stored_raw : center), .level_i(summary_level_i), .mean_valid_o(mean_valid),
-                    .mean_column_o(mean_column), .mean_row_o(mean_row), .mean_number_o(mean_number), .mean_o(mean),
+                    .mean_region_o(mean_region), .mean_row_o(mean_row), .mean_number_o(mean_number), .mean_o(mean),
                     .differs_o(differs), .shown_o(shown), .decided_i(decided), .decided_region_i(decided_region),
                     .decided_shown_i(will_be_shown), .done_i(done_sending), .done_lost_i(done_lost),
                     .done_region_i(done_region), .sent_i(sent), .sent_region_i(sent_region), .sent_number_i(sent_number),
@@ -556,7 +556,7 @@ module raster_core #(
             end else begin : g_no_summary
                 wire unused_sent = |summary_level_i || sent || |sent_region || |sent_number || |sent_mean || done_sending
                                    || done_lost || |done_region || |decided_region || will_be_shown;
-                assign {mean_valid, mean_column, mean_row, mean_number, mean, differs, shown} =
+                assign {mean_valid, mean_region, mean_row, mean_number, mean, differs, shown} =
                     {(5 + REGION_COLUMN_BITS + NUMBER_BITS + WIDTH) {1'b0}};
             end
 
@@ -571,7 +571,7 @@ module raster_core #(
                 .raw_i(stored_raw), .arriving_i(arriving_step), .rows_end_i(store_row_end && store_region_bottom),
                 .decision_i(decision_valid_o), .active_i(active_o), .region_i(region_o), .last_region_i(last_region),
                 .mark_i(mark), .summary_i(summary_o), .mean_valid_i(mean_valid),
-                .mean_column_i(mean_column), .mean_row_i(mean_row), .mean_number_i(mean_number), .mean_i(mean),
+                .mean_region_i(mean_region), .mean_row_i(mean_row), .mean_number_i(mean_number), .mean_i(mean),
                 .ready_i(forward_ready_i), .valid_o(forward_valid_o), .region_o(forward_region_o),
                 .position_o(forward_position_o), .pixel_o(forward_pixel_o), .first_o(forward_first_o),
                 .last_o(forward_last_o), .abort_o(forward_abort_o), .frame_o(forward_frame_o), .summary_o(forward_summary_o), .lost_o(lost_o),

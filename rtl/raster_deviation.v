@@ -63,13 +63,11 @@ module raster_deviation #(
     wire [START_BITS-1:0] start;
     wire [2:0] unused_row;
     wire unused_place;
-    wire [$clog2(COLUMNS)-1:0] unused_column;
     raster_start #(
         .COLUMNS(COLUMNS), .ROWS(ROWS), .SEGMENT(SEGMENT), .SIDE(SIDE), .BANKS(BANKS), .START_BITS(START_BITS),
         .PLACE_BITS(1)
     ) u_start (
-        .clk_i(clk_i), .rst_i(rst_i), .step_i(enter), .row_o(unused_row), .start_o(start), .place_o(unused_place),
-        .column_o(unused_column)
+        .clk_i(clk_i), .rst_i(rst_i), .step_i(enter), .row_o(unused_row), .start_o(start), .place_o(unused_place)
     );
 
     wire read;

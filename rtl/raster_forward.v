@@ -40,7 +40,7 @@ module raster_forward #(
     input  wire                     mark_i,                   // travels with it
     input  wire                     summary_i,                // its means leave (BLOCKS)
     input  wire                     mean_valid_i,             // a mean is stored at this edge (BLOCKS)
-    input  wire [  COLUMN_BITS-1:0] mean_column_i,            // the column of regions that it is in
+    input  wire [  COLUMN_BITS-1:0] mean_region_i,            // low bits of the region that it is in
     input  wire [              1:0] mean_row_i,               // the row of regions, modulo 4
     input  wire [    MEAN_BITS-1:0] mean_number_i,            // number of its block in the region
     input  wire [WORD_BITS/LANES-1:0] mean_i,                 // that mean
@@ -82,7 +82,7 @@ module raster_forward #(
     // it until the region is held or lost, so that the others are known.
     localparam LOW_BITS = ROWS < BANKS ? 2 : 1;
     localparam PIXEL_BITS = LOW_BITS + (LAST_SENT ? PLACE_BITS + 1 : 0);
-    localparam EXTRA_BITS = PIXEL_BITS + (BLOCKS > 0 ? COLUMN_BITS + 1 : 0);
+    localparam EXTRA_BITS = PIXEL_BITS + (BLOCKS > 0 ? 1 : 0);
 
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
@@ -107,7 +107,6 @@ module raster_forward #(
     wire [2:0] decided_row;
     wire [START_BITS-1:0] decided_start;
     wire [FRAME_PLACE_BITS-1:0] decided_place;
-    wire [COLUMN_BITS-1:0] decided_column;
     wire [EXTRA_BITS-1:0] entered_extra, lost_extra, held_extra;
 
     raster_start #(
@@ -115,7 +114,7 @@ module raster_forward #(
         .FRAME(LAST_SENT), .PLACE_BITS(FRAME_PLACE_BITS)
     ) u_start (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(decision_i), .row_o(decided_row), .start_o(decided_start),
-        .place_o(decided_place), .column_o(decided_column)
+        .place_o(decided_place)
     );
 
     // Of which frame the region is that is decided, and the one that is held or was lost.
@@ -210,16 +209,16 @@ module raster_forward #(
         end
     endgenerate
 
-    // The means, in order of columns, so that the buffer has as many as are needed. On the port either register stays
-    // where it is, and the word is chosen behind them: what a memory has read comes late in a clock.
+    // The means; the low bits of its number tell regions of a row apart. A word is chosen behind the registers: what a memory
+    // has read comes late in a clock.
     generate
         if (BLOCKS > 0) begin : g_means
             localparam WIDTH = WORD_BITS / LANES;
             localparam ROW_BITS = BANKS > 2 ? 2 : 1;
-            localparam MEANS = COLUMNS * (BLOCKS * BLOCKS << ROW_BITS);
+            localparam MEANS = BLOCKS * BLOCKS << (ROW_BITS + COLUMN_BITS);
             localparam AT_BITS = $clog2(MEANS);
-            wire [COLUMN_BITS+ROW_BITS+MEAN_BITS-1:0] stored_at = {mean_column_i, mean_row_i[ROW_BITS-1:0], mean_number_i};
-            wire [COLUMN_BITS+ROW_BITS+MEAN_BITS-1:0] fetched_at = {held_extra[PIXEL_BITS+:COLUMN_BITS], held_row[ROW_BITS-1:0], fetch_mean};
+            wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] stored_at = {mean_row_i[ROW_BITS-1:0], mean_region_i, mean_number_i};
+            wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] fetched_at = {held_row[ROW_BITS-1:0], lost_region_o[COLUMN_BITS-1:0], fetch_mean};
             // With one block there is no number of a mean.
             wire unused_bits = |mean_row_i || |held_row || stored_at[0] || fetched_at[0];
             localparam LOWEST = BLOCKS == 1 ? MEAN_BITS : 0;
@@ -236,15 +235,15 @@ module raster_forward #(
                 .read_i(fetch), .read_address_i(fetched_at[LOWEST+:AT_BITS]), .data_o(sent_mean_o)
             );
             assign pixel_o = summary_o ? {LANES{mean_q}} : pixel_q;
-            assign entered_extra[EXTRA_BITS-1:PIXEL_BITS] = {summary_i, decided_column};
+            assign entered_extra[EXTRA_BITS-1] = summary_i;
             // A region that was lost is held no more a clock later, and its number is still there.
             assign done_o = fetch_last || lost_valid_o;
             assign done_lost_o = lost_valid_o;
             assign done_region_o = lost_region_o;
             assign {sent_o, sent_number_o} = {sent_q, number_q};
         end else begin : g_pixels
-            wire unused_means = mean_valid_i || |mean_column_i || |mean_row_i || |mean_number_i || |mean_i || |fetch_mean || |held_row
-                                || |decided_column || fetch_last;
+            wire unused_means = mean_valid_i || |mean_region_i || |mean_row_i || |mean_number_i || |mean_i || |fetch_mean || |held_row
+                                || fetch_last;
             assign pixel_o = pixel_q;
             assign {done_o, done_lost_o, done_region_o} = {(2 + REGION_BITS) {1'b0}};
             assign sent_o = 1'b0;

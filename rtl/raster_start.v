@@ -17,8 +17,7 @@ module raster_start #(
     input  wire                  step_i,   // the next region is next
     output reg  [           2:0] row_o,    // row of regions of this one, modulo 8, counted through all frames
     output reg  [START_BITS-1:0] start_o,  // where in the buffer its first word is
-    output wire [PLACE_BITS-1:0] place_o,  // ... in the frame (FRAME)
-    output wire [$clog2(COLUMNS)-1:0] column_o  // its column of regions
+    output wire [PLACE_BITS-1:0] place_o   // ... in the frame (FRAME)
 );
 
     localparam COLUMN_BITS = $clog2(COLUMNS);
@@ -31,7 +30,6 @@ module raster_start #(
     reg [COLUMN_BITS-1:0] column_q;
     reg last_column_q;
 
-    assign column_o = column_q;
     always @(posedge clk_i) begin
         if (step_i) begin
             column_q      <= last_column_q ? {COLUMN_BITS{1'b0}} : column_q + 1'b1;

@@ -5,7 +5,7 @@
 // A sum is under way in a register while the words of a row of a block come; between these rows it waits in a memory with
 // a word for every column of blocks. Half of a block's pixels are in it from its first row on, so that the mean is
 // floor(sum / pixels), a multiplication and a shift that are exact for every sum that can occur. Beside the sum waits
-// whether a mean of that column in the region differs.
+// whether a mean of that column of the region differs.
 `default_nettype none
 
 module raster_summary #(
@@ -31,7 +31,7 @@ module raster_summary #(
     input  wire [LANES*WIDTH-1:0] word_i,          // the word, a clock later
     input  wire [      WIDTH-1:0] level_i,         // a mean that differs by more is sent again
     output wire                   mean_valid_o,    // a block is complete
-    output wire [COLUMN_BITS-1:0] mean_column_o,   // the column of regions that it is in
+    output wire [COLUMN_BITS-1:0] mean_region_o,   // low bits of the region that it is in
     output wire [            1:0] mean_row_o,      // the row of regions, modulo 4
     output wire [  MEAN_BITS-1:0] mean_number_o,   // its number in the region
     output wire [      WIDTH-1:0] mean_o,          // its mean
@@ -64,7 +64,7 @@ module raster_summary #(
     localparam BLOCK = SIDE / BLOCKS;
     localparam HALF = BLOCK * BLOCK / 2;
     localparam SIDE_BITS = $clog2(BLOCKS);               // of the number of a column of blocks in a region
-    localparam PLACE_BITS = $clog2(COLUMNS * BLOCKS);    // ... in the frame
+    localparam PLACE_BITS = COLUMN_BITS + SIDE_BITS;     // ... in the frame
     localparam MEANS = BLOCKS * BLOCKS;
     localparam SENT_BITS = $clog2(REGIONS * MEANS);
     localparam MARKS = BLOCKS > 1 ? 1 : 0;               // bits beside a sum
@@ -73,18 +73,18 @@ module raster_summary #(
     integer lane;
 
     // ---- The place of a word, a clock before it is there
+    // The low bits of its number tell regions of a row apart.
     wire start, ends, upper, lower;
-    wire [1:0] line;
+    wire [1:0] line, column;
     wire [PLACE_BITS-1:0] place;
     wire [REGION_BITS-1:0] region;
     wire [1:0] row;
     wire frame_end;
     raster_blocks #(
-        .LANES(LANES), .SIDE(SIDE), .BLOCKS(BLOCKS), .COLUMNS(COLUMNS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS),
-        .COLUMN_BITS(PLACE_BITS)
+        .LANES(LANES), .SIDE(SIDE), .BLOCKS(BLOCKS), .COLUMNS(COLUMNS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS)
     ) u_place (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .row_end_i(row_end_i), .start_o(start), .end_o(ends),
-        .upper_o(upper), .lower_o(lower), .line_o(line), .column_o(place), .region_o(region), .row_o(row),
+        .upper_o(upper), .lower_o(lower), .column_o(column), .line_o(line), .region_o(region), .row_o(row),
         .frame_end_o(frame_end)
     );
     wire [MEAN_BITS-1:0] number;
@@ -92,14 +92,16 @@ module raster_summary #(
     generate
         if (BLOCKS == 1) begin : g_one_number
             assign number = 1'b0;
+            assign place = region[COLUMN_BITS-1:0];
             assign sent_place = region;
             assign given_place = sent_region_i;
-            wire unused_numbers = |line || |sent_number_i;
+            wire unused_numbers = |line || |column || |sent_number_i;
         end else begin : g_number
             localparam BOTH = REGION_BITS + MEAN_BITS;
             wire [BOTH-1:0] sent_at = {region, number};
             wire [BOTH-1:0] given_at = {sent_region_i, sent_number_i};
-            assign number = {line[SIDE_BITS-1:0], place[SIDE_BITS-1:0]};
+            assign number = {line[SIDE_BITS-1:0], column[SIDE_BITS-1:0]};
+            assign place = {region[COLUMN_BITS-1:0], column[SIDE_BITS-1:0]};
             assign sent_place = sent_at[SENT_BITS-1:0];
             assign given_place = given_at[SENT_BITS-1:0];
         end
@@ -148,7 +150,7 @@ module raster_summary #(
         .clk_i(clk_i), .data_i({place, row, number}), .data_o({mean_place, mean_row_o, mean_number_o})
     );
     assign mean_valid_o = complete;
-    assign mean_column_o = mean_place[SIDE_BITS+:COLUMN_BITS];
+    assign mean_region_o = mean_place[SIDE_BITS+:COLUMN_BITS];
     assign mean_o = mean_q;
 
     wire [WIDTH-1:0] early_sent, sent;
@@ -197,7 +199,7 @@ module raster_summary #(
             word_delay #(.WIDTH(SUM_BITS), .DEPTH(2)) u_written (.clk_i(clk_i), .data_i(sum_q), .data_o(to_wait[SUM_BITS-1:0]));
             assign to_wait[SUM_BITS] = mark;
             word_delay #(.WIDTH(2), .DEPTH(SUM_CLOCKS + 3)) u_first (
-                .clk_i(clk_i), .data_i({~|line, ~|place[SIDE_BITS-1:0]}), .data_o({first, region_start})
+                .clk_i(clk_i), .data_i({~|line, ~|column}), .data_o({first, region_start})
             );
             word_delay #(.WIDTH(1), .DEPTH(3)) u_mark (.clk_i(clk_i), .data_i(waiting[SUM_BITS]), .data_o(early_mark));
             always @(posedge clk_i) if (complete_q) differs_q <= mark || (differs_q && !region_start);
@@ -205,7 +207,7 @@ module raster_summary #(
     endgenerate
 
     raster_memory #(
-        .WIDTH(SUM_BITS + MARKS), .WORDS(COLUMNS * BLOCKS), .ADDRESS_BITS(PLACE_BITS), .OUTPUT_STAGE(DEEP)
+        .WIDTH(SUM_BITS + MARKS), .WORDS(BLOCKS << COLUMN_BITS), .ADDRESS_BITS(PLACE_BITS), .OUTPUT_STAGE(DEEP)
     ) u_sums (
         .clk_i(clk_i), .write_i(write), .write_address_i(write_place), .data_i(to_wait), .read_i(1'b1),
         .read_address_i(place), .data_o(waiting)

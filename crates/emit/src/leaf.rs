@@ -105,7 +105,8 @@ leaves! {
     "raster_readout" => ["raster_queue", "raster_walk"],
     "raster_moments" => ["raster_sums", "raster_variance"],
     "raster_deviation" => ["region_mean", "word_delay", "bit_delay", "raster_start", "raster_pass", "raster_memory"],
-    "raster_blocks" => [],
+    "raster_parts" => [],
+    "raster_blocks" => ["raster_parts"],
     "raster_summary" => [
         "raster_blocks", "adder", "magnitude_above", "raster_memory", "word_delay", "bit_delay"
     ],
