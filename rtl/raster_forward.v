@@ -174,11 +174,10 @@ module raster_forward #(
         if (LAST_SENT) begin : g_sent
             reg fetched_q;
             reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
-            wire sends_pixels = !(BLOCKS > 0 && held_extra[EXTRA_BITS-1]);
             wire [PLACE_BITS-1:0] place = fetch_first ? held_extra[LOW_BITS+:PLACE_BITS] : next_place_q;
             localparam JUMP = ROW_WORDS - SEGMENT + 1;
             always @(posedge clk_i) begin
-                fetched_q <= fetch && sends_pixels && !rst_i;
+                fetched_q <= fetch && !rst_i;
                 if (fetch) begin
                     sent_place_q <= place;
                     next_place_q <= place + (fetch_segment_end ? JUMP[PLACE_BITS-1:0] : {{(PLACE_BITS - 1) {1'b0}}, 1'b1});
@@ -210,7 +209,8 @@ module raster_forward #(
     endgenerate
 
     // The means; the low bits of its number tell regions of a row apart. A word is chosen behind the registers: what a memory
-    // has read comes late in a clock.
+    // has read comes late in a clock. What is fetched of a region that sends pixels goes where the means are that it sent, too:
+    // it shows none, so they mean nothing.
     generate
         if (BLOCKS > 0) begin : g_means
             localparam WIDTH = WORD_BITS / LANES;
@@ -220,7 +220,7 @@ module raster_forward #(
             wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] stored_at = {mean_row_i[ROW_BITS-1:0], mean_region_i, mean_number_i};
             wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] fetched_at = {held_row[ROW_BITS-1:0], lost_region_o[COLUMN_BITS-1:0], fetch_mean};
             // With one block there is no number of a mean.
-            wire unused_bits = |mean_row_i || |held_row || stored_at[0] || fetched_at[0];
+            wire unused_bits = |mean_row_i || |held_row || stored_at[0] || fetched_at[0] || held_extra[EXTRA_BITS-1];
             localparam LOWEST = BLOCKS == 1 ? MEAN_BITS : 0;
             reg [WIDTH-1:0] mean_q;
             reg sent_q;
@@ -228,7 +228,7 @@ module raster_forward #(
             always @(posedge clk_i) begin
                 if (step) mean_q <= sent_mean_o;
                 if (fetch) number_q <= fetch_mean;
-                sent_q <= fetch && held_extra[EXTRA_BITS-1] && !rst_i;
+                sent_q <= fetch;
             end
             raster_memory #(.WIDTH(WIDTH), .WORDS(MEANS), .ADDRESS_BITS(AT_BITS)) u_means (
                 .clk_i(clk_i), .write_i(mean_valid_i), .write_address_i(stored_at[LOWEST+:AT_BITS]), .data_i(mean_i),

@@ -49,10 +49,35 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
             ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
         },
     ];
+    if design.periphery().is_some() {
+        sequences.extend(means());
+    }
     if design.store() == Store::External {
         sequences.extend(failing(flushing));
     }
     sequences
+}
+
+/// Means that meet the level or miss it by one, and some that are lost.
+fn means() -> [Sequence; 4] {
+    let mixed = Sequence::mixed;
+    let configured = ThresholdAim::Design;
+    [
+        Sequence {
+            aim: configured,
+            ..mixed("means", &[Flat, MeanStep, MeanStep, MeanStep, MeanStep, MeanStep])
+        },
+        Sequence {
+            aim: configured,
+            stalls: true,
+            ..mixed("means lost", &[Flat, MeanStep, Same, Step, Same, MeanStep, Flat])
+        },
+        Sequence {
+            aim: configured,
+            ..mixed("means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep])
+        },
+        mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
+    ]
 }
 
 /// What a core must survive whose frame store is outside.

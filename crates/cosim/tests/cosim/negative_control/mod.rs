@@ -84,6 +84,11 @@ fn every_planted_fault_of_summaries_is_caught() {
 }
 
 #[test]
+fn every_planted_fault_of_summaries_of_raster_cores_is_caught() {
+    all_are_caught(summary_faults::RASTER);
+}
+
+#[test]
 fn every_planted_fault_of_the_serial_organization_is_caught() {
     all_are_caught(serial_faults::FAULTS);
 }
@@ -109,6 +114,7 @@ fn all_faults() -> impl Iterator<Item = &'static Fault> {
         faults::FAULTS,
         deep_faults::FAULTS,
         summary_faults::FAULTS,
+        summary_faults::RASTER,
         serial_faults::FAULTS,
         serial_summary_faults::FAULTS,
         raster_faults::FAULTS,

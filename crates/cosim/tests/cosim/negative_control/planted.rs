@@ -89,6 +89,12 @@ pub(crate) enum Planted {
     RasterBanks,
     /// Raster: the store outside, and no pixels that leave.
     RasterOutside,
+    /// Raster: means of four blocks, of regions that may be lost.
+    RasterMeans,
+    /// Raster: means of raw pixels, blocks as wide as a word, few rows of regions, and more registers.
+    RasterMeansDeep,
+    /// Raster: one mean of 3x3 pixels, with a second pass.
+    RasterMeansOne,
     /// Frames found again: an array of RPUs, deep, with a second pass.
     SyncPipelined,
     /// Frames found again: a serial array that takes the frame row by row.
@@ -249,6 +255,20 @@ impl Planted {
                  [hardware]\norganization = \"raster\"\npixels_per_clock = 4\npipelining = \"deep\"\n\
                  store = \"external\"\nforward = false\n"
             }
+            Self::RasterMeans => {
+                "[frame]\nwidth = 16\nheight = 15\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+                 [render]\nirrelevant = \"mean\"\n[hardware]\norganization = \"raster\"\n"
+            }
+            Self::RasterMeansDeep => {
+                "[frame]\nwidth = 31\nheight = 8\n[region]\nsize = 4\n[render]\npayload = \"raw\"\n\
+                 irrelevant = \"mean\"\n[hardware]\norganization = \"raster\"\npixels_per_clock = 2\n\
+                 pipelining = \"deep\"\n"
+            }
+            Self::RasterMeansOne => {
+                "[frame]\nwidth = 18\nheight = 15\n[region]\nsize = 3\n[denoise]\nfilter = \"none\"\n\
+                 [[spatial]]\nfeature = \"mad\"\nmin_score = 4\n[temporal]\nmin_count = 2\n[render]\n\
+                 irrelevant = \"mean\"\n[hardware]\norganization = \"raster\"\n"
+            }
             Self::SyncPipelined => {
                 "[region]\nsize = 3\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
                  [hardware]\npipelining = \"deep\"\nsync = true\n"
@@ -304,6 +324,9 @@ impl Planted {
                 | Self::RasterPairs
                 | Self::RasterBanks
                 | Self::RasterOutside
+                | Self::RasterMeans
+                | Self::RasterMeansDeep
+                | Self::RasterMeansOne
                 | Self::SyncRaster
         )
     }

@@ -2,7 +2,10 @@
 //! The faults of what irrelevant regions send.
 
 use super::faults::{Fault, fault};
-use super::planted::Planted::{Means, MeansDeep, MeansOne, MeansPixel, MeansSecond};
+use super::planted::Planted::{
+    Means, MeansDeep, MeansOne, MeansPixel, MeansSecond, RasterMeans, RasterMeansDeep,
+    RasterMeansOne,
+};
 
 /// Every fault, by module.
 #[rustfmt::skip]
@@ -67,4 +70,63 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Means, "rpu", ".AHEAD(1)", ".AHEAD(0)"),
     fault("constant", MeansSecond, "rpu", ".SECOND(1)", ".SECOND(0)"),
     fault("index", MeansDeep, "rpu", ".pixel_i(tail_raw),\n        .done_i", ".pixel_i(tail_pixel),\n        .done_i"),
+];
+
+/// Those of raster cores.
+#[rustfmt::skip]
+pub(crate) const RASTER: &[Fault] = &[
+    fault("constant", RasterMeans, "raster_parts", "LAST = SIZE - 1;", "LAST = SIZE - 2;"),
+    fault("operator", RasterMeans, "raster_parts", "else if (step_i && last) part_q", "else if (step_i) part_q"),
+    fault("constant", RasterMeansOne, "raster_parts", "last && SIZE != 1 << BITS", "last && 1'b0"),
+    fault("reset", RasterMeans, "raster_parts", "if (rst_i) part_q <= {PART_BITS{1'b0}};\n                else if", "if"),
+    fault("reset", RasterMeansOne, "raster_parts", "if (rst_i || (step_i", "if ((step_i"),
+
+    fault("constant", RasterMeans, "raster_blocks", "BACK = COLUMNS - 1;", "BACK = COLUMNS;"),
+    fault("constant", RasterMeans, "raster_blocks", "BEFORE_LAST = REGIONS - 2;", "BEFORE_LAST = REGIONS - 3;"),
+    fault("operator", RasterMeans, "raster_blocks", "back = row_end_i && !complete;", "back = row_end_i;"),
+    fault("operator", RasterMeans, "raster_blocks", "step_i && end_o && column_o == LAST;", "step_i && end_o;"),
+    fault("operator", RasterMeans, "raster_blocks", "if (row_end_i && complete) row_o", "if (complete) row_o"),
+    fault("reset", RasterMeans, "raster_blocks", "if (rst_i || frame_end_o) region_o", "if (frame_end_o) region_o"),
+    fault("reset", RasterMeans, "raster_blocks", "            row_o         <= 2'd0;\n", ""),
+
+    fault("constant", RasterMeansOne, "raster_summary", "HALF = BLOCK * BLOCK / 2", "HALF = (BLOCK * BLOCK + 1) / 2"),
+    fault("operator", RasterMeans, "raster_summary", "sum_upper ? HALF", "!sum_upper ? HALF"),
+    fault("width", RasterMeans, "raster_summary", "mean_q <= product[SHIFT+:WIDTH]", "mean_q <= {1'b0, product[SHIFT+:WIDTH-1]}"),
+    fault("constant", RasterMeansDeep, "raster_summary", ".DEPTH(DEEP)) u_value", ".DEPTH(0)) u_value"),
+    fault("constant", RasterMeans, "raster_summary", ".DEPTH(2)) u_early_sent", ".DEPTH(1)) u_early_sent"),
+    fault("constant", RasterMeansOne, "raster_summary", ".DEPTH(SUM_CLOCKS + 1)) u_write_place", ".DEPTH(SUM_CLOCKS + 2)) u_write_place"),
+    fault("operator", RasterMeans, "raster_summary", ".level_i(level_i), .above_o(above_level)", ".level_i(level_i - 1'b1), .above_o(above_level)"),
+    fault("operator", RasterMeansDeep, "raster_summary", "{1'b0, mean_q} - {1'b0, sent}", "{1'b0, mean_q} + {1'b0, sent}"),
+    fault("operator", RasterMeans, "raster_summary", "(early_mark && !first)", "early_mark"),
+    fault("operator", RasterMeansDeep, "raster_summary", "(early_mark && !first)", "1'b0"),
+    fault("operator", RasterMeans, "raster_summary", "(differs_q && !region_start)", "differs_q"),
+    fault("operator", RasterMeansDeep, "raster_summary", "mark || (differs_q && !region_start)", "mark"),
+    fault("operator", RasterMeans, "raster_summary", "(above_level && complete_q)", "above_level"),
+    fault("operator", RasterMeans, "raster_summary", "shown_read && !lost_read && over", "shown_read && over"),
+    fault("reset", RasterMeans, "raster_summary", "shown_read && !lost_read && over", "shown_read && !lost_read"),
+    fault("constant", RasterMeansOne, "raster_summary", ".DEPTH(4)) u_shown_later", ".DEPTH(3)) u_shown_later"),
+    fault("index", RasterMeans, "raster_summary", "number = {line[SIDE_BITS-1:0], column[SIDE_BITS-1:0]}", "number = {column[SIDE_BITS-1:0], line[SIDE_BITS-1:0]}"),
+    fault("index", RasterMeansDeep, "raster_summary", ".read_address_i(sent_place)", ".read_address_i(given_place)"),
+
+    fault("operator", RasterMeans, "raster_decision", "(!decided_shown || decided_differs)", "decided_differs"),
+    fault("operator", RasterMeans, "raster_decision", "!srs || (decided_shown && !trs)", "!srs"),
+    fault("operator", RasterMeans, "raster_decision", "!srs || (decided_shown && !trs)", "!srs || decided_shown"),
+    fault("reset", RasterMeans, "raster_decision", "will_be_sent_o && !rst_i", "will_be_sent_o"),
+
+    fault("constant", RasterMeans, "raster_walk", "LAST_BLOCK = (SIDE - BLOCK) * (SIDE + 1)", "LAST_BLOCK = (SIDE - BLOCK) * SIDE"),
+    fault("constant", RasterMeans, "raster_walk", "NEXT_LINE = BLOCK * SIDE - ", "NEXT_LINE = SIDE - "),
+    fault("index", RasterMeans, "raster_walk", "if (begin_i) mean_q", "if (1'b0) mean_q"),
+
+    fault("index", RasterMeans, "raster_readout", "{means_q, fetched_means_q} <= {fetched_means_q, means}", "{means_q, fetched_means_q} <= {means, means}"),
+
+    fault("operator", RasterMeans, "raster_forward", ".enter_i(active_i || summary_i)", ".enter_i(active_i)"),
+    fault("index", RasterMeansDeep, "raster_forward", "summary_o ? {LANES{mean_q}} : pixel_q", "pixel_q"),
+    fault("operator", RasterMeans, "raster_forward", "done_o = fetch_last || lost_valid_o", "done_o = fetch_last"),
+    fault("operator", RasterMeans, "raster_forward", "done_o = fetch_last || lost_valid_o", "done_o = lost_valid_o"),
+    fault("constant", RasterMeansOne, "raster_forward", "ROW_BITS = BANKS > 2 ? 2 : 1", "ROW_BITS = 1"),
+
+    fault("constant", RasterMeansDeep, "raster_core", "(LAST_SENT || BLOCKS > 0) && ROWS", "LAST_SENT && ROWS"),
+    fault("operator", RasterMeansDeep, "raster_core", "|| will_be_sent ||", "||"),
+    fault("index", RasterMeansDeep, "raster_core", ".word_i(RAW ? stored_raw : center)", ".word_i(center)"),
+    fault("index", RasterMeansOne, "raster_core", "{judged_differs, judged_shown} = leaving[SETTLED_BITS+1:SETTLED_BITS]", "{judged_differs, judged_shown} = entering[SETTLED_BITS+1:SETTLED_BITS]"),
 ];

@@ -135,6 +135,11 @@ pub(crate) fn raster_matrix() -> Vec<String> {
             let depth = SERIAL_DEPTHS[(index + choice * 3) % SERIAL_DEPTHS.len()];
             let (rows, beside, below) = RASTER_ENDS[(index * 3 + choice) % RASTER_ENDS.len()];
             let columns = (16 * word).div_ceil(size).max(4);
+            let fits = |blocks: &u32| size.is_multiple_of(*blocks * word);
+            let periphery = match [4, 2, 1].into_iter().find(fits) {
+                Some(blocks) if choice % 3 == 2 => format!("[periphery]\nblocks = {blocks}\n"),
+                _ => String::new(),
+            };
             let pick = |bit: usize, off: &'static str, on: &'static str| {
                 if (choice >> bit) & 1 == 0 { off } else { on }
             };
@@ -146,7 +151,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
                  [temporal]\nlevel = 0\nmin_count = 1\nreference = '{reference}'\n\
                  [render]\npayload = '{payload}'\nirrelevant = '{irrelevant}'\n\
                  [hardware]\norganization = 'raster'\npixels_per_clock = {word}\n\
-                 pipelining = '{pipelining}'\nstore = '{store}'\nthresholds = '{thresholds}'\nsync = {sync}\n",
+                 pipelining = '{pipelining}'\nstore = '{store}'\nthresholds = '{thresholds}'\nsync = {sync}\n{periphery}",
                 width = columns * size - beside,
                 height = rows * size - below,
                 neighborhood = pick(0, "isolated", "shared"),
@@ -154,7 +159,7 @@ pub(crate) fn raster_matrix() -> Vec<String> {
                 reference = pick(2, "previous", "last-sent"),
                 pipelining = pick(3, "plain", "deep"),
                 payload = pick((index + 1) % 4, "denoised", "raw"),
-                irrelevant = pick(index % 4, "zero", "hold"),
+                irrelevant = if periphery.is_empty() { pick(index % 4, "zero", "hold") } else { "mean" },
                 thresholds = pick((index + 2) % 4, "runtime", "constant"),
                 sync = choice % 3 == 1,
                 store = pick((index + 3) % 4, "block", "ultra"),
