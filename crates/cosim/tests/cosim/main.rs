@@ -16,6 +16,7 @@ mod netlist;
 mod raster_ends;
 mod raster_stimulus;
 mod raster_stores;
+mod raster_summaries;
 mod report;
 mod same_results;
 mod serial_matrix;

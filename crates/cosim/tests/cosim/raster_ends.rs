@@ -8,13 +8,13 @@ use crate::common::vectors::{clocks, value};
 use crate::common::{agrees, design, directed, feature, simulators};
 use foveate_cosim::{Level, Recording, Simulator, Stimulus};
 use foveate_design::{
-    CameraConfig, Config, Decimal, Design, FeatureKind, Filter, Organization, Payload, Pipelining,
-    PortRole, Reference,
+    CameraConfig, Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Organization, Payload,
+    Pipelining, PortRole, Reference,
 };
 use foveate_frame::Frame;
 
 /// Regions of frames of which some are lost: plain and deep, with a second pass and without, references of both kinds, the
-/// fewest words that a region has, and fewer rows of regions than the buffer keeps.
+/// fewest words that a region has, fewer rows of regions than the buffer keeps, and means beside pixels.
 fn designs() -> Vec<Design> {
     let of = |kind, (size, pixels), grid, more: &dyn Fn(&mut Config)| {
         let mut config = Config::from(CameraConfig {
@@ -44,6 +44,10 @@ fn designs() -> Vec<Design> {
             config.hardware.pipelining = Some(Pipelining::Deep);
         }),
         of(FeatureKind::Mad, (4, 4), (16, 2), &|_| {}),
+        of(FeatureKind::Edge, (4, 1), (4, 4), &|config| {
+            config.camera.render.irrelevant = Irrelevant::Mean;
+            config.camera.spatial[0].min_score = Some(Decimal::whole(6));
+        }),
     ]
 }
 
@@ -54,7 +58,7 @@ fn record(design: &Design) -> Recording {
 /// Region and number of its frame, as the ports say.
 type Name = (u64, u64);
 
-/// What became of an active region.
+/// What became of a region that sends something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 enum Fate {
     Whole,
@@ -71,8 +75,9 @@ struct Receiver<'a> {
     design: &'a Design,
     /// Frames decided since reset.
     frames: u64,
-    /// Active regions in the order of their decisions, until it is known what became of them.
-    waiting: VecDeque<Name>,
+    /// Regions that send something in the order of their decisions, until it is known what became of them; and whether
+    /// that is their summary.
+    waiting: VecDeque<(Name, bool)>,
     /// Regions that were named as lost, and of which no word with abort has come.
     lost: Vec<Name>,
     /// The region of which words come, and the position of the next.
@@ -83,6 +88,8 @@ struct Receiver<'a> {
     ways: [u64; 4],
     /// Words with abort that were taken at once, and later.
     taken: [u64; 2],
+    /// Summaries that came whole, ended early, and were lost before.
+    summaries: [u64; 3],
     after_abort: bool,
 }
 
@@ -97,6 +104,7 @@ impl<'a> Receiver<'a> {
             fates: BTreeMap::new(),
             ways: [0; 4],
             taken: [0; 2],
+            summaries: [0; 3],
             after_abort: false,
         }
     }
@@ -115,22 +123,38 @@ impl<'a> Receiver<'a> {
     }
 
     /// A region is decided.
-    fn decide(&mut self, region: u64, active: bool) {
-        if active {
-            self.waiting.push_back((region, self.frames % 256));
+    fn decide(&mut self, region: u64, active: bool, summary: bool) {
+        assert!(!(active && summary), "{region}");
+        if active || summary {
+            self.waiting.push_back(((region, self.frames % 256), summary));
         }
         self.frames += u64::from(region + 1 == u64::from(self.design.regions()));
     }
 
+    /// The position of the word behind that of a position: of the next pixels, or of the next block. None behind the last.
+    fn next(&self, position: u64, summary: bool) -> Option<u64> {
+        let side = u64::from(self.design.region_size());
+        let word = u64::from(self.design.raster().unwrap().pixels_per_clock());
+        let next = match self.design.periphery() {
+            Some(own) if summary => {
+                let block = u64::from(own.block_side);
+                let is_row_end = position % side + block == side;
+                position + if is_row_end { (block - 1) * side + block } else { block }
+            }
+            Some(_) | None => position + word,
+        };
+        (next < side * side).then_some(next)
+    }
+
     /// A word is taken.
-    fn take(&mut self, name: Name, position: u64, [first, last, abort]: [bool; 3]) {
-        let (pixels, word) =
-            (self.design.region_pixels(), self.design.raster().unwrap().pixels_per_clock());
+    fn take(&mut self, name: Name, position: u64, [first, last, abort]: [bool; 3], summary: bool) {
         assert_eq!(first, self.open.is_none(), "{name:?}");
         if first {
             // Those before it were lost as a whole.
-            while self.waiting.front() != Some(&name) {
-                let before = self.waiting.pop_front().expect("it was decided, and not settled");
+            while self.waiting.front() != Some(&(name, summary)) {
+                let (before, summary) =
+                    self.waiting.pop_front().expect("it was decided, and not settled");
+                self.summaries[2] += u64::from(summary);
                 let at = self.lost.iter().position(|&lost| lost == before);
                 self.lost
                     .remove(at.unwrap_or_else(|| panic!("{before:?} neither came nor was lost")));
@@ -139,14 +163,15 @@ impl<'a> Receiver<'a> {
         }
         let (open, next) = self.open.take().unwrap_or((name, 0));
         assert_eq!((open, next), (name, position));
-        let is_complete = position + u64::from(word) == u64::from(pixels);
-        assert_eq!(last, is_complete || abort, "{name:?}");
-        assert!(!(is_complete && abort), "{name:?}");
-        if !last {
-            self.open = Some((name, position + u64::from(word)));
+        let next = self.next(position, summary);
+        assert_eq!(last, next.is_none() || abort, "{name:?}");
+        assert!(!(next.is_none() && abort), "{name:?}");
+        if let Some(next) = next.filter(|_| !last) {
+            self.open = Some((name, next));
             return;
         }
-        self.waiting.pop_front();
+        assert_eq!(self.waiting.pop_front(), Some((name, summary)));
+        self.summaries[usize::from(abort)] += u64::from(summary);
         let at = self.lost.iter().position(|&lost| lost == name);
         assert_eq!(at.is_some(), abort, "{name:?} is named as lost exactly if it ends early");
         if let Some(at) = at {
@@ -160,7 +185,7 @@ impl<'a> Receiver<'a> {
     /// Everything has left: those that wait were lost as a whole, and it was said of each.
     fn end(&mut self) {
         assert_eq!(self.open, None);
-        assert_eq!(self.lost, self.waiting.drain(..).collect::<Vec<_>>());
+        assert_eq!(self.lost, self.waiting.drain(..).map(|(name, _)| name).collect::<Vec<_>>());
         for _ in 0..std::mem::take(&mut self.lost).len() {
             self.settle(Fate::Lost);
         }
@@ -181,7 +206,9 @@ impl<'a> Receiver<'a> {
             let word = |record: &[u8]| {
                 let name =
                     (shown(PortRole::ForwardRegion, record), shown(PortRole::ForwardFrame, record));
-                (name, shown(PortRole::ForwardPosition, record), ends(record))
+                let is_mean = self.design.periphery().is_some()
+                    && shown(PortRole::ForwardSummary, record) == 1;
+                (name, shown(PortRole::ForwardPosition, record), ends(record), is_mean)
             };
             let had = shown(PortRole::ForwardValid, &before) == 1;
             if value(inputs, PortRole::Reset, input) == 1 {
@@ -195,9 +222,9 @@ impl<'a> Receiver<'a> {
             } else {
                 let takes = value(inputs, PortRole::ForwardReady, input) == 1;
                 if had && takes {
-                    let (name, position, ends) = word(&before);
+                    let (name, position, ends, is_mean) = word(&before);
                     self.taken[usize::from(waits > 0)] += u64::from(ends[2]);
-                    self.take(name, position, ends);
+                    self.take(name, position, ends, is_mean);
                 }
                 waits = if had && !takes { waits + 1 } else { 0 };
                 assert!(!had || takes || word(&before) == word(output), "a word that waits stays");
@@ -211,7 +238,8 @@ impl<'a> Receiver<'a> {
                     self.ways[2] += u64::from(ends(output)[0]);
                 }
                 if says(PortRole::DecisionValid) == 1 {
-                    self.decide(says(PortRole::Region), says(PortRole::Active) == 1);
+                    let is_sent = self.design.periphery().is_some() && says(PortRole::Summary) == 1;
+                    self.decide(says(PortRole::Region), says(PortRole::Active) == 1, is_sent);
                 }
             }
             before.clone_from(output);
@@ -225,12 +253,14 @@ fn every_region_is_whole_or_ends_early_or_is_named_as_lost() {
     for design in designs() {
         let mut receiver = Receiver::new(&design);
         receiver.watch(&record(&design));
-        let Receiver { fates, ways, taken, .. } = &receiver;
+        let Receiver { fates, ways, taken, summaries, .. } = &receiver;
         let fate = |fate| fates.get(&fate).copied().unwrap_or_default();
         let told = format!("{fates:?} {ways:?} {taken:?}, {:?}", design.config());
         assert!(fate(Fate::Whole) > 200 && fate(Fate::Aborted) > 20, "{told}");
         assert!(fate(Fate::Lost) > 50 && fate(Fate::Open) > 5, "{told}");
         assert!(ways[..3].iter().chain(taken).all(|&seen| seen > 5), "{told}");
+        let has_summaries = design.periphery().is_some();
+        assert!(summaries.iter().all(|&seen| (seen > 10) == has_summaries), "{summaries:?} {told}");
         together += ways[3];
     }
     assert!(together > 200, "{together} ended early after another that did");

@@ -172,6 +172,29 @@ fn every_design_with_summaries_shows_some() {
     }
 }
 
+/// The same of raster cores, some of whose frames wait for what is pending, and some of which lose regions.
+#[test]
+fn every_raster_core_with_summaries_shows_some() {
+    for (number, (size, word, blocks, rows)) in
+        [(8, 1, 2, 3), (4, 2, 2, 5), (6, 1, 2, 2), (8, 4, 1, 4)].into_iter().enumerate()
+    {
+        let pipelining = ["plain", "deep"][number % 2];
+        let toml = format!(
+            "{}region.size = {size}\nrender.irrelevant = 'mean'\nperiphery.blocks = {blocks}\n\
+             denoise.filter = 'none'\n{}{}",
+            frame(((64 / size).max(4), rows), size),
+            raster(size, word, pipelining),
+            features(number, 8, size)
+        );
+        let design = design(&toml);
+        for &top in Top::all_of(&design) {
+            let ShippedBench { tally, shortcoming, .. } = bench(&design, top);
+            assert_eq!(shortcoming, None, "{top:?}\n{toml}");
+            assert!(0 < tally.summaries && tally.summaries < tally.blank, "{tally:?}\n{toml}");
+        }
+    }
+}
+
 /// The streams of a frame store outside, and an underrun at the end; without forwarding nothing is missing.
 #[test]
 fn a_raster_core_with_an_external_store_shows_its_streams() {

@@ -63,6 +63,7 @@ const DESIGNS: &[&[&str]] = &[
         "region.size=4",
         "hardware={organization='raster',pixels_per_clock=2,pipelining='deep'}",
         "temporal.reference='last-sent'",
+        "render.irrelevant='mean'",
     ],
     &[
         "frame={width=25,height=11}",

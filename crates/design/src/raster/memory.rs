@@ -156,18 +156,19 @@ impl Sizes {
     fn means(&self, periphery: &Periphery, design: &Design) -> Vec<RasterMemory> {
         let (side, means) = (u64::from(periphery.blocks), u64::from(periphery.means()));
         let pixel = design.pixel_bits();
-        // The numbers of the rows of regions are counted modulo a power of two.
+        // The low bits of their numbers tell regions of a row apart, and rows of regions.
         let rows = u64::from(self.timing.buffer_rows).next_power_of_two();
+        let columns = self.columns.next_power_of_two();
         let shown = |holds| RasterMemory { holds, words: self.regions, bits: 1 };
         vec![
             RasterMemory {
                 holds: "sums of blocks, and whether their means differ",
-                words: self.columns * side,
+                words: columns * side,
                 bits: periphery.sum_bits + u32::from(periphery.blocks > 1),
             },
             RasterMemory {
                 holds: "means that may leave",
-                words: self.columns * rows * means,
+                words: columns * rows * means,
                 bits: pixel,
             },
             RasterMemory {
@@ -196,11 +197,8 @@ impl Sizes {
             Written::WithEveryFrame => 0,
             Written::WhenSent => index_bits(self.timing.words()) + 1,
         };
-        // Where its means are, and whether they are meant.
-        let summary = match design.periphery() {
-            None => 0,
-            Some(_) => index_bits(self.columns) + 1,
-        };
+        // Whether its means leave.
+        let summary = u32::from(design.periphery().is_some());
         let mut list = Vec::new();
         if design.forwards() {
             list.push(queue(

@@ -94,7 +94,7 @@ pub(crate) const RASTER: &[Fault] = &[
     fault("width", RasterMeans, "raster_summary", "mean_q <= product[SHIFT+:WIDTH]", "mean_q <= {1'b0, product[SHIFT+:WIDTH-1]}"),
     fault("constant", RasterMeansDeep, "raster_summary", ".DEPTH(DEEP)) u_value", ".DEPTH(0)) u_value"),
     fault("constant", RasterMeans, "raster_summary", ".DEPTH(2)) u_early_sent", ".DEPTH(1)) u_early_sent"),
-    fault("constant", RasterMeansOne, "raster_summary", ".DEPTH(SUM_CLOCKS + 1)) u_write_place", ".DEPTH(SUM_CLOCKS + 2)) u_write_place"),
+    fault("constant", RasterMeansOne, "raster_summary", ".DEPTH(SUM_CLOCKS + 1)) u_write_place", ".DEPTH(SUM_CLOCKS)) u_write_place"),
     fault("operator", RasterMeans, "raster_summary", ".level_i(level_i), .above_o(above_level)", ".level_i(level_i - 1'b1), .above_o(above_level)"),
     fault("operator", RasterMeansDeep, "raster_summary", "{1'b0, mean_q} - {1'b0, sent}", "{1'b0, mean_q} + {1'b0, sent}"),
     fault("operator", RasterMeans, "raster_summary", "(early_mark && !first)", "early_mark"),

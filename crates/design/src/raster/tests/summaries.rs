@@ -125,7 +125,7 @@ fn a_summary_has_no_more_words_than_a_region() {
     assert_eq!(taken, 36);
 }
 
-/// 64x64 pixels, 8x8 regions: sums of 4x4 pixels have 12 bits, and a region that waits says in 3 bits where its means are.
+/// 64x64 pixels, 8x8 regions: sums of 4x4 pixels have 12 bits, and a region that waits says whether it sends means.
 #[test]
 fn memories_of_means() {
     let of = |more: &[&str]| {
@@ -136,7 +136,7 @@ fn memories_of_means() {
     let plain = of(&[]);
     let (queue, others) = plain.split_last().unwrap();
     let means = [(16, 13), (8 * 2 * 4, 8), (64 * 4, 8), (64, 1), (64, 1)];
-    assert_eq!(of(&[MEAN]), [others, &[(queue.0, queue.1 + 4)], &means].concat());
+    assert_eq!(of(&[MEAN]), [others, &[(queue.0, queue.1 + 1)], &means].concat());
     let mad = "spatial=[{feature=\"mad\"}]";
     let (with, without) = (of(&[MEAN, mad]), of(&[mad]));
     assert_eq!(with[without.len() - 1], (32, without.last().unwrap().1 + 2));

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Model against emitted RTL of raster cores whose irrelevant regions send their means; what their vectors show of it.
+
+use std::collections::BTreeMap;
+
+use crate::common::vectors::{clocks, value};
+use crate::common::{agrees, directed, in_parallel, simulators};
+use foveate_cosim::{Level, Simulator};
+use foveate_design::{Config, Design, PortRole};
+
+fn design(keys: &[&str]) -> Design {
+    let own = ["hardware.organization='raster'", "render.irrelevant='mean'"];
+    Config::from_toml_with("", &[keys, &own[..]].concat()).unwrap().validate().unwrap()
+}
+
+/// Blocks of one pixel and of sides that are no power of two, one to four words of a row of a block, one to sixteen blocks; a second
+/// pass, raw pixels, the pixels last sent, stores of all kinds; frames that fill no region, and few rows that wait.
+fn designs() -> Vec<Design> {
+    [
+        &["frame={width=16,height=16,pixel_bits=1}", "region.size=4", "periphery.blocks=4"][..],
+        &[
+            "frame={width=31,height=10}",
+            "region.size=4",
+            "hardware={pixels_per_clock=2,pipelining='deep'}",
+            "temporal.reference='last-sent'",
+            "render.payload='raw'",
+        ],
+        &[
+            "frame={width=35,height=17}",
+            "region.size=6",
+            "denoise.filter='none'",
+            "hardware={store='external',pipelining='deep'}",
+            "temporal.level=2",
+            "periphery.level=0",
+        ],
+        &[
+            "frame={width=18,height=13}",
+            "region={size=3,neighborhood='shared'}",
+            "spatial=[{feature='mad'},{feature='variance'}]",
+            "temporal={reference='last-sent',min_count=2}",
+            "hardware.thresholds='constant'",
+        ],
+        &[
+            "frame={width=62,height=5}",
+            "region.size=4",
+            "hardware={pixels_per_clock=4,store='single-port'}",
+            "periphery.blocks=1",
+            "denoise.filter='none'",
+        ],
+        &[
+            "frame={width=32,height=8,pixel_bits=16}",
+            "region.size=2",
+            "hardware={pixels_per_clock=2,pipelining='deep'}",
+            "periphery.blocks=1",
+            "spatial=[{feature='variance',min_score=1}]",
+            "temporal.min_count=1",
+            "denoise.filter='none'",
+            "render.payload='raw'",
+        ],
+    ]
+    .map(design)
+    .to_vec()
+}
+
+#[test]
+fn raster_cores_with_summaries_agree() {
+    if !simulators() {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let designs = designs();
+    let failures = in_parallel(&designs, |design| {
+        let folder = output.path().join(design.fingerprint());
+        let name = design.config().to_toml();
+        agrees(&name, design, Simulator::Iverilog, directed(Level::Full, 1), &folder)
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Summaries that are sent and that stay after one that was sent, after pixels, after nothing, and after a loss.
+#[test]
+fn summaries_are_sent_and_stay_whatever_was_before() {
+    #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+    enum Before {
+        Nothing,
+        Pixels,
+        Summary,
+        LostSummary,
+    }
+    for design in designs() {
+        let recording = directed(Level::Full, 1).record(&design, &mut |_, _| {}).unwrap();
+        let (inputs, outputs) = (recording.inputs(), recording.outputs());
+        let mut last = BTreeMap::new();
+        let mut seen = BTreeMap::<(Before, bool), u64>::new();
+        for (input, output) in clocks(&recording) {
+            let shown = |role| value(outputs, role, &output);
+            if value(inputs, PortRole::Reset, &input) == 1 {
+                last.clear();
+                continue;
+            }
+            if shown(PortRole::LostValid) == 1 {
+                let region = shown(PortRole::LostRegion);
+                if last.get(&region) == Some(&Before::Summary) {
+                    last.insert(region, Before::LostSummary);
+                }
+            }
+            if shown(PortRole::DecisionValid) == 1 {
+                let region = shown(PortRole::Region);
+                let sends = shown(PortRole::Summary) == 1;
+                let before = last.get(&region).copied().unwrap_or(Before::Nothing);
+                if shown(PortRole::Srs) == 0 {
+                    *seen.entry((before, sends)).or_default() += 1;
+                }
+                if shown(PortRole::Active) == 1 {
+                    last.insert(region, Before::Pixels);
+                } else if sends {
+                    last.insert(region, Before::Summary);
+                }
+            }
+        }
+        let told = format!("{seen:?}\n{}", design.config().to_toml());
+        let count = |before, sends| seen.get(&(before, sends)).copied().unwrap_or_default();
+        assert!(count(Before::Summary, true) > 10 && count(Before::Summary, false) > 10, "{told}");
+        for before in [Before::Nothing, Before::Pixels] {
+            assert!(count(before, true) > 10 && count(before, false) == 0, "{told}");
+        }
+        // Where frames wait for what is pending, nothing is lost; else a lost summary is sent again.
+        let waits = design.timing().departure().kept_rows.is_none();
+        assert_eq!(count(Before::LostSummary, true) > 5, !waits, "{told}");
+        assert_eq!(count(Before::LostSummary, false), 0, "{told}");
+    }
+}
