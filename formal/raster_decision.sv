@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Table I for every region in its turn: votes, SRS, TRS, active, and the count that stands for changes where the region has
-// no reference (LAST_SENT). No region is lost here. A region is judged two clocks after a reset at the earliest: it takes
+// no reference (LAST_SENT); with SUMMARIES which of them are sent. No region is lost here. A region is judged two clocks after a reset at the earliest: it takes
 // rows of pixels.
 module properties #(
-    parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 0, parameter DEEP = 0
+    parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 0, parameter DEEP = 0, parameter SUMMARIES = 0
 ) (
-    input wire clk_i, rst_i, judged, lost, input wire [10:0] scores, input wire [2:0] edge_min, corner_min, temporal_min,
+    input wire clk_i, rst_i, judged, lost, shown, differs, input wire [10:0] scores, input wire [2:0] edge_min, corner_min, temporal_min,
     input wire [1:0] sum_min
 );
     `include "reset.vh"
     localparam REGIONS = 8, PIXELS = 4;
-    localparam WIDTH = 14 + 3;  // of what is on the ports with a decision
-    wire decided, will_be_active, mark, decision_valid, last_region, srs, trs, active;
-    wire [2:0] region, edges, corners, changes;
+    localparam WIDTH = 14 + 4;  // of what is on the ports with a decision
+    wire decided, will_be_active, mark, decision_valid, last_region, srs, trs, active, summary, will_be_sent, will_be_shown;
+    wire [2:0] region, decided_region, edges, corners, changes;
     wire [1:0] sum;
     raster_decision #(
-        .FEATURES(3), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(PIXELS), .COUNT_BITS(3),
+        .FEATURES(3), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(SUMMARIES), .DEEP(DEEP), .PIXELS(PIXELS), .COUNT_BITS(3),
         .REGIONS(REGIONS), .REGION_BITS(3), .SCORE_BITS(11), .ENDS({32'd11, 32'd9, 32'd6, 32'd3})
     ) dut (
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i({sum_min, corner_min, edge_min, temporal_min}),
-        .lost_i(lost), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
+        .shown_i(shown), .differs_i(differs), .summary_o(summary), .will_be_sent_o(will_be_sent),
+        .will_be_shown_o(will_be_shown), .decided_region_o(decided_region), .lost_i(lost), .lost_region_i(3'd0), .lost_mark_i(1'b0), .decided_o(decided),
         .will_be_active_o(will_be_active), .mark_o(mark), .decision_valid_o(decision_valid), .region_o(region),
         .last_region_o(last_region), .srs_o(srs), .trs_o(trs), .active_o(active), .scores_o({sum, corners, edges, changes})
     );
@@ -35,13 +36,17 @@ module properties #(
     wire changes_enough = changed >= temporal_min;
     reg [(1+DEEP)*WIDTH-1:0] expected = 0;
     reg [DEEP:0] due = 0;
+    wire sends = SUMMARIES && !relevant && (!shown || differs);
+    wire shows = SUMMARIES && !(relevant && changes_enough) && (shown || sends);
+    reg [DEEP:0] shows_due = 0;
     always @(posedge clk_i) begin
         if (judged) begin
             turn <= turn == REGIONS - 1 ? 3'd0 : turn + 3'd1;
             if (relevant && changes_enough) referenced[turn] <= 1'b1;
             else if (BLANKS && !relevant) referenced[turn] <= 1'b0;
         end
-        expected <= {expected, {relevant, changes_enough, relevant && changes_enough, turn, scores[10:3], changed}};
+        shows_due <= {shows_due, shows};
+        expected <= {expected, {sends, relevant, changes_enough, relevant && changes_enough, turn, scores[10:3], changed}};
         due <= {due, judged};
         if (rst_i) begin
             turn <= 3'd0;
@@ -58,8 +63,10 @@ module properties #(
     always @* if (started) begin
         assert(decision_valid == due[DEEP]);
         if (decision_valid)
-            assert({srs, trs, active, region, sum, corners, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
+            assert({summary, srs, trs, active, region, sum, corners, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
         if (decision_valid) assert(last_region == (region == REGIONS - 1));
-        else assert(!srs && !trs && !active);
+        else assert(!srs && !trs && !active && !summary);
+        // A clock before: what the screen shows from then on.
+        if (SUMMARIES && decided) assert(will_be_shown == (DEEP ? shows_due[0] : shows));
     end
 endmodule

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // raster_start gives the places of regions in their order, in the buffer and in the frame, and raster_walk those of the words
-// of a region, row by row. A walk begins at any clock, and ends with the last word at the latest.
+// of a region, row by row, or with BLOCKS the means of its blocks. A walk begins at any clock, and ends with the last word at the latest.
 module properties #(
     parameter LANES = 1, parameter SIDE = 2, parameter COLUMNS = 4, parameter ROWS = 3, parameter BANKS = 2,
     parameter SEGMENT = SIDE / LANES, parameter ROW_WORDS = COLUMNS * SEGMENT,
     parameter START_BITS = $clog2(BANKS * SIDE * ROW_WORDS), parameter PLACE_BITS = $clog2(ROWS * SIDE * ROW_WORDS),
-    parameter POSITION_BITS = $clog2(SIDE * SIDE)
+    parameter POSITION_BITS = $clog2(SIDE * SIDE), parameter BLOCKS = 0
 ) (
-    input wire clk_i, rst_i, next_region, begins, next_word, input wire [START_BITS-1:0] from
+    input wire clk_i, rst_i, next_region, begins, next_word, means, input wire [START_BITS-1:0] from
 );
     `include "reset.vh"
     wire [2:0] row_of_regions;
@@ -22,11 +22,13 @@ module properties #(
     wire [START_BITS-1:0] word;
     wire [POSITION_BITS-1:0] position;
     wire first, segment_end, last;
+    wire [3:0] mean;
+    reg walks_means = 1'b0;
     raster_walk #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
-        .PLACE_BITS(START_BITS)
+        .PLACE_BITS(START_BITS), .BLOCKS(BLOCKS), .MEAN_BITS(4)
     ) u_walk (
-        .clk_i(clk_i), .begin_i(begins), .start_i(from), .step_i(next_word), .place_o(word), .position_o(position),
+        .clk_i(clk_i), .begin_i(begins), .start_i(from), .step_i(next_word), .means_i(walks_means), .mean_o(mean), .place_o(word), .position_o(position),
         .first_o(first), .segment_end_o(segment_end), .last_o(last)
     );
 
@@ -48,10 +50,12 @@ module properties #(
         if (rst_i) {column, row, bank, count} <= 12'd0;
         if (begins) begin
             walks  <= 1'b1;
+            walks_means <= BLOCKS > 0 && means;
             number <= 5'd0;
             origin <= from;
         end else if (next_word) number <= number + 5'd1;
     end
+    localparam BLOCK = BLOCKS > 0 ? SIDE / BLOCKS : 1;
     wire [START_BITS-1:0] walked = origin + (number / SEGMENT) * ROW_WORDS + number % SEGMENT;
     always @* begin
         if (walks && last) assume(!next_word || begins);
@@ -60,7 +64,13 @@ module properties #(
             assert(place == row * SIDE * ROW_WORDS + column * SEGMENT);
             assert(row_of_regions == count);
         end
-        if (walks) begin
+        if (walks && walks_means) begin
+            assert(BLOCKS == 1 || mean == number);
+            assert(position == number / BLOCKS * BLOCK * SIDE + number % BLOCKS * BLOCK);
+            assert(first == (number == 0));
+            assert(last == (number == BLOCKS * BLOCKS - 1));
+        end
+        if (walks && !walks_means) begin
             assert(word == walked);
             assert(position == number * LANES);
             assert(first == (number == 0));

@@ -33,7 +33,7 @@ module raster_blocks #(
 
     localparam BEFORE_LAST = REGIONS - 2;
     localparam BACK = COLUMNS - 1;
-    localparam [1:0] LAST = BLOCKS - 1;
+    localparam LAST = BLOCKS - 1;
 
     raster_parts #(.PARTS(BLOCKS), .SIZE(SIDE / BLOCKS / LANES)) u_columns (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i), .first_o(start_o), .last_o(end_o), .part_o(column_o)
@@ -44,8 +44,8 @@ module raster_blocks #(
 
     // Behind a row of a region: the next region, or, where the row of regions is not complete, back to its first.
     reg last_region_q;
-    wire move = step_i && end_o && column_o == LAST;
-    wire complete = lower_o && line_o == LAST;
+    wire move = step_i && end_o && column_o == LAST[1:0];
+    wire complete = lower_o && line_o == LAST[1:0];
     wire back = row_end_i && !complete;
     assign frame_end_o = move && last_region_q && complete;
 

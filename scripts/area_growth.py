@@ -46,6 +46,7 @@ DESIGNS = [
     ("raster external deep 4", [*RASTER, DEEP, "hardware.store='external'", "hardware.pixels_per_clock=4"], RASTER_SIZES),
     ("raster all features", [*RASTER, ALL, SENT], RASTER_SIZES),
     ("raster all features deep", [*RASTER, ALL, DEEP, "hardware.store='external'"], RASTER_SIZES),
+    ("raster means deep 2", [*RASTER, DEEP, "render.irrelevant='mean'", "hardware.pixels_per_clock=2", "hardware.store='external'"], RASTER_SIZES),
     ("serial parallel", ["hardware.organization='serial'", "hardware.fold=1"], SERIAL_SIZES),
     ("serial raster feed", ["hardware.organization='serial'", "hardware.fold=4", "hardware.feed='raster'"], SERIAL_SIZES),
     ("serial last-sent deep", ["hardware.organization='serial'", "hardware.fold=4", SENT, DEEP], SERIAL_SIZES),

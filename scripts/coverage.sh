@@ -54,7 +54,7 @@ names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
-        serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute
+        serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute raster_means
         array_sync serial_sync raster_sync)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
@@ -78,6 +78,7 @@ if [ "${1:-}" != --quick ]; then
         "paper $raster --grid 8x2 --set region.size=8 --set frame={width=218,height=222} --set hardware.pixels_per_clock=4 --set hardware.store='external'"
         "bare $raster --grid 5x3 $deep --set region.size=5 --set frame={width=222,height=222} --set hardware.store='single-port' --set spatial=[$corner]"
         "bare $raster --grid 4x3 $deep --set region.size=6 --set frame={width=224,height=222} --set hardware.forward=false --set spatial=[{feature='mad',min_score=4}]"
+        "paper $raster --grid 4x4 --rounds 3 --set region.size=6 --set frame={width=224,height=222} --set render={irrelevant='mean',payload='raw'}"
         "bare --level rcm --grid 3x2 --set region.size=4 $sync"
         "bare $serial --set region.size=4 --set hardware.feed='raster' $sync"
         "bare $raster --grid 5x2 --set region.size=4 --set frame={width=222,height=221} $sync"

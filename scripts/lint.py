@@ -76,6 +76,26 @@ def summaries():
         ]
 
 
+def raster_summaries():
+    """The same of the raster organization: blocks as wide as a word, a store outside, few rows of regions that wait."""
+    for name, size, word, blocks, rows, features, more in [
+        ("pixels", 4, 1, 4, 3, EDGE, "denoise.filter='median3x3'"),
+        ("deep", 12, 2, 2, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant',store='external'}"),
+        ("second", 6, 1, 1, 4, FEATURES[2], "render={irrelevant='mean',payload='raw'}"),
+    ]:
+        yield f"rm_{name}_{size}x{size}", [
+            f"spatial=[{features}]",
+            f"frame={{width={max(4, -(-16 * word // size)) * size},height={rows * size - 1}}}",
+            f"region.size={size}",
+            "temporal={level=0,min_count=1}",
+            "render.irrelevant='mean'",
+            f"periphery.blocks={blocks}",
+            more,
+            "hardware.organization='raster'",
+            f"hardware.pixels_per_clock={word}",
+        ]
+
+
 SERIAL_SIZES = [4, 5, 8, 16, 20, 63, 64]
 RASTER_SHAPES = [(8, 1), (4, 2), (3, 1), (8, 4), (16, 2), (5, 1)]  # sides of regions and pixels of a word
 FOLDS = [1, 2, 3, 6]
@@ -221,7 +241,7 @@ def main():
     began = time.monotonic()
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
-    designs = [design for some in (matrix(), summaries(), serial_matrix(), raster_matrix()) for design in list(some)[:: 7 if quick else 1]]
+    designs = [design for some in (matrix(), summaries(), serial_matrix(), raster_matrix(), raster_summaries()) for design in list(some)[:: 7 if quick else 1]]
     excuses = waivers()
     used, bad = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))

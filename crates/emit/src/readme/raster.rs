@@ -63,6 +63,9 @@ struct Readme {
     single_port: bool,
     /// Whether pixels leave.
     forwards: bool,
+    /// Blocks of a region's side whose means leave, 0 where none do, and the side of a block.
+    blocks: u32,
+    block_side: u32,
     /// More registers, which those of block RAM can be.
     deep: bool,
     /// Whether memories say which regions have a reference.
@@ -128,6 +131,8 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         outside: design.store() == Store::External,
         single_port: design.store() == Store::SinglePort,
         forwards: design.forwards(),
+        blocks: design.periphery().map_or(0, |own| own.blocks),
+        block_side: design.periphery().map_or(0, |own| own.block_side),
         memories,
         deep: design.pipelining() == Pipelining::Deep,
         marks_regions: reference.bits_per_region() > 0,

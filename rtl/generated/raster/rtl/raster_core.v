@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The whole camera for a frame that comes row by row, LANES pixels at every clock: windows, scores, decisions,
-// and the pixels of active regions.
+// the pixels of active regions, and the means of others.
 //
 //     word -> rows -> median -> rows -> edge, corner -> counts -> votes -> decision
 //                                  `-> center -> change <-> frame store
@@ -48,7 +48,12 @@ module raster_core #(
     parameter [FACTOR_BITS-1:0] FACTOR = 1,  // dividend * FACTOR >> SHIFT is dividend / pixels
     parameter SHIFT = 6,             // bits that are dropped of the product
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (variance)
-    parameter PRODUCT_BITS = 28      // bits of its products
+    parameter PRODUCT_BITS = 28,     // bits of its products
+    parameter BLOCKS = 0,            // regions without SRS send the means of BLOCKS * BLOCKS blocks; 0: they do not
+    parameter BLOCK_SUM_BITS = 12,   // bits of the sum of a block and half of its pixels (BLOCKS)
+    parameter BLOCK_FACTOR_BITS = 1, // bits of BLOCK_FACTOR
+    parameter [BLOCK_FACTOR_BITS-1:0] BLOCK_FACTOR = 1,  // sum * BLOCK_FACTOR >> BLOCK_SHIFT is sum / pixels of a block
+    parameter BLOCK_SHIFT = 4        // bits that are dropped of the product
 ) (
     input  wire                       clk_i,               // clock, rising edge
     input  wire                       rst_i,               // synchronous reset, active high
@@ -58,12 +63,14 @@ module raster_core #(
     input  wire [EDGE_LEVEL_BITS-1:0] edge_level_i,        // a pixel is an edge above this
     input  wire [          WIDTH-1:0] corner_level_i,      // ... a corner
     input  wire [          WIDTH-1:0] temporal_level_i,    // ... has changed
+    input  wire [          WIDTH-1:0] summary_level_i,     // a mean that differs by more is sent again (BLOCKS)
     input  wire [     SCORE_BITS-1:0] minima_i,            // from which on each score votes, that of the changed pixels for TRS
     output wire                       decision_valid_o,    // the decision for region_o
     output wire [    REGION_BITS-1:0] region_o,            // the region that is decided
     output wire                       srs_o,               // spatial relevance
     output wire                       trs_o,               // temporal relevance
     output wire                       active_o,            // both
+    output wire                       summary_o,           // its means leave (BLOCKS)
     output wire [     SCORE_BITS-1:0] scores_o,            // its scores
     output wire                       reference_ready_o,   // the reference on the port is taken at the next edge (STORE 3)
     input  wire                       reference_valid_i,   // a reference is on the port
@@ -81,6 +88,7 @@ module raster_core #(
     output wire                       forward_last_o,      // the last that comes of its region
     output wire                       forward_abort_o,     // the last, because its region was lost in the middle
     output wire [     FRAME_BITS-1:0] forward_frame_o,     // number of the frame of its region since reset
+    output wire                       forward_summary_o,   // the word is the mean of a block (BLOCKS)
     output wire                       lost_o,              // a region was lost since reset
     output wire [               15:0] lost_count_o,        // how many, up to the largest number
     output wire                       lost_valid_o,        // a region was lost at the edge before
@@ -113,6 +121,7 @@ module raster_core #(
         end
         if (LAST_SENT && !FORWARD) begin : g_forward_limit FORWARD_must_be_1_with_LAST_SENT u_refused (); end
         if (LAST_SENT && STORE > 1) begin : g_store_limit STORE_must_have_two_ports_with_LAST_SENT u_refused (); end
+        if (BLOCKS > 0 && !FORWARD) begin : g_forward_means FORWARD_must_be_1_with_BLOCKS u_refused (); end
         if (STORE < 0 || STORE > 3) begin : g_store_kind STORE_must_be_0_to_3 u_refused (); end
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end
     endgenerate
@@ -138,6 +147,8 @@ module raster_core #(
     localparam FRAME_WORDS = ROW_WORDS * ROWS * SIDE;
     localparam PLACE_BITS = $clog2(FRAME_WORDS);
     localparam EXTERNAL = 3;
+    localparam REGION_COLUMN_BITS = $clog2(COLUMNS);
+    localparam NUMBER_BITS = BLOCKS > 1 ? $clog2(BLOCKS * BLOCKS) : 1;  // bits of the number of a block
 
     // Clocks from one place to another; see docs/raster.md.
     localparam COLUMN_CLOCKS = DEEP ? 3 : 1;                           // from a word to the column of its window
@@ -383,7 +394,7 @@ module raster_core #(
 
     raster_counts #(
         .LANES(LANES), .FEATURES(HITS + 1), .SIDE(SIDE), .COUNT_BITS(COUNT_BITS), .COLUMNS(COLUMNS),
-        .COLUMN_BITS($clog2(COLUMNS)), .DEEP(DEEP)
+        .COLUMN_BITS(REGION_COLUMN_BITS), .DEEP(DEEP)
     ) u_counts (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(hit_step), .hits_i(hits),
         .segment_end_i(hit_segment_end), .row_end_i(hit_row_end), .region_top_i(hit_region_top),
@@ -433,46 +444,68 @@ module raster_core #(
         end
     endgenerate
 
+    // Whether a mean of a region differs, and whether its summary is shown, comes with its counts.
+    localparam OTHER_BITS = SETTLED_BITS + (BLOCKS > 0 ? 2 : 0);
+    wire differs, settled_differs, judged_differs;
+    wire shown, settled_shown, judged_shown;
+    word_delay #(.WIDTH(2), .DEPTH(VARIANCE_CLOCKS)) u_settled_summary (
+        .clk_i(clk_i), .data_i({differs, shown}), .data_o({settled_differs, settled_shown})
+    );
+
     wire judged;  // all scores are there
     wire [SCORE_BITS-1:0] scores;
     generate
         if (MAD) begin : g_deviation
+            wire [SETTLED_BITS+1:0] entering = {settled_differs, settled_shown, settled_scores};
+            wire [SETTLED_BITS+1:0] leaving;
+            assign {judged_differs, judged_shown} = leaving[SETTLED_BITS+1:SETTLED_BITS];
+            if (BLOCKS == 0) begin : g_no_summary
+                wire unused_summary = |entering[SETTLED_BITS+1:SETTLED_BITS];
+                assign leaving[SETTLED_BITS+1:SETTLED_BITS] = 2'd0;
+            end
+            assign scores[SETTLED_BITS-1:0] = leaving[SETTLED_BITS-1:0];
             raster_deviation #(
                 .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .POSITION_BITS(POSITION_BITS), .START_BITS(START_BITS),
                 .SUM_BITS(SUM_BITS), .FRACTION(FRACTION), .DIVIDEND_BITS(DIVIDEND_BITS), .MEAN_BITS(MEAN_BITS),
                 .FACTOR_BITS(FACTOR_BITS), .FACTOR(FACTOR), .SHIFT(SHIFT), .MAD_BITS(SCORE_BITS - SETTLED_BITS),
-                .OTHER_BITS(SETTLED_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
+                .OTHER_BITS(OTHER_BITS), .OTHER_CLOCKS(VARIANCE_CLOCKS), .DEEP(DEEP)
             ) u_deviation (
                 .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .word_i(center),
-                .done_i(done), .sum_i(sum), .settled_i(settled), .other_i(settled_scores), .judged_o(judged),
-                .mad_o(scores[SCORE_BITS-1:SETTLED_BITS]), .other_o(scores[SETTLED_BITS-1:0])
+                .done_i(done), .sum_i(sum), .settled_i(settled), .other_i(entering[OTHER_BITS-1:0]),
+                .judged_o(judged), .mad_o(scores[SCORE_BITS-1:SETTLED_BITS]), .other_o(leaving[OTHER_BITS-1:0])
             );
         end else begin : g_no_deviation
             wire unused_sum = |sum;
             assign judged = settled;
             assign scores = settled_scores;
+            assign {judged_differs, judged_shown} = {settled_differs, settled_shown};
         end
     endgenerate
 
     // ---- Decision
     wire decided;       // a region is decided
     wire will_be_active;
+    wire will_be_sent;  // its summary is
     wire mark;          // travels with it (LAST_SENT)
+    wire will_be_shown; // the screen shows its summary
+    wire [REGION_BITS-1:0] decided_region;
     wire last_region;   // with the decision: the last of the frame
     wire lost_reference;  // a region is lost, and its reference with it
     wire [REGION_BITS-1:0] lost_reference_region;
     wire lost_mark;
 
     raster_decision #(
-        .FEATURES(FEATURES), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .DEEP(DEEP), .PIXELS(SIDE * SIDE),
-        .COUNT_BITS(COUNT_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .SCORE_BITS(SCORE_BITS), .ENDS(ENDS)
+        .FEATURES(FEATURES), .ALL(ALL), .LAST_SENT(LAST_SENT), .BLANKS(BLANKS), .SUMMARIES(BLOCKS > 0 ? 1 : 0),
+        .DEEP(DEEP), .PIXELS(SIDE * SIDE), .COUNT_BITS(COUNT_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .SCORE_BITS(SCORE_BITS), .ENDS(ENDS)
     ) u_decision (
         .clk_i(clk_i), .rst_i(rst_i), .judged_i(judged), .scores_i(scores), .minima_i(minima_i),
-        .lost_i(lost_reference), .lost_region_i(lost_reference_region), .lost_mark_i(lost_mark),
-        .decided_o(decided), .will_be_active_o(will_be_active), .mark_o(mark),
+        .shown_i(judged_shown), .differs_i(judged_differs), .lost_i(lost_reference),
+        .lost_region_i(lost_reference_region), .lost_mark_i(lost_mark), .decided_o(decided),
+        .will_be_active_o(will_be_active), .will_be_sent_o(will_be_sent), .will_be_shown_o(will_be_shown),
+        .decided_region_o(decided_region), .mark_o(mark),
         .decision_valid_o(decision_valid_o), .region_o(region_o), .last_region_o(last_region), .srs_o(srs_o),
-        .trs_o(trs_o), .active_o(active_o), .scores_o(scores_o)
+        .trs_o(trs_o), .active_o(active_o), .summary_o(summary_o), .scores_o(scores_o)
     );
 
     // ---- Pixels that leave
@@ -501,29 +534,63 @@ module raster_core #(
                 assign stored_raw = {WORD{1'b0}};
             end
 
+            // The means of regions that send them.
+            wire mean_valid, sent, done_sending, done_lost;
+            wire [REGION_COLUMN_BITS-1:0] mean_region;
+            wire [1:0] mean_row;
+            wire [NUMBER_BITS-1:0] mean_number, sent_number;
+            wire [WIDTH-1:0] mean, sent_mean;
+            wire [REGION_BITS-1:0] sent_region, done_region;
+            if (BLOCKS > 0) begin : g_summary
+                raster_summary #(
+                    .WIDTH(WIDTH), .LANES(LANES), .SIDE(SIDE), .BLOCKS(BLOCKS), .COLUMNS(COLUMNS),
+                    .COLUMN_BITS(REGION_COLUMN_BITS), .REGIONS(REGIONS), .REGION_BITS(REGION_BITS), .MEAN_BITS(NUMBER_BITS),
+                    .SUM_BITS(BLOCK_SUM_BITS), .FACTOR_BITS(BLOCK_FACTOR_BITS), .FACTOR(BLOCK_FACTOR), .SHIFT(BLOCK_SHIFT),
+                    .DEEP(DEEP)
+                ) u_summary (
+                    .clk_i(clk_i), .rst_i(rst_i), .step_i(arriving_step), .row_end_i(store_row_end),
+                    .word_i(RAW ? stored_raw : center), .level_i(summary_level_i), .mean_valid_o(mean_valid),
+                    .mean_region_o(mean_region), .mean_row_o(mean_row), .mean_number_o(mean_number), .mean_o(mean),
+                    .differs_o(differs), .shown_o(shown), .decided_i(decided), .decided_region_i(decided_region),
+                    .decided_shown_i(will_be_shown), .done_i(done_sending), .done_lost_i(done_lost),
+                    .done_region_i(done_region), .sent_i(sent), .sent_region_i(sent_region), .sent_number_i(sent_number),
+                    .sent_mean_i(sent_mean)
+                );
+            end else begin : g_no_summary
+                wire unused_sent = |summary_level_i || sent || |sent_region || |sent_number || |sent_mean || done_sending
+                                   || done_lost || |done_region || |decided_region || will_be_shown;
+                assign {mean_valid, mean_region, mean_row, mean_number, mean, differs, shown} =
+                    {(5 + REGION_COLUMN_BITS + NUMBER_BITS + WIDTH) {1'b0}};
+            end
+
             raster_forward #(
                 .WORD_BITS(WORD), .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .COLUMNS(COLUMNS), .ROWS(ROWS),
                 .ROW_WORDS(ROW_WORDS), .BANKS(BANKS), .RAW(RAW), .LAST_SENT(LAST_SENT), .DEEP(DEEP),
                 .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS), .FRAME_BITS(FRAME_BITS),
-                .START_BITS(START_BITS), .PLACE_BITS(PLACE_BITS)
+                .START_BITS(START_BITS), .PLACE_BITS(PLACE_BITS), .BLOCKS(BLOCKS), .COLUMN_BITS(REGION_COLUMN_BITS),
+                .MEAN_BITS(NUMBER_BITS)
             ) u_forward (
                 .clk_i(clk_i), .rst_i(rst_i), .store_i(store_step), .store_place_i(store_place), .scored_i(center),
                 .raw_i(stored_raw), .arriving_i(arriving_step), .rows_end_i(store_row_end && store_region_bottom),
                 .decision_i(decision_valid_o), .active_i(active_o), .region_i(region_o), .last_region_i(last_region),
-                .mark_i(mark), .ready_i(forward_ready_i), .valid_o(forward_valid_o), .region_o(forward_region_o),
+                .mark_i(mark), .summary_i(summary_o), .mean_valid_i(mean_valid),
+                .mean_region_i(mean_region), .mean_row_i(mean_row), .mean_number_i(mean_number), .mean_i(mean),
+                .ready_i(forward_ready_i), .valid_o(forward_valid_o), .region_o(forward_region_o),
                 .position_o(forward_position_o), .pixel_o(forward_pixel_o), .first_o(forward_first_o),
-                .last_o(forward_last_o), .abort_o(forward_abort_o), .frame_o(forward_frame_o), .lost_o(lost_o),
+                .last_o(forward_last_o), .abort_o(forward_abort_o), .frame_o(forward_frame_o), .summary_o(forward_summary_o), .lost_o(lost_o),
                 .lost_count_o(lost_count_o), .lost_valid_o(lost_valid_o), .lost_region_o(lost_region_o),
                 .lost_frame_o(lost_frame_o), .idle_o(idle), .reference_write_o(reference_write),
                 .reference_place_o(reference_place), .reference_word_o(reference_word),
                 .lost_reference_o(lost_reference), .lost_reference_region_o(lost_reference_region),
-                .lost_mark_o(lost_mark)
+                .lost_mark_o(lost_mark), .done_o(done_sending), .done_lost_o(done_lost), .done_region_o(done_region),
+                .sent_o(sent), .sent_region_o(sent_region), .sent_number_o(sent_number), .sent_mean_o(sent_mean)
             );
         end else begin : g_no_forward
-            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark || last_region;
+            wire unused_forward = forward_ready_i || arriving_step || region_bottom || |scored_raw || mark || last_region || |summary_level_i
+                || will_be_shown || |decided_region;
             assign {forward_valid_o, forward_region_o, forward_position_o, forward_pixel_o} =
                 {(1 + REGION_BITS + POSITION_BITS + WORD) {1'b0}};
-            assign {forward_first_o, forward_last_o, forward_abort_o} = 3'd0;
+            assign {forward_first_o, forward_last_o, forward_abort_o, forward_summary_o, differs, shown} = 6'd0;
             assign {lost_o, lost_count_o, lost_valid_o, idle, reference_write} = {20{1'b0}};
             assign {lost_region_o, forward_frame_o, lost_frame_o} = {(REGION_BITS + 2 * FRAME_BITS) {1'b0}};
             assign reference_place = {PLACE_BITS{1'b0}};
@@ -536,7 +603,7 @@ module raster_core #(
 
     // With few rows of regions the next frame waits until no region is under way.
     generate
-        if (LAST_SENT && ROWS <= BANKS) begin : g_waits
+        if ((LAST_SENT || BLOCKS > 0) && ROWS <= BANKS) begin : g_waits
             wire undecided;
             if (MAD) begin : g_undecided
                 localparam REGIONS_BITS = $clog2(BANKS * COLUMNS) + 1;
@@ -551,9 +618,9 @@ module raster_core #(
                 wire unused_decided = decided;
                 assign undecided = 1'b0;
             end
-            assign busy = !idle || active_o || will_be_active || undecided;
+            assign busy = !idle || active_o || summary_o || will_be_active || will_be_sent || undecided;
         end else begin : g_goes_on
-            wire unused_idle = idle || decided || will_be_active;
+            wire unused_idle = idle || decided || will_be_active || will_be_sent;
             assign busy = 1'b0;
         end
     endgenerate

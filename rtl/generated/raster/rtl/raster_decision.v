@@ -11,6 +11,7 @@ module raster_decision #(
     parameter ALL = 0,           // 1: every feature must vote; 0: one vote is enough
     parameter LAST_SENT = 0,     // 1: the reference is what was last sent; 0: the previous frame
     parameter BLANKS = 0,        // 1: a region without SRS loses its reference (LAST_SENT)
+    parameter SUMMARIES = 0,     // 1: a region without SRS may send its summary
     parameter DEEP = 0,          // 1: a register more, for a faster clock
     parameter PIXELS = 64,       // pixels of a region
     parameter COUNT_BITS = 7,    // bits of a count, 0..PIXELS
@@ -24,11 +25,16 @@ module raster_decision #(
     input  wire                   judged_i,          // the scores of a region are there
     input  wire [ SCORE_BITS-1:0] scores_i,          // they; changed pixels as against the reference, valid or not
     input  wire [ SCORE_BITS-1:0] minima_i,          // from which on each votes, that of the changed pixels for TRS
+    input  wire                   shown_i,           // the screen shows its summary (SUMMARIES)
+    input  wire                   differs_i,         // a mean of it differs from the one sent last (SUMMARIES)
     input  wire                   lost_i,            // a region is lost, and its reference with it
     input  wire [REGION_BITS-1:0] lost_region_i,     // which
     input  wire                   lost_mark_i,       // its mark
     output wire                   decided_o,         // the decision is on the ports after the next edge
     output wire                   will_be_active_o,  // and active_o with it
+    output wire                   will_be_sent_o,    // or summary_o
+    output wire                   will_be_shown_o,   // with decided_o: the screen shows the region's summary from now on (SUMMARIES)
+    output wire [REGION_BITS-1:0] decided_region_o,  // with decided_o: the region
     output wire                   mark_o,            // with the decision: what comes back if the region is lost
     output reg                    decision_valid_o,  // the decision for region_o
     output reg  [REGION_BITS-1:0] region_o,          // the region that is decided
@@ -36,6 +42,7 @@ module raster_decision #(
     output reg                    srs_o,             // spatial relevance
     output reg                    trs_o,             // temporal relevance
     output reg                    active_o,          // both
+    output wire                   summary_o,         // its summary is sent (SUMMARIES)
     output reg  [ SCORE_BITS-1:0] scores_o           // its scores
 );
 
@@ -83,6 +90,7 @@ module raster_decision #(
     );
     wire srs = ALL ? &decided_votes[FEATURES:1] : |decided_votes[FEATURES:1];
     wire trs = decided_votes[0];
+    assign decided_region_o = decided_region;
     assign will_be_active_o = decided_o && srs && trs;
 
     always @(posedge clk_i) begin
@@ -122,6 +130,23 @@ module raster_decision #(
             wire unused_reference = decided_valid || no_reference_q || lost_i || |lost_region_i || lost_mark_i;
             assign reference_valid = 1'b1;
             assign mark_o = 1'b0;
+        end
+
+        if (SUMMARIES) begin : g_summaries
+            wire decided_shown, decided_differs;
+            reg summary_q;
+            word_delay #(.WIDTH(2), .DEPTH(DEEP)) u_compared (
+                .clk_i(clk_i), .data_i({shown_i, differs_i}), .data_o({decided_shown, decided_differs})
+            );
+            assign will_be_sent_o = decided_o && !srs && (!decided_shown || decided_differs);
+            assign will_be_shown_o = !srs || (decided_shown && !trs);
+            always @(posedge clk_i) summary_q <= will_be_sent_o && !rst_i;
+            assign summary_o = summary_q;
+        end else begin : g_no_summaries
+            wire unused_summaries = differs_i || shown_i;
+            assign will_be_sent_o = 1'b0;
+            assign will_be_shown_o = 1'b0;
+            assign summary_o = 1'b0;
         end
     endgenerate
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The pixels of active regions leave, from a buffer that holds the last rows of regions. With LAST_SENT what
-// leaves becomes the reference, a clock after it was fetched.
+// leaves becomes the reference, a clock after it was fetched. With BLOCKS the means of other regions leave, too, from a
+// buffer beside it.
 `default_nettype none
 
 module raster_forward #(
@@ -19,7 +20,10 @@ module raster_forward #(
     parameter REGION_BITS = 15,    // ceil(log2(COLUMNS * ROWS))
     parameter FRAME_BITS = 8,      // bits of the number of a frame, 2 or more
     parameter START_BITS = 15,     // ceil(log2(BANKS * SIDE * ROW_WORDS))
-    parameter PLACE_BITS = 21      // ceil(log2(ROW_WORDS * ROWS * SIDE))
+    parameter PLACE_BITS = 21,     // ceil(log2(ROW_WORDS * ROWS * SIDE))
+    parameter BLOCKS = 0,          // blocks of a region's side; 0: no means leave
+    parameter COLUMN_BITS = 8,     // ceil(log2(COLUMNS))
+    parameter MEAN_BITS = 1        // ceil(log2(BLOCKS * BLOCKS)), at least 1
 ) (
     input  wire                     clk_i,                    // clock, rising edge
     input  wire                     rst_i,                    // synchronous reset, active high
@@ -34,15 +38,22 @@ module raster_forward #(
     input  wire [  REGION_BITS-1:0] region_i,                 // which
     input  wire                     last_region_i,            // the last of its frame
     input  wire                     mark_i,                   // travels with it
+    input  wire                     summary_i,                // its means leave (BLOCKS)
+    input  wire                     mean_valid_i,             // a mean is stored at this edge (BLOCKS)
+    input  wire [  COLUMN_BITS-1:0] mean_region_i,            // low bits of the region that it is in
+    input  wire [              1:0] mean_row_i,               // the row of regions, modulo 4
+    input  wire [    MEAN_BITS-1:0] mean_number_i,            // number of its block in the region
+    input  wire [WORD_BITS/LANES-1:0] mean_i,                 // that mean
     input  wire                     ready_i,                  // the word on the port is taken
     output wire                     valid_o,                  // a word of an active region leaves
     output wire [  REGION_BITS-1:0] region_o,                 // its region
     output wire [POSITION_BITS-1:0] position_o,               // number in its region of its first pixel
-    output reg  [    WORD_BITS-1:0] pixel_o,                  // that word
+    output wire [    WORD_BITS-1:0] pixel_o,                  // that word
     output wire                     first_o,                  // the first of its region
     output wire                     last_o,                   // the last that comes of its region
     output wire                     abort_o,                  // the last, because its region was lost in the middle
     output wire [   FRAME_BITS-1:0] frame_o,                  // number of the frame of its region since reset
+    output wire                     summary_o,                // the word is a mean (BLOCKS)
     output reg                      lost_o,                   // a region was lost since reset
     output reg  [             15:0] lost_count_o,             // how many, up to the largest number
     output reg                      lost_valid_o,             // a region was lost at the edge before
@@ -54,7 +65,14 @@ module raster_forward #(
     output wire [    WORD_BITS-1:0] reference_word_o,         // that word
     output wire                     lost_reference_o,         // a region is lost at this edge (LAST_SENT)
     output wire [  REGION_BITS-1:0] lost_reference_region_o,  // which
-    output wire                     lost_mark_o               // the mark that came with the region
+    output wire                     lost_mark_o,              // the mark that came with the region
+    output wire                     done_o,                   // all words of a region are fetched, or it was lost a clock ago (BLOCKS)
+    output wire                     done_lost_o,              // it was lost
+    output wire [  REGION_BITS-1:0] done_region_o,            // which
+    output wire                     sent_o,                   // a mean was fetched (BLOCKS)
+    output wire [  REGION_BITS-1:0] sent_region_o,            // of which region
+    output wire [    MEAN_BITS-1:0] sent_number_o,            // of which block of it
+    output wire [WORD_BITS/LANES-1:0] sent_mean_o             // that mean
 );
 
     localparam WORDS = BANKS * SIDE * ROW_WORDS;
@@ -63,7 +81,8 @@ module raster_forward #(
     // The low bits of the number of its frame wait with a region. The row of regions that is decided is at most BANKS behind
     // it until the region is held or lost, so that the others are known.
     localparam LOW_BITS = ROWS < BANKS ? 2 : 1;
-    localparam EXTRA_BITS = LOW_BITS + (LAST_SENT ? PLACE_BITS + 1 : 0);
+    localparam PIXEL_BITS = LOW_BITS + (LAST_SENT ? PLACE_BITS + 1 : 0);
+    localparam EXTRA_BITS = PIXEL_BITS + (BLOCKS > 0 ? 1 : 0);
 
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
@@ -107,22 +126,24 @@ module raster_forward #(
         else if (decision_i && last_region_i) frame_q <= frame_q + 1'b1;
     end
 
-    wire fetch, step, lost, fetch_first, fetch_segment_end;
+    wire fetch, step, lost, fetch_first, fetch_segment_end, fetch_last;
     wire [START_BITS-1:0] fetch_place;
+    wire [MEAN_BITS-1:0] fetch_mean;
+    wire [2:0] held_row;
     wire [WORD_BITS-1:0] fetched;
 
     raster_readout #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .REGION_BITS(REGION_BITS),
         .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .FRAME_BITS(FRAME_BITS),
-        .EXTRA_BITS(EXTRA_BITS), .QUEUE_BITS(QUEUE_BITS), .DEEP(DEEP)
+        .EXTRA_BITS(EXTRA_BITS), .QUEUE_BITS(QUEUE_BITS), .BLOCKS(BLOCKS), .MEAN_BITS(MEAN_BITS), .DEEP(DEEP)
     ) u_readout (
-        .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i), .row_i(decided_row), .region_i(region_i),
+        .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i || summary_i), .row_i(decided_row), .region_i(region_i),
         .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .frame_i(held_frame),
-        .ready_i(ready_i), .fetch_o(fetch), .place_o(fetch_place), .step_o(step), .valid_o(valid_o), .region_o(region_o),
-        .position_o(position_o), .begin_o(first_o), .end_o(last_o), .abort_o(abort_o), .frame_o(frame_o),
+        .ready_i(ready_i), .fetch_o(fetch), .place_o(fetch_place), .mean_o(fetch_mean), .step_o(step), .valid_o(valid_o), .region_o(region_o),
+        .position_o(position_o), .begin_o(first_o), .end_o(last_o), .abort_o(abort_o), .frame_o(frame_o), .summary_o(summary_o),
         .lost_o(lost), .lost_region_o(lost_reference_region_o), .lost_extra_o(lost_extra),
-        .held_region_o(lost_region_o), .held_extra_o(held_extra), .first_o(fetch_first),
-        .segment_end_o(fetch_segment_end), .idle_o(idle_o)
+        .held_region_o(lost_region_o), .held_extra_o(held_extra), .held_row_o(held_row), .fetched_region_o(sent_region_o), .first_o(fetch_first),
+        .segment_end_o(fetch_segment_end), .fetch_last_o(fetch_last), .idle_o(idle_o)
     );
 
     raster_memory #(.WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS)) u_buffer (
@@ -130,9 +151,10 @@ module raster_forward #(
         .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
     );
 
+    reg [WORD_BITS-1:0] pixel_q;
     assign lost_frame_o = held_frame;
     always @(posedge clk_i) begin
-        if (step) pixel_o <= fetched;
+        if (step) pixel_q <= fetched;
         lost_valid_o <= lost;
         if (lost) begin
             lost_o <= 1'b1;
@@ -171,18 +193,62 @@ module raster_forward #(
             end else begin : g_same
                 assign reference_word_o = fetched;
             end
-            wire unused_mark = held_extra[EXTRA_BITS-1] || |lost_extra;
-            assign entered_extra = {mark_i, decided_place, frame_q[LOW_BITS-1:0]};
+            wire unused_mark = held_extra[PIXEL_BITS-1] || |lost_extra;
+            assign entered_extra[PIXEL_BITS-1:0] = {mark_i, decided_place, frame_q[LOW_BITS-1:0]};
             assign lost_reference_o = lost;
-            assign lost_mark_o = lost_extra[EXTRA_BITS-1];
+            assign lost_mark_o = lost_extra[PIXEL_BITS-1];
         end else begin : g_previous
             wire unused_places = |decided_place || |lost_extra || fetch_first || fetch_segment_end || mark_i;
-            assign entered_extra = frame_q[LOW_BITS-1:0];
+            assign entered_extra[PIXEL_BITS-1:0] = frame_q[LOW_BITS-1:0];
             assign reference_write_o = 1'b0;
             assign reference_word_o = {WORD_BITS{1'b0}};
             assign reference_place_o = {PLACE_BITS{1'b0}};
             assign lost_reference_o = 1'b0;
             assign lost_mark_o = 1'b0;
+        end
+    endgenerate
+
+    // The means; the low bits of its number tell regions of a row apart. A word is chosen behind the registers: what a memory
+    // has read comes late in a clock. What is fetched of a region that sends pixels goes where the means are that it sent, too:
+    // it shows none, so they mean nothing.
+    generate
+        if (BLOCKS > 0) begin : g_means
+            localparam WIDTH = WORD_BITS / LANES;
+            localparam ROW_BITS = BANKS > 2 ? 2 : 1;
+            localparam MEANS = BLOCKS * BLOCKS << (ROW_BITS + COLUMN_BITS);
+            localparam AT_BITS = $clog2(MEANS);
+            wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] stored_at = {mean_row_i[ROW_BITS-1:0], mean_region_i, mean_number_i};
+            wire [ROW_BITS+COLUMN_BITS+MEAN_BITS-1:0] fetched_at = {held_row[ROW_BITS-1:0], lost_region_o[COLUMN_BITS-1:0], fetch_mean};
+            // With one block there is no number of a mean.
+            wire unused_bits = |mean_row_i || |held_row || stored_at[0] || fetched_at[0] || held_extra[EXTRA_BITS-1];
+            localparam LOWEST = BLOCKS == 1 ? MEAN_BITS : 0;
+            reg [WIDTH-1:0] mean_q;
+            reg sent_q;
+            reg [MEAN_BITS-1:0] number_q;
+            always @(posedge clk_i) begin
+                if (step) mean_q <= sent_mean_o;
+                if (fetch) number_q <= fetch_mean;
+                sent_q <= fetch;
+            end
+            raster_memory #(.WIDTH(WIDTH), .WORDS(MEANS), .ADDRESS_BITS(AT_BITS)) u_means (
+                .clk_i(clk_i), .write_i(mean_valid_i), .write_address_i(stored_at[LOWEST+:AT_BITS]), .data_i(mean_i),
+                .read_i(fetch), .read_address_i(fetched_at[LOWEST+:AT_BITS]), .data_o(sent_mean_o)
+            );
+            assign pixel_o = summary_o ? {LANES{mean_q}} : pixel_q;
+            assign entered_extra[EXTRA_BITS-1] = summary_i;
+            // A region that was lost is held no more a clock later, and its number is still there.
+            assign done_o = fetch_last || lost_valid_o;
+            assign done_lost_o = lost_valid_o;
+            assign done_region_o = lost_region_o;
+            assign {sent_o, sent_number_o} = {sent_q, number_q};
+        end else begin : g_pixels
+            wire unused_means = mean_valid_i || |mean_region_i || |mean_row_i || |mean_number_i || |mean_i || |fetch_mean || |held_row
+                                || fetch_last;
+            assign pixel_o = pixel_q;
+            assign {done_o, done_lost_o, done_region_o} = {(2 + REGION_BITS) {1'b0}};
+            assign sent_o = 1'b0;
+            assign sent_number_o = {MEAN_BITS{1'b0}};
+            assign sent_mean_o = {(WORD_BITS / LANES) {1'b0}};
         end
     endgenerate
 

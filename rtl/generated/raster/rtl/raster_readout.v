@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The pixels of active regions leave: which region is next, and which of its words.
+// The pixels of active regions leave, and the means of others: which region is next, and which of its words.
 //
-// Active regions wait in a queue. One of them is held, and its words are fetched from the buffer, at every
+// Regions that send something wait in a queue. One of them is held, and its words are fetched from the buffer, at every
 // step one; a step is an edge at which the port is free. A region of a row of regions whose place in the
 // buffer is being taken is stale: it is lost.
 `default_nettype none
@@ -18,6 +18,8 @@ module raster_readout #(
     parameter FRAME_BITS = 8,     // bits of the number of a frame
     parameter EXTRA_BITS = 1,     // bits that travel with a region
     parameter QUEUE_BITS = 9,     // log2 of the regions that can wait
+    parameter BLOCKS = 0,         // blocks of a region's side; 0: there are no means
+    parameter MEAN_BITS = 1,      // ceil(log2(BLOCKS * BLOCKS)), at least 1
     parameter DEEP = 0            // 0: a region can be held two clocks after it entered the queue; 1: three
 ) (
     input  wire                     clk_i,           // clock, rising edge
@@ -26,12 +28,13 @@ module raster_readout #(
     input  wire [              2:0] row_i,           // its row of regions, modulo 8
     input  wire [  REGION_BITS-1:0] region_i,        // its number
     input  wire [   START_BITS-1:0] start_i,         // where in the buffer its first word is
-    input  wire [   EXTRA_BITS-1:0] extra_i,         // bits that travel with the region
+    input  wire [   EXTRA_BITS-1:0] extra_i,         // bits that travel with the region; the highest: it sends means (BLOCKS)
     input  wire [              2:0] stored_row_i,    // row of regions of the word that is stored at this edge, modulo 8
     input  wire [   FRAME_BITS-1:0] frame_i,         // number of the frame of the region that is held
     input  wire                     ready_i,         // the sink takes the word on the port
     output wire                     fetch_o,         // a word is fetched at this edge
     output wire [   START_BITS-1:0] place_o,         // where in the buffer it is
+    output wire [    MEAN_BITS-1:0] mean_o,          // or the number of the block of the mean (BLOCKS)
     output wire                     step_o,          // the port takes what was fetched at the step before
     output reg                      valid_o,         // a word is on the port
     output reg  [  REGION_BITS-1:0] region_o,        // its region
@@ -40,13 +43,17 @@ module raster_readout #(
     output reg                      end_o,           // the last that comes of its region
     output reg                      abort_o,         // the last, because its region was lost
     output reg  [   FRAME_BITS-1:0] frame_o,         // number of the frame of its region
+    output wire                     summary_o,       // it is a mean (BLOCKS)
     output wire                     lost_o,          // a region is lost at this edge
     output wire [  REGION_BITS-1:0] lost_region_o,   // which
     output wire [   EXTRA_BITS-1:0] lost_extra_o,    // the bits that came with the region
     output wire [  REGION_BITS-1:0] held_region_o,   // the region that is held, or that was held or lost last
     output wire [   EXTRA_BITS-1:0] held_extra_o,    // the bits that came with that region
+    output wire [              2:0] held_row_o,      // its row of regions, modulo 8
+    output wire [  REGION_BITS-1:0] fetched_region_o,  // region of the word that was fetched
     output wire                     first_o,         // the word that is fetched is the first of its region
     output wire                     segment_end_o,   // ... the last of a row of its region
+    output wire                     fetch_last_o,    // the last word of a region is fetched at this edge
     output wire                     idle_o           // after this edge nothing waits, is held, fetched or on the port
 );
 
@@ -88,14 +95,16 @@ module raster_readout #(
     wire fetch = step_o && held_q && !held_stale;
     wire fetch_last = fetch && last;
 
+    wire means = BLOCKS > 0 && extra_q[EXTRA_BITS-1];
+
     assign take = oldest_valid && (!held_q || fetch_last);
 
     raster_walk #(
         .LANES(LANES), .SIDE(SIDE), .SEGMENT(SEGMENT), .POSITION_BITS(POSITION_BITS), .ROW_WORDS(ROW_WORDS),
-        .PLACE_BITS(START_BITS)
+        .PLACE_BITS(START_BITS), .BLOCKS(BLOCKS), .MEAN_BITS(MEAN_BITS)
     ) u_walk (
-        .clk_i(clk_i), .begin_i(take), .start_i(oldest_start), .step_i(fetch), .place_o(place_o),
-        .position_o(position), .first_o(first_o), .segment_end_o(segment_end_o), .last_o(last)
+        .clk_i(clk_i), .begin_i(take), .start_i(oldest_start), .step_i(fetch), .means_i(means),
+        .place_o(place_o), .mean_o(mean_o), .position_o(position), .first_o(first_o), .segment_end_o(segment_end_o), .last_o(last)
     );
 
     always @(posedge clk_i) begin
@@ -140,6 +149,16 @@ module raster_readout #(
         end
     end
 
+    generate
+        if (BLOCKS > 0) begin : g_means
+            reg fetched_means_q, means_q;
+            always @(posedge clk_i) if (step_o) {means_q, fetched_means_q} <= {fetched_means_q, means};
+            assign summary_o = means_q;
+        end else begin : g_pixels
+            assign summary_o = 1'b0;
+        end
+    endgenerate
+
     assign step_o = !valid_o || ready_i;
     assign fetch_o = fetch;
     assign lost_o = held_stale || (take && oldest_stale);
@@ -147,6 +166,9 @@ module raster_readout #(
     assign lost_extra_o = held_stale ? extra_q : oldest_extra;
     assign held_region_o = held_region_q;
     assign held_extra_o = extra_q;
+    assign held_row_o = row_q;
+    assign fetch_last_o = fetch_last;
+    assign fetched_region_o = fetched_region_q;
     assign idle_o = !queued && !held_q && !fetched_q && step_o;
 
 endmodule

@@ -46,11 +46,13 @@ module rcm #(
     output wire [$clog2(COLUMNS*ROWS)-1:0] lost_region_o,       // that region; only with lost_valid_o
     output wire [7:0]                      lost_frame_o         // number of its frame since reset, modulo 256; only with lost_valid_o
 );
+    wire unused_summary;
     wire unused_reference_ready;
     wire unused_store_valid;
     wire [7:0] unused_store_pixel;
     wire unused_store_last;
     wire unused_underrun;
+    wire unused_forward_summary;
 
     // Only whole frames reach what is behind.
     localparam BEATS = COLUMNS * 8 * ROWS * 8;
@@ -90,6 +92,7 @@ module rcm #(
     ) u_core (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(beat), .pixel_i(pixel_i), .ready_o(open),
         .temporal_level_i(temporal_level_i),
+        .summary_level_i(8'd0),
         .edge_level_i(edge_level_i),
         .corner_level_i(8'd0),
         .minima_i({edge_min_i, temporal_min_i}),
@@ -98,6 +101,7 @@ module rcm #(
         .reference_valid_i(1'd0),
         .reference_pixel_i(8'd0),
         .forward_ready_i(forward_ready_i),
+        .summary_o(unused_summary),
         .reference_ready_o(unused_reference_ready),
         .store_valid_o(unused_store_valid),
         .store_pixel_o(unused_store_pixel),
@@ -111,6 +115,7 @@ module rcm #(
         .forward_last_o(forward_last_o),
         .forward_abort_o(forward_abort_o),
         .forward_frame_o(forward_frame_o),
+        .forward_summary_o(unused_forward_summary),
         .lost_o(lost_o),
         .lost_count_o(lost_count_o),
         .lost_valid_o(lost_valid_o),

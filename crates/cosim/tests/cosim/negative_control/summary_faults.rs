@@ -84,7 +84,7 @@ pub(crate) const RASTER: &[Fault] = &[
     fault("constant", RasterMeans, "raster_blocks", "BACK = COLUMNS - 1;", "BACK = COLUMNS;"),
     fault("constant", RasterMeans, "raster_blocks", "BEFORE_LAST = REGIONS - 2;", "BEFORE_LAST = REGIONS - 3;"),
     fault("operator", RasterMeans, "raster_blocks", "back = row_end_i && !complete;", "back = row_end_i;"),
-    fault("operator", RasterMeans, "raster_blocks", "step_i && end_o && column_o == LAST;", "step_i && end_o;"),
+    fault("operator", RasterMeans, "raster_blocks", "step_i && end_o && column_o == LAST[1:0];", "step_i && end_o;"),
     fault("operator", RasterMeans, "raster_blocks", "if (row_end_i && complete) row_o", "if (complete) row_o"),
     fault("reset", RasterMeans, "raster_blocks", "if (rst_i || frame_end_o) region_o", "if (frame_end_o) region_o"),
     fault("reset", RasterMeans, "raster_blocks", "            row_o         <= 2'd0;\n", ""),
