@@ -137,7 +137,7 @@ module raster_forward #(
         .ROW_WORDS(ROW_WORDS), .START_BITS(START_BITS), .BANKS(BANKS), .FRAME_BITS(FRAME_BITS),
         .EXTRA_BITS(EXTRA_BITS), .QUEUE_BITS(QUEUE_BITS), .BLOCKS(BLOCKS), .MEAN_BITS(MEAN_BITS), .DEEP(DEEP)
     ) u_readout (
-        .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i || summary_i), .row_i(decided_row), .region_i(region_i),
+        .clk_i(clk_i), .rst_i(rst_i), .enter_i(active_i || (BLOCKS > 0 && summary_i)), .row_i(decided_row), .region_i(region_i),
         .start_i(decided_start), .extra_i(entered_extra), .stored_row_i(stored_row_q), .frame_i(held_frame),
         .ready_i(ready_i), .fetch_o(fetch), .place_o(fetch_place), .mean_o(fetch_mean), .step_o(step), .valid_o(valid_o), .region_o(region_o),
         .position_o(position_o), .begin_o(first_o), .end_o(last_o), .abort_o(abort_o), .frame_o(frame_o), .summary_o(summary_o),

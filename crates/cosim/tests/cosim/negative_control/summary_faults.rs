@@ -119,7 +119,7 @@ pub(crate) const RASTER: &[Fault] = &[
 
     fault("index", RasterMeans, "raster_readout", "{means_q, fetched_means_q} <= {fetched_means_q, means}", "{means_q, fetched_means_q} <= {means, means}"),
 
-    fault("operator", RasterMeans, "raster_forward", ".enter_i(active_i || summary_i)", ".enter_i(active_i)"),
+    fault("operator", RasterMeans, "raster_forward", ".enter_i(active_i || (BLOCKS > 0 && summary_i))", ".enter_i(active_i)"),
     fault("index", RasterMeansDeep, "raster_forward", "summary_o ? {LANES{mean_q}} : pixel_q", "pixel_q"),
     fault("operator", RasterMeans, "raster_forward", "done_o = fetch_last || lost_valid_o", "done_o = fetch_last"),
     fault("operator", RasterMeans, "raster_forward", "done_o = fetch_last || lost_valid_o", "done_o = lost_valid_o"),
