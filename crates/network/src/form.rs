@@ -145,6 +145,13 @@ impl Form {
         steps
     }
 
+    /// Values of an operand from one index of each axis of this form to the next; 0 where the operand is repeated.
+    pub(crate) fn steps_of(&self, operand: &Self) -> Vec<usize> {
+        let sizes = operand.shape.iter().zip(operand.steps());
+        let own = sizes.map(|(&size, step)| if size == 1 { 0 } else { step });
+        std::iter::repeat_n(0, self.shape.len() - operand.shape.len()).chain(own).collect()
+    }
+
     /// The shape as messages show it.
     pub(crate) fn describe(&self) -> String {
         let sizes: Vec<String> = self.shape.iter().map(ToString::to_string).collect();

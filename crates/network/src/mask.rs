@@ -256,15 +256,23 @@ impl Mask {
     #[must_use]
     pub fn between(&self, rows: &[(usize, usize)], columns: &[(usize, usize)]) -> Self {
         let mut seen = Self::empty(rows.len(), columns.len());
+        let is_taken = |y: usize| self.row(y).iter().any(|&word| word != 0);
         for (y, &(top, bottom)) in rows.iter().enumerate() {
+            if !(top..=bottom).any(is_taken) {
+                continue;
+            }
             for (x, &(left, right)) in columns.iter().enumerate() {
-                let sees = |y| next(self.row(y), left, right + 1, false).is_some();
-                if (top..=bottom).any(sees) {
+                if self.any(top..bottom + 1, left..right + 1) {
                     seen.insert(x, y);
                 }
             }
         }
         seen
+    }
+
+    /// Whether a position of these rows and columns is in it.
+    pub(crate) fn any(&self, mut rows: Range<usize>, columns: Range<usize>) -> bool {
+        rows.any(|y| next(self.row(y), columns.start, columns.end, false).is_some())
     }
 
     /// Adds to row `y` the outputs that see a position of `line`.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Two tensors, element by element, each repeated along the axes in which it has one element.
 
+use super::places::aligned;
 use super::{Activation, Job, Operator};
 use crate::form::Form;
 use crate::mask::Mask;
@@ -87,28 +88,11 @@ impl Operator for Binary {
         let [a, b] = self.operands(inputs, Tensor::form)?;
         let shape = broadcast(a.shape(), b.shape())
             .ok_or_else(|| format!("{} and {} do not fit together", a.describe(), b.describe()))?;
-        // Positions are those of an operand of the frame that has all of them.
-        let whole = inputs.iter().find(|form| form.has_positions() && kept(form, &shape));
-        Ok(match whole {
-            Some(form) => {
-                let axes = axes(form, shape.len());
-                Form::at(shape, axes)
-            }
-            None => Form::whole(shape),
-        })
+        Ok(together(inputs, shape))
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        let mut seen = Mask::empty(output.height(), output.width());
-        for &(form, mask) in inputs {
-            let is_same = axes(form, output.shape().len()) == output.axes();
-            if form.has_positions() && is_same && kept(form, output.shape()) {
-                seen.union(mask);
-            } else if !mask.is_empty() {
-                seen.fill();
-            }
-        }
-        seen
+        repeated(inputs, output)
     }
 
     fn finished(&self, finish: Activation) -> Option<Arc<dyn Operator>> {
@@ -138,7 +122,7 @@ impl Binary {
         let (inputs, form) = (job.inputs, job.form);
         let [a, b] =
             self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
-        let (of_a, of_b) = (steps(a.form(), form), steps(b.form(), form));
+        let (of_a, of_b) = (form.steps_of(a.form()), form.steps_of(b.form()));
         let last = form.shape().last().copied().unwrap_or(1);
         job.fill(|run, to| {
             let (first, mut start) = (run.start, run.start);
@@ -167,20 +151,32 @@ fn line<T: Copy, Y: Copy>(a: &[T], b: &[T], to: &mut [Y], of: impl Fn(T, T) -> Y
     }
 }
 
-/// The positions of a form as axes of a tensor with more axes in front.
-fn axes(form: &Form, count: usize) -> Range<usize> {
-    let new = count - form.shape().len();
-    form.axes().start + new..form.axes().end + new
+/// The form of a result of this shape of inputs that are repeated. Positions are those of the input that has the most axes of them, none repeated.
+pub(super) fn together(inputs: &[&Form], shape: Vec<usize>) -> Form {
+    let new = |form: &Form| shape.len() - form.shape().len();
+    let axes = |form: &Form| form.axes().start + new(form)..form.axes().end + new(form);
+    let is_kept = |form: &&&Form| {
+        form.has_positions() && axes(form).all(|axis| shape[axis] == form.shape()[axis - new(form)])
+    };
+    let own = inputs.iter().filter(is_kept).rev().max_by_key(|form| form.axes().len());
+    match own.map(|form| axes(form)) {
+        Some(axes) => Form::at(shape, axes),
+        None => Form::whole(shape),
+    }
 }
 
-/// Whether a form has its positions in a shape, none repeated.
-fn kept(form: &Form, shape: &[usize]) -> bool {
-    let new = shape.len() - form.shape().len();
-    form.axes().all(|axis| form.shape()[axis] == shape[axis + new])
+/// The positions of such a result that depend on changed ones of the inputs.
+pub(super) fn repeated(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+    let mut seen = Mask::empty(output.height(), output.width());
+    for &(form, mask) in inputs {
+        let new = output.shape().len() - form.shape().len();
+        seen.union(&aligned((form, mask), output, |axis| Some(axis + new)));
+    }
+    seen
 }
 
 /// The shape of both together.
-fn broadcast(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
+pub(crate) fn broadcast(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
     let axes = a.len().max(b.len());
     let size = |shape: &[usize], axis: usize| {
         (axis + shape.len()).checked_sub(axes).map_or(1, |axis| shape[axis])
@@ -191,13 +187,6 @@ fn broadcast(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
         _ => None,
     };
     (0..axes).map(together).collect()
-}
-
-/// Values of an operand from one index of each axis of the output to the next; 0 where the operand is repeated.
-fn steps(operand: &Form, output: &Form) -> Vec<usize> {
-    let sizes = operand.shape().iter().zip(operand.steps());
-    let own = sizes.map(|(&size, step)| if size == 1 { 0 } else { step });
-    std::iter::repeat_n(0, output.shape().len() - operand.shape().len()).chain(own).collect()
 }
 
 /// The values of an operand for a line of the output, or the one value that is repeated there.

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Tensors one behind the other, along an axis.
 
-use super::{Job, Operator, everything, moved, same_position, values_of};
+use super::arithmetic::repeated;
+use super::places::aligned;
+use super::{Job, Operator, moved};
 use crate::element::{Encoding, typed};
 use crate::form::Form;
 use crate::mask::Mask;
@@ -30,11 +32,12 @@ impl Operator for Concat {
             }
             shape[axis] += form.shape()[axis];
         }
-        let alike = inputs.iter().all(|form| form.axes() == first.axes());
-        Ok(if alike && !first.axes().contains(&axis) {
-            Form::at(shape, first.axes())
-        } else {
-            Form::whole(shape)
+        // Positions are those of all inputs that have some.
+        let positions = inputs.iter().map(|form| form.axes()).filter(|axes| !axes.is_empty());
+        let common = positions.reduce(|a, b| a.start.max(b.start)..a.end.min(b.end));
+        Ok(match common.filter(|axes| !axes.is_empty()) {
+            Some(axes) => Form::at(shape, axes),
+            None => Form::whole(shape),
         })
     }
 
@@ -43,11 +46,25 @@ impl Operator for Concat {
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        if output.has_positions() {
-            same_position(inputs, output)
-        } else {
-            everything(inputs, output)
+        let axis = output.axis(self.axis).expect("the form has it");
+        if !output.axes().contains(&axis) {
+            return repeated(inputs, output);
         }
+        let is_column = axis + 1 == output.axes().end;
+        let mut seen = Mask::empty(output.height(), output.width());
+        let mut first = 0;
+        for &(form, mask) in inputs {
+            let own = Form::at(form.shape().to_vec(), output.axes());
+            let mask = aligned((form, mask), &own, Some);
+            let (left, top) = if is_column { (first, 0) } else { (0, first) };
+            for y in 0..mask.height() {
+                for (x, length) in mask.runs(y) {
+                    (x..x + length).for_each(|x| seen.insert(left + x, top + y));
+                }
+            }
+            first += form.shape()[axis];
+        }
+        seen
     }
 
     fn compute(&self, job: Job<'_>) {
@@ -62,58 +79,32 @@ impl Concat {
     pub(super) fn join<T: Number, Y: Number>(
         &self,
         job: Job<'_>,
-        copy: impl Fn(usize, &[T], &mut [Y]),
+        copy: impl Fn(usize, &[T], &mut [Y]) + Sync,
     ) {
-        let Job { inputs, form, output, at, .. } = job;
-        let output: &mut [Y] = values_of(output, form);
+        let (inputs, form) = (job.inputs, job.form);
         let axis = form.axis(self.axis).expect("the form has it");
         let behind = |form: &Form| form.shape()[axis..].iter().product::<usize>();
         let whole = behind(form);
-        let mut offset = 0;
-        for (number, input) in inputs.iter().enumerate() {
-            let own = behind(input.form());
-            if form.has_positions() {
-                // Positions are inside what is joined, or outside of it: a run stays a run.
-                crate::tensor::for_each_run(input.form(), at, |run| {
-                    for from in Lines::of(run, own) {
-                        let to = from.start / own * whole + offset + from.start % own;
-                        copy(
-                            number,
-                            &input.values()[from.clone()],
-                            &mut output[to..to + from.len()],
-                        );
-                    }
-                });
-            } else if !at.is_empty() {
-                let lines = output.chunks_mut(whole).zip(input.values().chunks(own));
-                lines.for_each(|(to, from)| copy(number, from, &mut to[offset..offset + own]));
+        // Where each input ends in a line of the output.
+        let ends: Vec<usize> = inputs
+            .iter()
+            .scan(0, |end, input| {
+                *end += behind(input.form());
+                Some(*end)
+            })
+            .collect();
+        job.fill::<Y>(|run, to| {
+            let (mut start, mut to) = (run.start, to);
+            while !to.is_empty() {
+                let (line, inside) = (start / whole, start % whole);
+                let number = ends.partition_point(|&end| end <= inside);
+                let first = number.checked_sub(1).map_or(0, |before| ends[before]);
+                let (own, rest) = to.split_at_mut(to.len().min(ends[number] - inside));
+                let from = line * (ends[number] - first) + inside - first;
+                copy(number, &inputs[number].values()[from..from + own.len()], own);
+                start += own.len();
+                to = rest;
             }
-            offset += own;
-        }
-    }
-}
-
-/// A range cut where multiples of a length are.
-struct Lines {
-    rest: std::ops::Range<usize>,
-    length: usize,
-}
-
-impl Lines {
-    fn of(rest: std::ops::Range<usize>, length: usize) -> Self {
-        Self { rest, length }
-    }
-}
-
-impl Iterator for Lines {
-    type Item = std::ops::Range<usize>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        if self.rest.is_empty() {
-            return None;
-        }
-        let start = self.rest.start;
-        self.rest.start = self.rest.end.min((start / self.length + 1) * self.length);
-        Some(start..self.rest.start)
+        });
     }
 }

@@ -5,11 +5,13 @@ mod activation;
 mod arithmetic;
 mod concat;
 mod conv;
+mod fixed;
 mod geometry;
 mod integer_conv;
 mod integer_matmul;
 mod linear;
-mod pad;
+mod pick;
+mod places;
 mod pool;
 mod quantize;
 mod quantized;
@@ -17,33 +19,32 @@ mod reduce;
 mod reshape;
 mod resize;
 mod scale;
-mod slice;
 mod softmax;
+mod strided;
 mod sums;
 mod table;
-mod transpose;
 
 pub(crate) use activation::{Activation, Pointwise};
-pub(crate) use arithmetic::{Arithmetic, Binary};
+pub(crate) use arithmetic::{Arithmetic, Binary, broadcast};
 pub(crate) use concat::Concat;
 pub(crate) use conv::Conv;
+pub(crate) use fixed::Fixed;
 pub(crate) use geometry::Geometry;
 pub(crate) use integer_conv::{IntegerConv, Rows};
 pub(crate) use integer_matmul::IntegerMatMul;
 pub(crate) use linear::{Linear, MatMul};
-pub(crate) use pad::Pad;
+pub(crate) use pick::{Pick, Picked};
 pub(crate) use pool::{Pool, PoolKind};
 pub(crate) use quantize::{Dequantize, Quantize, Scales};
 pub(crate) use quantized::{QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool};
 pub(crate) use reduce::{Reduce, Reduction};
-pub(crate) use reshape::Reshape;
+pub(crate) use reshape::{Placed, Reshape};
 pub(crate) use resize::{Coordinates, Nearest, Resize, ResizeKind, Size};
 pub(crate) use scale::Scale;
-pub(crate) use slice::{Cut, Slice};
 pub(crate) use softmax::Softmax;
+pub(crate) use strided::{Expand, Transpose};
 pub(crate) use sums::Sums;
 pub(crate) use table::Table;
-pub(crate) use transpose::Transpose;
 
 use crate::element::{Element, Encoding};
 use crate::form::Form;
@@ -144,6 +145,11 @@ pub(crate) trait Operator: Debug + Send + Sync {
         None
     }
 
+    /// Whether its inputs must be features, with rows and columns.
+    fn takes_features(&self) -> bool {
+        self.windows().is_some()
+    }
+
     /// Bytes of the weights.
     fn weight_bytes(&self) -> u64 {
         0
@@ -161,20 +167,18 @@ pub(crate) struct Job<'a> {
 }
 
 impl Job<'_> {
-    /// Fills every run of positions of the mask: `fill` gets its range in the output's memory, and the values there. Threads share what lies
+    /// Fills every run of positions of the mask, which may go on in the next row: `fill` gets its range in the output's memory, and the values there. Threads share what lies
     /// outside of the positions, such as channels.
     fn fill<T: Number>(self, fill: impl Fn(Range<usize>, &mut [T]) + Sync) {
         let Self { form, output, at, .. } = self;
         let output = values_of(output, form);
-        let (inner, width) = (form.inner(), form.width());
+        let (inner, ranges) = (form.inner(), at.ranges());
         let length = form.places() * inner;
         output.par_chunks_mut(length).enumerate().for_each(|(outer, plane)| {
-            for y in 0..form.height() {
-                for (x, count) in at.runs(y) {
-                    let run = (y * width + x) * inner..(y * width + x + count) * inner;
-                    let start = outer * length;
-                    fill(start + run.start..start + run.end, &mut plane[run]);
-                }
+            for range in &ranges {
+                let run = range.start * inner..range.end * inner;
+                let start = outer * length;
+                fill(start + run.start..start + run.end, &mut plane[run]);
             }
         });
     }

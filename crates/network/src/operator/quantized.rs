@@ -137,6 +137,10 @@ impl Operator for QuantizedMean {
         everything(inputs, output)
     }
 
+    fn takes_features(&self) -> bool {
+        true
+    }
+
     fn compute(&self, job: Job<'_>) {
         if !job.at.is_empty() {
             typed_byte!(self.to.element, T => self.means::<T>(job));

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The same values in another shape.
 
-use super::{Job, Operator, Products, moved, only, same_position};
+use super::places::{aligned, all_if};
+use super::{Job, Operator, Products, moved, only};
 use crate::element::{Encoding, typed};
 use crate::form::Form;
 use crate::mask::Mask;
+use std::ops::Range;
 
 /// The same values, in the same order, in another shape.
 #[derive(Clone, Debug)]
@@ -17,22 +19,8 @@ impl Operator for Reshape {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
         let input = only(inputs)?;
         let shape = self.resolve(input)?;
-        // Positions stay where their axes stand again behind as many values as before.
-        let axes = input.axes();
-        let before: usize = input.shape()[..axes.start].iter().product();
-        let found = (0..=shape.len()).find(|&start| {
-            let own = shape.get(start..start + axes.len());
-            own == Some(&input.shape()[axes.clone()])
-                && shape[..start].iter().product::<usize>() == before
-        });
-        let flat = (0..shape.len()).find(|&start| {
-            shape[start] == input.places() && shape[..start].iter().product::<usize>() == before
-        });
-        Ok(match (input.has_positions(), found, flat) {
-            (true, Some(start), _) => Form::at(shape, start..start + axes.len()),
-            (true, None, Some(start)) => Form::at(shape, start..start + 1),
-            _ => Form::whole(shape),
-        })
+        let axes = positions(input, &shape);
+        Ok(axes.map_or_else(|| Form::whole(shape.clone()), |axes| Form::at(shape.clone(), axes)))
     }
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
@@ -41,12 +29,18 @@ impl Operator for Reshape {
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         let (form, mask) = inputs[0];
-        if output.has_positions() && output.height() != form.height() {
-            // Rows have become one.
-            let width = form.width();
-            return Mask::from_fn(1, output.width(), |x, _| mask.contains(x % width, x / width));
+        if !output.has_positions() {
+            return all_if(!mask.is_empty(), output);
         }
-        same_position(inputs, output)
+        if (form.height(), form.width()) == (output.height(), output.width()) {
+            return mask.clone();
+        }
+        // Positions stand in the same order in memory.
+        let (own, new) = (form.width(), output.width());
+        Mask::from_fn(output.height(), new, |x, y| {
+            let at = y * new + x;
+            mask.contains(at % own, at / own)
+        })
     }
 
     fn products(&self) -> Products {
@@ -54,10 +48,7 @@ impl Operator for Reshape {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let inputs = job.inputs;
-        typed!(job.form.encoding().element, T => {
-            job.fill::<T>(|run, to| to.copy_from_slice(&inputs[0].values()[run]));
-        });
+        copy(job);
     }
 }
 
@@ -85,4 +76,64 @@ impl Reshape {
         }
         if shape.iter().product::<usize>() == input.elements() { Ok(shape) } else { Err(wrong()) }
     }
+}
+
+/// The axes that hold all positions of an input, behind as many values as before: the same ones, else one axis, else two.
+fn positions(input: &Form, shape: &[usize]) -> Option<Range<usize>> {
+    let own = &input.shape()[input.axes()];
+    let before: usize = input.shape()[..input.axes().start].iter().product();
+    let find = |count: usize, is: &dyn Fn(&[usize]) -> bool| {
+        let axes = (0..=shape.len().checked_sub(count)?).map(|start| start..start + count);
+        let stands = |axes: &Range<usize>| shape[..axes.start].iter().product::<usize>() == before;
+        axes.filter(stands).find(|axes| is(&shape[axes.clone()]))
+    };
+    let holds_all = |axes: &[usize]| axes.iter().product::<usize>() == input.places();
+    input.has_positions().then_some(())?;
+    find(own.len(), &|axes| axes == own)
+        .or_else(|| find(1, &holds_all))
+        .or_else(|| find(2, &holds_all))
+}
+
+/// The same values as features, for an operator that sees rows and columns.
+#[derive(Clone, Debug)]
+pub(crate) struct Placed;
+
+impl Placed {
+    /// The axes that are rows and columns of features.
+    const AXES: Range<usize> = 2..4;
+
+    /// Whether a form is one that becomes features.
+    pub(crate) fn takes(form: &Form) -> bool {
+        form.shape().len() == 4 && form.shape()[0] == 1 && form.axes() != Self::AXES
+    }
+}
+
+impl Operator for Placed {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        Ok(Form::at(only(inputs)?.shape().to_vec(), Self::AXES))
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        moved(inputs)
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        aligned(inputs[0], output, Some)
+    }
+
+    fn products(&self) -> Products {
+        Products::Renamed
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        copy(job);
+    }
+}
+
+/// The values of the input where they are.
+fn copy(job: Job<'_>) {
+    let inputs = job.inputs;
+    typed!(job.form.encoding().element, T => {
+        job.fill::<T>(|run, to| to.copy_from_slice(&inputs[0].values()[run]));
+    });
 }

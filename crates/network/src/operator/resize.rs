@@ -139,6 +139,10 @@ impl Operator for Resize {
         mask.between(&rows, &columns)
     }
 
+    fn takes_features(&self) -> bool {
+        true
+    }
+
     fn compute(&self, job: Job<'_>) {
         match self.kind {
             ResizeKind::Nearest(_) => typed!(job.form.encoding().element, T => {

@@ -126,6 +126,19 @@ impl Constant {
         })
     }
 
+    /// Its values as a tensor of the same element; integers of other types are refused.
+    pub(super) fn tensor(&self) -> Result<Tensor, String> {
+        let element = self.element.ok_or("a constant must be of floating-point values or of integers of 8 or 32 bits, but is of another type")?;
+        if self.values.count() == 0 {
+            return Err(format!("a constant is empty: {:?}", self.shape));
+        }
+        let form = Form::whole(self.shape.clone()).encoded(Encoding::plain(element));
+        Ok(match &self.values {
+            Values::Floats(values) => Tensor::new(form, values.clone()),
+            Values::Integers(values) => Tensor::of_integers(form, values)?,
+        })
+    }
+
     /// Its values as floating-point ones.
     pub(super) fn as_floats(&self) -> Result<&[f32], String> {
         match &self.values {

@@ -6,14 +6,14 @@ use super::fold;
 use super::input::{FrameSize, input_form, puts_channels_first};
 use super::made::Made;
 use super::names::{full_kind, name_of, shown_name};
-use super::node::{Known, NodeReader};
+use super::node::{Known, NodeReader, Operand};
 use super::operators;
 use super::pointwise;
 use crate::error::NetworkError;
 use crate::layout::Layout;
 use crate::network::Network;
 use crate::onnx::{GraphProto, NodeProto};
-use crate::operator::Activation;
+use crate::operator::{Activation, Fixed, Operator, Placed};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
@@ -111,8 +111,8 @@ impl Reading<'_> {
                     }
                     what
                 }
-                Made::Operator(operator, inputs) => {
-                    Known::Value(self.network.push(&name, &kind, operator, inputs)?)
+                Made::Operator(operator, operands) => {
+                    Known::Value(self.push(&name, &kind, operator, operands)?)
                 }
                 Made::Finish(activation, value) => {
                     let fused = self.fuse(&kind, activation, value, &node.input[0]);
@@ -130,6 +130,34 @@ impl Reading<'_> {
             self.known.insert(output.clone(), what);
         }
         Ok(())
+    }
+
+    /// Adds a node behind those that make its inputs what it takes: constants, and features.
+    fn push(
+        &mut self,
+        name: &str,
+        kind: &str,
+        operator: Arc<dyn Operator>,
+        operands: Vec<Operand>,
+    ) -> Result<usize, NetworkError> {
+        let mut inputs = Vec::new();
+        for (at, operand) in operands.into_iter().enumerate() {
+            let made_for = |what: &str| format!("{name}/{what}{at}");
+            inputs.push(match operand {
+                Operand::Constant(tensor) => {
+                    let fixed = Arc::new(Fixed(tensor));
+                    self.network.push(&made_for("constant"), "Constant", fixed, Vec::new())?
+                }
+                Operand::Value(value)
+                    if operator.takes_features() && Placed::takes(self.network.form(value)) =>
+                {
+                    let placed = Arc::new(Placed);
+                    self.network.push(&made_for("features"), "Reshape", placed, vec![value])?
+                }
+                Operand::Value(value) => value,
+            });
+        }
+        self.network.push(name, kind, operator, inputs)
     }
 
     /// Lets the only output of a node be a value that there is.

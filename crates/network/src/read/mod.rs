@@ -11,10 +11,12 @@ mod moves;
 mod names;
 mod node;
 mod operators;
+mod parts;
 mod pointwise;
 mod quantized;
 mod rearrange;
 mod scales;
+mod sizes;
 mod sums;
 
 use crate::error::NetworkError;

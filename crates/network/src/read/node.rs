@@ -8,6 +8,7 @@ use crate::form::Form;
 use crate::mask::Window;
 use crate::onnx::{AttributeProto, NodeProto};
 use crate::operator::Geometry;
+use crate::tensor::Tensor;
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -17,6 +18,12 @@ pub(super) enum Known {
     /// A value of the network.
     Value(usize),
     Constant(Arc<Constant>),
+}
+
+/// What an operator takes.
+pub(super) enum Operand {
+    Value(usize),
+    Constant(Tensor),
 }
 
 pub(super) struct NodeReader<'a> {
@@ -105,6 +112,15 @@ impl<'a> NodeReader<'a> {
         self.constant(at, what)?.ok_or_else(|| format!("it has no {what}"))
     }
 
+    /// An input that is a value of the network or a constant of floating-point values.
+    pub(super) fn operand(&self, at: usize) -> Result<Operand, String> {
+        match self.input(at) {
+            Some(&Known::Value(value)) => Ok(Operand::Value(value)),
+            Some(Known::Constant(constant)) => Ok(Operand::Constant(constant.tensor()?)),
+            None => Err(format!("it has no input {at}")),
+        }
+    }
+
     /// An input that is a value of the network.
     pub(super) fn value(&self, at: usize) -> Result<usize, String> {
         match self.input(at) {
@@ -138,7 +154,13 @@ impl<'a> NodeReader<'a> {
         };
         let (stride, dilation) = (two("strides")?, two("dilations")?);
         let form = (self.forms)(value);
-        let sizes = [form.height(), form.width()];
+        let &[_, _, height, width] = form.shape() else {
+            return Err(format!(
+                "its input must be features [1, channels, height, width], not {}",
+                form.describe()
+            ));
+        };
+        let sizes = [height, width];
         let pads = match (self.text("auto_pad", "NOTSET").as_str(), self.ints("pads")) {
             ("VALID", _) | ("NOTSET", None) => [[0; 2]; 2],
             ("NOTSET", Some(&[top, left, bottom, right])) => {

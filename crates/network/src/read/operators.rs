@@ -3,7 +3,7 @@
 
 use super::made::{Made, one};
 use super::node::NodeReader;
-use super::{moves, pointwise, quantized, sums};
+use super::{moves, parts, pointwise, quantized, sizes, sums};
 use crate::operator::{Activation, Arithmetic, PoolKind, Reduction};
 
 type Maker = fn(&NodeReader<'_>) -> Result<Vec<Made>, String>;
@@ -31,8 +31,9 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Elu", |node| pointwise::finish(node, Activation::Elu { alpha: node.float("alpha", 1.0) })),
     ("Erf", |node| pointwise::finish(node, Activation::Erf)),
     ("Exp", |node| pointwise::finish(node, Activation::Exp)),
+    ("Expand", moves::expand),
     ("Flatten", moves::flatten),
-    ("Gather", |_| Err("it is supported only for constants".to_owned())),
+    ("Gather", parts::gather),
     ("Gelu", pointwise::gelu),
     ("Gemm", sums::gemm),
     ("GlobalAveragePool", |node| sums::global(node, Reduction::Mean)),
@@ -61,7 +62,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Mul", |node| pointwise::binary(node, Arithmetic::Mul)),
     ("Neg", |node| pointwise::finish(node, Activation::Neg)),
     ("PRelu", |node| pointwise::binary(node, Arithmetic::Slope)),
-    ("Pad", moves::pad),
+    ("Pad", parts::pad),
     ("Pow", |node| pointwise::binary(node, Arithmetic::Pow)),
     ("QLinearConv", quantized::conv),
     ("QLinearMatMul", quantized::matmul),
@@ -69,7 +70,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("ReduceMean", sums::reduce_mean),
     ("Relu", pointwise::relu),
     ("Reshape", moves::reshape),
-    ("Resize", moves::resize),
+    ("Resize", sizes::resize),
     ("Selu", |node| {
         pointwise::finish(
             node,
@@ -81,11 +82,11 @@ const OPERATORS: &[(&str, Maker)] = &[
     }),
     ("Shape", |_| Err("it has no input".to_owned())),
     ("Sigmoid", |node| pointwise::finish(node, Activation::Sigmoid)),
-    ("Slice", moves::slice),
+    ("Slice", parts::slice),
     ("Softmax", sums::softmax),
     ("Softplus", |node| pointwise::finish(node, Activation::Softplus)),
     ("Softsign", |node| pointwise::finish(node, Activation::Softsign)),
-    ("Split", moves::split),
+    ("Split", parts::split),
     ("Sqrt", |node| pointwise::finish(node, Activation::Sqrt)),
     ("Squeeze", moves::squeeze),
     ("Sub", |node| pointwise::binary(node, Arithmetic::Sub)),
@@ -99,7 +100,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     }),
     ("Transpose", moves::transpose),
     ("Unsqueeze", moves::unsqueeze),
-    ("Upsample", moves::resize),
+    ("Upsample", sizes::resize),
     ("com.microsoft.QGemm", quantized::gemm),
     ("com.microsoft.QLinearAdd", |node| quantized::binary(node, Arithmetic::Add)),
     ("com.microsoft.QLinearAveragePool", quantized::average_pool),

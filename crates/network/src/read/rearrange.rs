@@ -85,22 +85,8 @@ pub(super) fn sliced(from: &Constant, inputs: &[&Constant]) -> Result<Constant, 
             .ok()
             .filter(|&axis| axis < from.shape.len())
             .ok_or_else(|| format!("its axis {axis} is outside of {:?}", from.shape))?;
-        let length = signed(from.shape[axis]);
-        // As the standard has it: backwards, an end of -1 is in front of the first.
-        let (low, high) = if steps[at] < 0 { (-1, length - 1) } else { (0, length) };
-        let start = from_start(starts[at], from.shape[axis]).clamp(low.max(0), high.max(0));
-        let end = from_start(ends[at], from.shape[axis]).clamp(low, high);
-        let count = match steps[at] {
-            0 => return Err("its step is 0".to_owned()),
-            step if step > 0 => {
-                (end - start).max(0).div_euclid(step) + i64::from((end - start).max(0) % step != 0)
-            }
-            step => {
-                let (way, step) = ((start - end).max(0), step.saturating_neg());
-                way / step + i64::from(way % step != 0)
-            }
-        };
-        shape[axis] = usize::try_from(count).expect("not negative");
+        let (start, count) = stretch(starts[at], ends[at], steps[at], from.shape[axis])?;
+        shape[axis] = count;
         (first[axis], step[axis]) = (start, steps[at]);
     }
     pick(from, shape, |place| {
@@ -110,6 +96,26 @@ pub(super) fn sliced(from: &Constant, inputs: &[&Constant]) -> Result<Constant, 
         };
         (0..place.len()).map(along).sum()
     })
+}
+
+/// The first element of a part of an axis, and how many there are, as the standard has it.
+pub(super) fn stretch(
+    start: i64,
+    end: i64,
+    step: i64,
+    length: usize,
+) -> Result<(i64, usize), String> {
+    let (start, end, all) = (from_start(start, length), from_start(end, length), signed(length));
+    // Backwards, an end of -1 is in front of the first.
+    let (low, high) = if step < 0 { (-1, all - 1) } else { (0, all) };
+    let (start, end) = (start.clamp(low.max(0), high.max(0)), end.clamp(low, high));
+    let way = if step < 0 { start - end } else { end - start };
+    let way = usize::try_from(way.max(0)).expect("not negative");
+    match usize::try_from(step.unsigned_abs()) {
+        Ok(0) => Err("its step is 0".to_owned()),
+        Ok(step) => Ok((start, way.div_ceil(step))),
+        Err(_) => Err(format!("its step is {step}")),
+    }
 }
 
 /// Where an axis is in an order of all.

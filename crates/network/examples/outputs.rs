@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Runs a network once, and over pictures of which a part changes, for `scripts/compare_networks.py`:
+//!
+//!     outputs NETWORK WIDTHxHEIGHT PICTURE OUTPUTS
+//!
+//! PICTURE holds the values of the input, 32-bit floating-point, lowest byte first. OUTPUTS becomes those of all outputs, one after the other.
+//! Prints where the modes that promise the bits of a whole computation miss them, the time of a whole picture on one thread, and the share of
+//! all multiplications that the changed pictures needed.
+
+#![allow(clippy::print_stdout, reason = "what it is for")]
+
+use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+/// Pictures after the first, and those that are timed.
+const CHANGED: usize = 3;
+const TIMED: usize = 5;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    rayon::ThreadPoolBuilder::new().num_threads(1).build_global()?;
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [network, size, picture, outputs] = arguments.as_slice() else {
+        return Err("outputs NETWORK WIDTHxHEIGHT PICTURE OUTPUTS".into());
+    };
+    let (width, height) = size.split_once('x').ok_or("a size is WIDTHxHEIGHT")?;
+    let frames = FrameSize { width: width.parse()?, height: height.parse()? };
+    let network = Network::read(Path::new(network), frames)?;
+    let bytes = std::fs::read(picture)?;
+    let picture: Vec<f32> =
+        bytes.as_chunks().0.iter().map(|&bytes| f32::from_le_bytes(bytes)).collect();
+    let whole = Mask::full(frames.height, frames.width);
+    let mut dense = Executor::new(&network, Mode::Dense);
+    dense.step(&picture, &whole);
+    let values =
+        network.outputs().iter().flat_map(|&output| dense.value(output).reals().into_owned());
+    std::fs::write(outputs, values.flat_map(f32::to_le_bytes).collect::<Vec<u8>>())?;
+    let mut best = Duration::MAX;
+    for _ in 0..TIMED {
+        let start = Instant::now();
+        dense.step(&picture, &whole);
+        best = best.min(start.elapsed());
+    }
+    let (mut needed, mut all) = (0.0, 0.0);
+    for mode in [Mode::Exact, Mode::Compare] {
+        let (share, odd) = changed(&network, mode, &picture);
+        if mode == Mode::Exact {
+            (needed, all) = share;
+        }
+        println!("{mode:?} {}", odd.unwrap_or_else(|| "same".to_owned()));
+    }
+    println!("time {:.3}", 1e3 * best.as_secs_f64());
+    println!("needed {:.4}", if all > 0.0 { needed / all } else { 0.0 });
+    println!("nodes {}", network.nodes().len());
+    Ok(())
+}
+
+/// The products that changed pictures needed, of all; and the first value that has not the bits of a whole computation.
+#[allow(clippy::cast_precision_loss, reason = "shares")]
+fn changed(network: &Network, mode: Mode, picture: &[f32]) -> ((f64, f64), Option<String>) {
+    let (height, width) = (network.input().height(), network.input().width());
+    let (mut dense, mut part) = (Executor::new(network, Mode::Dense), Executor::new(network, mode));
+    let mut picture = picture.to_vec();
+    let (mut needed, mut all) = (0.0, 0.0);
+    for number in 0..=CHANGED {
+        let (left, top) = (number * width / (CHANGED + 2), number * height / (CHANGED + 1));
+        let is = |x: usize, y: usize| {
+            number > 0 && (left..left + 12).contains(&x) && (top..top + 12).contains(&y)
+        };
+        let mask = Mask::from_fn(height, width, is);
+        for (at, value) in picture.iter_mut().enumerate() {
+            if is(at % width, at / width % height) && at % 3 != 0 {
+                *value = 1.5 - *value;
+            }
+        }
+        dense.step(&picture, &mask);
+        let work = part.step(&picture, &mask).to_vec();
+        for (node, work) in work.iter().enumerate().filter(|_| number > 0) {
+            let macs = network.macs(node) as f64;
+            needed += macs * work.needed as f64 / network.form(node + 1).places() as f64;
+            all += macs;
+        }
+        for value in 0..=network.nodes().len() {
+            if !dense.value(value).differences(part.value(value)).is_empty() {
+                let kind = value.checked_sub(1).map(|node| &network.nodes()[node]);
+                let name = kind.map_or("picture", |node| node.name());
+                return ((needed, all), Some(format!("differs in picture {number} at `{name}`")));
+            }
+        }
+    }
+    ((needed, all), None)
+}

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Positions of an input as positions of an output that has other axes.
+
+use crate::form::Form;
+use crate::mask::Mask;
+use std::ops::Range;
+
+/// The positions of an output that depend on those of an input, where each axis of the input becomes that of the output that `to` names, or
+/// none. An output depends on the input at its own index of every axis that both have as positions, and on all of an axis that only the input
+/// has as positions. An axis of one element is repeated.
+pub(crate) fn aligned(
+    (form, mask): (&Form, &Mask),
+    output: &Form,
+    to: impl Fn(usize) -> Option<usize>,
+) -> Mask {
+    if !form.has_positions() || !output.has_positions() {
+        return all_if(!mask.is_empty(), output);
+    }
+    // Of rows and columns of the input: what gives its index in the output.
+    let index = |axis: Option<usize>| match axis.and_then(&to) {
+        Some(own) if output.axes().len() == 2 && own == output.axes().start => Along::Row,
+        Some(own) if own + 1 == output.axes().end && output.has_positions() => Along::Column,
+        Some(_) | None => Along::All,
+    };
+    let rows = index((form.axes().len() == 2).then_some(form.axes().start));
+    let columns = index(form.axes().end.checked_sub(1));
+    let is_same = (form.height(), form.width()) == (output.height(), output.width());
+    match (rows, columns) {
+        (Along::Row, Along::Column) if is_same => mask.clone(),
+        (Along::All, Along::Column) if is_same && form.axes().len() == 1 => mask.clone(),
+        _ => Mask::from_fn(output.height(), output.width(), |x, y| {
+            let range = |along: Along, length: usize| -> Range<usize> {
+                let at = match along {
+                    Along::All => return 0..length,
+                    Along::Row => y,
+                    Along::Column => x,
+                };
+                if length == 1 { 0..1 } else { at..at + 1 }
+            };
+            mask.any(range(rows, form.height()), range(columns, form.width()))
+        }),
+    }
+}
+
+/// What gives the index along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Along {
+    Row,
+    Column,
+    /// Every index counts.
+    All,
+}
+
+/// Every position, or none.
+pub(crate) fn all_if(is: bool, output: &Form) -> Mask {
+    if is {
+        Mask::full(output.height(), output.width())
+    } else {
+        Mask::empty(output.height(), output.width())
+    }
+}

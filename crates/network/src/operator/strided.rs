@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tensors that are an input read in other steps: its axes in another order, or repeated.
+
+use super::places::aligned;
+use super::{Job, Operator, moved, only};
+use crate::element::{Encoding, typed};
+use crate::form::Form;
+use crate::mask::Mask;
+use crate::values::Number;
+
+/// Fills the output with the values that are so many steps apart along each of its axes.
+fn read<T: Number>(job: Job<'_>, steps: &[usize]) {
+    let (values, form) = (job.inputs[0].values::<T>(), job.form);
+    let line = form.shape().last().copied().unwrap_or(1);
+    let step = steps.last().copied().unwrap_or(0);
+    job.fill::<T>(|run, to| {
+        let (mut start, mut to) = (run.start, to);
+        while !to.is_empty() {
+            let (own, rest) = to.split_at_mut(to.len().min(line - start % line));
+            let from = &values[form.offset(start, steps)..];
+            match step {
+                0 => own.fill(from[0]),
+                1 => own.copy_from_slice(&from[..own.len()]),
+                _ => {
+                    let from = from.iter().step_by(step);
+                    own.iter_mut().zip(from).for_each(|(to, &from)| *to = from);
+                }
+            }
+            start += own.len();
+            to = rest;
+        }
+    });
+}
+
+/// The axes in another order.
+#[derive(Clone, Debug)]
+pub(crate) struct Transpose {
+    /// For each axis of the output, that of the input.
+    pub(crate) order: Vec<usize>,
+}
+
+impl Transpose {
+    /// The axis of the output that an axis of the input becomes.
+    fn place(&self, axis: usize) -> Option<usize> {
+        self.order.iter().position(|&from| from == axis)
+    }
+}
+
+impl Operator for Transpose {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let input = only(inputs)?;
+        let mut sorted = self.order.clone();
+        sorted.sort_unstable();
+        if !sorted.into_iter().eq(0..input.shape().len()) {
+            return Err(format!(
+                "{:?} is not an order of the axes of {}",
+                self.order,
+                input.describe()
+            ));
+        }
+        let shape: Vec<usize> = self.order.iter().map(|&axis| input.shape()[axis]).collect();
+        let mut places: Vec<usize> = input.axes().filter_map(|axis| self.place(axis)).collect();
+        places.sort_unstable();
+        Ok(match *places.as_slice() {
+            [first, second] if first + 1 == second => Form::at(shape, first..first + 2),
+            // Far from each other, the one that has more elements stays.
+            [first, second] => {
+                let longest = if shape[first] > shape[second] { first } else { second };
+                Form::at(shape, longest..longest + 1)
+            }
+            [only] => Form::at(shape, only..only + 1),
+            _ => Form::whole(shape),
+        })
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        moved(inputs)
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        aligned(inputs[0], output, |axis| self.place(axis))
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let steps = job.inputs[0].form().steps();
+        let steps: Vec<usize> = self.order.iter().map(|&axis| steps[axis]).collect();
+        typed!(job.form.encoding().element, T => read::<T>(job, &steps));
+    }
+}
+
+/// A tensor that is repeated along axes in which it has one element, and along new axes in front.
+#[derive(Clone, Debug)]
+pub(crate) struct Expand {
+    pub(crate) shape: Vec<usize>,
+}
+
+impl Operator for Expand {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let input = only(inputs)?;
+        let new = self.shape.len().checked_sub(input.shape().len());
+        let fits = |new: usize| {
+            let own = input.shape().iter().zip(&self.shape[new..]);
+            own.into_iter().all(|(&own, &wanted)| own == wanted || own == 1)
+        };
+        let Some(new) = new.filter(|&new| fits(new)) else {
+            return Err(format!("{} cannot become {:?}", input.describe(), self.shape));
+        };
+        let axes = input.axes().start + new..input.axes().end + new;
+        let is_kept = axes.clone().all(|axis| self.shape[axis] == input.shape()[axis - new]);
+        Ok(if is_kept && input.has_positions() {
+            Form::at(self.shape.clone(), axes)
+        } else {
+            Form::whole(self.shape.clone())
+        })
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        moved(inputs)
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        let new = output.shape().len() - inputs[0].0.shape().len();
+        aligned(inputs[0], output, |axis| Some(axis + new))
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let steps = job.form.steps_of(job.inputs[0].form());
+        typed!(job.form.encoding().element, T => read::<T>(job, &steps));
+    }
+}
