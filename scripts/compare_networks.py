@@ -5,7 +5,7 @@ the whole.
 
     compare_networks.py FILE.onnx... [--size WIDTHxHEIGHT] [--limit L]
 
-The input is noise from 0 to 1. The difference is the largest of any output, as a share of that output's largest value; above the limit (1e-4) the
+The input is noise from 0 to 1. The difference is the largest of any output, as a share of that output's largest value (of 0.01 at least); above the limit (1e-4) the
 script fails, as it does where a part differs from the whole. A network of 16-bit values is compared with itself cast to 32 bits, and beside
 that as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network (its path in OUTPUTS, or cargo
 builds it).
@@ -55,7 +55,7 @@ def apart(theirs, ours):
         part = ours[start:start + value.size]
         start += value.size
         value = value.astype(np.float32).ravel()
-        largest = max(float(np.abs(value).max()), 1e-30)
+        largest = max(float(np.abs(value).max()), 0.01)
         found = max(found, float(np.abs(value - part).max()) / largest)
     if start != ours.size:
         raise ValueError(f"onnxruntime makes {start} values, we {ours.size}")

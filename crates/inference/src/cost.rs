@@ -129,6 +129,11 @@ fn layer(network: &Network, node: usize) -> Result<Option<Layer>, AcceleratorErr
             [window(rows), window(columns)],
             groups as u64,
         )?,
+        // Each position as a product with what reaches it.
+        Products::Transposed { inputs } => {
+            let of = Shape { channels: inputs as u64, ..shape(output) };
+            Layer::convolution(of, shape(output), [Window::SAME; 2], 1)?
+        }
         Products::Matrix { inputs } => {
             let columns = output.shape().last().map_or(1, |&columns| columns as u64);
             let rows = output.elements() as u64 / columns;

@@ -194,7 +194,7 @@ impl Network {
         let (node, form) = (&self.nodes[node], &self.forms[node + 1]);
         let of_each = match node.products() {
             Products::None | Products::Renamed => 0,
-            Products::Matrix { inputs } => inputs,
+            Products::Transposed { inputs } | Products::Matrix { inputs } => inputs,
             Products::Convolution { rows, columns, groups } => {
                 self.forms[node.inputs[0]].shape()[1] / groups * rows.kernel * columns.kernel
             }

@@ -23,6 +23,7 @@ mod softmax;
 mod strided;
 mod sums;
 mod table;
+mod transposed;
 
 pub(crate) use activation::{Activation, Pointwise};
 pub(crate) use arithmetic::{Arithmetic, Binary, broadcast};
@@ -45,6 +46,7 @@ pub(crate) use softmax::Softmax;
 pub(crate) use strided::{Expand, Transpose};
 pub(crate) use sums::Sums;
 pub(crate) use table::Table;
+pub(crate) use transposed::{Reach, TransposedConv};
 
 use crate::element::{Element, Encoding};
 use crate::form::Form;
@@ -71,6 +73,11 @@ pub enum Products {
         columns: Window,
         /// Groups of channels.
         groups: usize,
+    },
+    /// A transposed convolution: at each position every channel is a sum over at most so many inputs.
+    Transposed {
+        /// Inputs of each sum.
+        inputs: usize,
     },
     /// Every output is a sum over so many inputs.
     Matrix {

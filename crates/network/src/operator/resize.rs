@@ -11,6 +11,11 @@ use crate::values::Number;
 pub(crate) enum ResizeKind {
     Nearest(Nearest),
     Linear,
+    /// Of four inputs along each axis. Those outside are the nearest inside, or do not count.
+    Cubic {
+        a: f32,
+        is_inside_only: bool,
+    },
 }
 
 /// How a coordinate becomes a whole one.
@@ -20,6 +25,8 @@ pub(crate) enum Nearest {
     RoundPreferCeil,
     Floor,
     Ceil,
+    /// Down where the output is larger, up where it is smaller: before version 11.
+    Simple,
 }
 
 /// Where an output lies in the input, by the names of ONNX.
@@ -45,12 +52,35 @@ pub(crate) enum Size {
     Sizes([usize; 2]),
 }
 
-/// What an output takes along one axis: two inputs, and the share of the second.
+/// What an output takes along one axis: up to four inputs with their shares, of which there are two where only the second has one.
 #[derive(Clone, Copy, Debug)]
 struct Taps {
-    first: usize,
-    second: usize,
-    share: f32,
+    at: [usize; 4],
+    shares: [f32; 4],
+}
+
+impl Taps {
+    /// One input.
+    fn one(at: usize) -> Self {
+        Self { at: [at; 4], shares: [0.0; 4] }
+    }
+
+    /// Two inputs, and the share of the second.
+    fn two(first: usize, second: usize, share: f32) -> Self {
+        Self { at: [first, second, first, second], shares: [1.0 - share, share, 0.0, 0.0] }
+    }
+
+    fn range(&self) -> (usize, usize) {
+        let [a, b, c, d] = self.at;
+        (a.min(b).min(c).min(d), a.max(b).max(c).max(d))
+    }
+}
+
+/// The shares of four neighbors for a place so far behind the second, as R. Keys has them (1981).
+fn cubic(a: f32, behind: f32) -> [f32; 4] {
+    let near = |d: f32| ((a + 2.0) * d - (a + 3.0)) * d * d + 1.0;
+    let far = |d: f32| ((a * d - 5.0 * a) * d + 8.0 * a) * d - 4.0 * a;
+    [far(behind + 1.0), near(behind), near(1.0 - behind), far(2.0 - behind)]
 }
 
 impl Resize {
@@ -95,14 +125,30 @@ impl Resize {
                         Nearest::RoundPreferCeil => (at + 0.5).floor(),
                         Nearest::Floor => at.floor(),
                         Nearest::Ceil => at.ceil(),
+                        Nearest::Simple if scale < 1.0 => at.ceil(),
+                        Nearest::Simple => at.floor(),
                     };
-                    let first = (whole.max(0.0) as usize).min(last);
-                    Taps { first, second: first, share: 0.0 }
+                    Taps::one((whole.max(0.0) as usize).min(last))
                 }
                 ResizeKind::Linear => {
                     let at = at.clamp(0.0, last as f32);
                     let first = at.floor() as usize;
-                    Taps { first, second: (first + 1).min(last), share: at - at.floor() }
+                    Taps::two(first, (first + 1).min(last), at - at.floor())
+                }
+                ResizeKind::Cubic { a, is_inside_only } => {
+                    let first = at.floor() - 1.0;
+                    let places = [0.0, 1.0, 2.0, 3.0].map(|tap| first + tap);
+                    let mut shares = cubic(a, at - at.floor());
+                    if is_inside_only {
+                        for (share, place) in shares.iter_mut().zip(places) {
+                            *share =
+                                if (0.0..=last as f32).contains(&place) { *share } else { 0.0 };
+                        }
+                        let sum: f32 = shares.iter().sum();
+                        shares = shares.map(|share| share / sum);
+                    }
+                    let at = places.map(|place| (place.max(0.0) as usize).min(last));
+                    Taps { at, shares }
                 }
             }
         };
@@ -122,18 +168,21 @@ impl Operator for Resize {
 
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
         match (self.kind, moved(inputs)?) {
-            (ResizeKind::Linear, Encoding { element, .. }) if element != Element::F32 => {
+            (ResizeKind::Linear | ResizeKind::Cubic { .. }, Encoding { element, .. })
+                if element != Element::F32 =>
+            {
                 Err(wanted(Element::F32, element))
             }
-            (_, encoding) => Ok(encoding),
+            (ResizeKind::Nearest(_) | ResizeKind::Linear | ResizeKind::Cubic { .. }, encoding) => {
+                Ok(encoding)
+            }
         }
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         let (form, mask) = inputs[0];
-        let range = |taps: Vec<Taps>| -> Vec<(usize, usize)> {
-            taps.iter().map(|taps| (taps.first, taps.second)).collect()
-        };
+        let range =
+            |taps: Vec<Taps>| -> Vec<(usize, usize)> { taps.iter().map(Taps::range).collect() };
         let rows = range(self.taps(0, form.height(), output.height()));
         let columns = range(self.taps(1, form.width(), output.width()));
         mask.between(&rows, &columns)
@@ -146,18 +195,26 @@ impl Operator for Resize {
     fn compute(&self, job: Job<'_>) {
         match self.kind {
             ResizeKind::Nearest(_) => typed!(job.form.encoding().element, T => {
-                self.fill(job, |plane: &[T], width, row, column| plane[row.first * width + column.first]);
+                self.fill(job, |plane: &[T], width, row, column| plane[row.at[0] * width + column.at[0]]);
             }),
             ResizeKind::Linear => self.fill(job, |plane: &[f32], width, row, column| {
                 let line = |y: usize| {
-                    let (left, right) =
-                        (plane[y * width + column.first], plane[y * width + column.second]);
-                    between(left, right, column.share)
+                    let [left, right] = [0, 1].map(|tap| plane[y * width + column.at[tap]]);
+                    between(left, right, column.shares[1])
                 };
-                between(line(row.first), line(row.second), row.share)
+                between(line(row.at[0]), line(row.at[1]), row.shares[1])
+            }),
+            ResizeKind::Cubic { .. } => self.fill(job, |plane: &[f32], width, row, column| {
+                sum(row, |y| sum(column, |x| plane[y * width + x]))
             }),
         }
     }
+}
+
+/// The sum of inputs by their shares.
+#[inline(always)]
+fn sum(taps: Taps, of: impl Fn(usize) -> f32) -> f32 {
+    taps.at.iter().zip(taps.shares).map(|(&at, share)| share * of(at)).sum()
 }
 
 impl Resize {

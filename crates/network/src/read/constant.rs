@@ -187,9 +187,9 @@ fn decode(kind: i32, bytes: &[u8]) -> Result<Values, String> {
         #[allow(clippy::cast_possible_truncation, reason = "weights are 32 bits wide here")]
         data_type::DOUBLE => Values::Floats(each(bytes, |bytes| f64::from_le_bytes(bytes) as f32)?),
         data_type::FLOAT16 => Values::Floats(each(bytes, |bytes| half(u16::from_le_bytes(bytes)))?),
-        data_type::BFLOAT16 => Values::Floats(each(bytes, |bytes| {
-            f32::from_bits(u32::from(u16::from_le_bytes(bytes)) << 16)
-        })?),
+        data_type::BFLOAT16 => {
+            Values::Floats(each(bytes, |bytes| brain(u16::from_le_bytes(bytes)))?)
+        }
         data_type::INT64 => Values::Integers(each(bytes, i64::from_le_bytes)?),
         data_type::INT32 => {
             Values::Integers(each(bytes, |bytes| i64::from(i32::from_le_bytes(bytes)))?)
@@ -212,6 +212,12 @@ fn unpacked(kind: i32, tensor: &TensorProto) -> Result<Values, String> {
         data_type::DOUBLE => {
             Values::Floats(tensor.double_data.iter().map(|&value| value as f32).collect())
         }
+        data_type::FLOAT16 => {
+            Values::Floats(tensor.int32_data.iter().map(bits).map(half).collect())
+        }
+        data_type::BFLOAT16 => {
+            Values::Floats(tensor.int32_data.iter().map(bits).map(brain).collect())
+        }
         data_type::INT64 => Values::Integers(tensor.int64_data.clone()),
         data_type::INT32 | data_type::INT8 | data_type::UINT8 | data_type::BOOL => {
             Values::Integers(tensor.int32_data.iter().map(|&value| i64::from(value)).collect())
@@ -222,6 +228,17 @@ fn unpacked(kind: i32, tensor: &TensorProto) -> Result<Values, String> {
 
 fn unknown(kind: i32) -> String {
     format!("values of type {kind} of ONNX are not supported")
+}
+
+/// The lowest 16 bits, which are a value.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what the field holds")]
+fn bits(field: &i32) -> u16 {
+    *field as u16
+}
+
+/// A value of 16 bits that is the first half of one of 32.
+fn brain(bits: u16) -> f32 {
+    f32::from_bits(u32::from(bits) << 16)
 }
 
 /// A value of 16 bits: IEEE 754 binary16.

@@ -64,7 +64,7 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
     let made = match node.kind() {
         "Cast" => match (node.int("to", 1), &first.values) {
             #[allow(clippy::cast_precision_loss, reason = "a cast rounds")]
-            (1, Values::Integers(values)) => Constant::floats(
+            (1 | 10 | 16, Values::Integers(values)) => Constant::floats(
                 first.shape.clone(),
                 values.iter().map(|&value| value as f32).collect(),
             ),
@@ -73,7 +73,7 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
                 first.shape.clone(),
                 values.iter().map(|&value| value as i64).collect(),
             ),
-            (1, Values::Floats(_)) | (6 | 7, Values::Integers(_)) => first.clone(),
+            (1 | 10 | 16, Values::Floats(_)) | (6 | 7, Values::Integers(_)) => first.clone(),
             (other, _) => {
                 return Err(format!("a cast of a constant to type {other} is not supported"));
             }

@@ -70,9 +70,9 @@ pub(super) fn input_form(
     };
     let tensor = input.r#type.as_ref().and_then(|of| of.tensor_type.as_ref());
     let kind = tensor.and_then(|tensor| tensor.elem_type).unwrap_or(data_type::FLOAT);
-    if kind != data_type::FLOAT {
+    if ![data_type::FLOAT, data_type::FLOAT16, data_type::BFLOAT16].contains(&kind) {
         return Err(wrong(format!(
-            "of 32-bit floating-point values, but it is of type {kind} of ONNX"
+            "of floating-point values of 32 or 16 bits, but it is of type {kind} of ONNX"
         )));
     }
     let shape = tensor

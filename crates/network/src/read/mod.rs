@@ -18,6 +18,7 @@ mod rearrange;
 mod scales;
 mod sizes;
 mod sums;
+mod transposed;
 
 use crate::error::NetworkError;
 use crate::network::Network;

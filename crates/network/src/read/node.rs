@@ -70,6 +70,10 @@ impl<'a> NodeReader<'a> {
         self.attribute(name).map(|attribute| attribute.ints.as_slice())
     }
 
+    pub(super) fn floats(&self, name: &str) -> Option<&[f32]> {
+        self.attribute(name).map(|attribute| attribute.floats.as_slice())
+    }
+
     /// A constant that is an attribute.
     pub(super) fn tensor(&self, name: &str) -> Result<Option<Constant>, String> {
         let tensor = self.attribute(name).and_then(|attribute| attribute.t.as_ref());

@@ -3,7 +3,7 @@
 
 use super::made::{Made, one};
 use super::node::NodeReader;
-use super::{moves, parts, pointwise, quantized, sizes, sums};
+use super::{moves, parts, pointwise, quantized, sizes, sums, transposed};
 use crate::operator::{Activation, Arithmetic, PoolKind, Reduction};
 
 type Maker = fn(&NodeReader<'_>) -> Result<Vec<Made>, String>;
@@ -25,6 +25,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("ConstantOfShape", |_| Err("it is supported only for constants".to_owned())),
     ("Conv", sums::conv),
     ("ConvInteger", quantized::conv_integer),
+    ("ConvTranspose", transposed::conv),
     ("DequantizeLinear", quantized::dequantize),
     ("Div", |node| pointwise::binary(node, Arithmetic::Div)),
     ("Dropout", pointwise::dropout),

@@ -47,14 +47,15 @@ pub(super) fn dropout(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 pub(super) fn cast(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let element = |value: usize| (node.forms)(value).encoding().element;
     match node.int("to", 1) {
-        1 => match node.input(0) {
+        // Values of 16 bits are kept as 32-bit ones.
+        1 | 10 | 16 => match node.input(0) {
             Some(&Known::Value(value)) if element(value) != Element::F32 => {
                 one(Dequantize(Scales::one(1.0, 0)), vec![value])
             }
             _ => same(node),
         },
         other => Err(format!(
-            "a cast to type {other} is not supported, only one to 1, floating-point values of 32 bits"
+            "a cast to type {other} is not supported, only one to 1, 10 or 16, floating-point values of 32 or 16 bits"
         )),
     }
 }

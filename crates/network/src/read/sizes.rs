@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Operators of ONNX that give features another size.
 
+use super::constant::Constant;
 use super::made::{Made, one};
 use super::node::{NodeReader, positive};
 use crate::operator::{Coordinates, Nearest, Resize, ResizeKind, Size};
@@ -9,37 +10,37 @@ use crate::operator::{Coordinates, Nearest, Resize, ResizeKind, Size};
 const MAX_SCALE: f32 = 65536.0;
 
 pub(super) fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
-    let coordinates = match node
-        .text(
-            "coordinate_transformation_mode",
-            if node.kind() == "Upsample" { "asymmetric" } else { "half_pixel" },
-        )
-        .as_str()
-    {
-        "half_pixel" => Coordinates::HalfPixel,
-        "pytorch_half_pixel" => Coordinates::PytorchHalfPixel,
-        "align_corners" => Coordinates::AlignCorners,
-        "asymmetric" => Coordinates::Asymmetric,
-        other => return Err(format!("the coordinates `{other}` are not supported")),
-    };
-    let nearest = match node
-        .text(
-            "nearest_mode",
-            if node.kind() == "Upsample" { "floor" } else { "round_prefer_floor" },
-        )
-        .as_str()
-    {
+    // Before version 11 a Resize is an Upsample of another name.
+    let is_old = node.kind() == "Upsample" || node.opset < 11;
+    let text = |name, old, new| node.text(name, if is_old { old } else { new });
+    let coordinates =
+        match text("coordinate_transformation_mode", "asymmetric", "half_pixel").as_str() {
+            "half_pixel" => Coordinates::HalfPixel,
+            "pytorch_half_pixel" => Coordinates::PytorchHalfPixel,
+            "align_corners" => Coordinates::AlignCorners,
+            "asymmetric" => Coordinates::Asymmetric,
+            other => return Err(format!("the coordinates `{other}` are not supported")),
+        };
+    let nearest = match text("nearest_mode", "simple", "round_prefer_floor").as_str() {
         "round_prefer_floor" => Nearest::RoundPreferFloor,
         "round_prefer_ceil" => Nearest::RoundPreferCeil,
         "floor" => Nearest::Floor,
         "ceil" => Nearest::Ceil,
+        "simple" if is_old => Nearest::Simple,
         other => return Err(format!("the mode `{other}` is not supported")),
     };
     let kind = match node.text("mode", "nearest").as_str() {
         "nearest" => ResizeKind::Nearest(nearest),
-        "linear" => ResizeKind::Linear,
+        // Before version 9 it is called as what it is of images.
+        "linear" | "bilinear" => ResizeKind::Linear,
+        "cubic" => ResizeKind::Cubic {
+            a: node.float("cubic_coeff_a", -0.75),
+            is_inside_only: node.int("exclude_outside", 0) != 0,
+        },
         other => {
-            return Err(format!("the mode `{other}` is not supported, only nearest and linear"));
+            return Err(format!(
+                "the mode `{other}` is not supported, only nearest, linear and cubic"
+            ));
         }
     };
     if node.int("antialias", 0) != 0 {
@@ -48,38 +49,56 @@ pub(super) fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     if node.text("keep_aspect_ratio_policy", "stretch") != "stretch" {
         return Err("only the keep_aspect_ratio_policy `stretch` is supported".to_owned());
     }
-    if node.ints("axes").is_some_and(|axes| axes != [0, 1, 2, 3]) {
-        return Err("scales of some axes are not supported, only those of all four".to_owned());
-    }
     let value = node.value(0)?;
-    let scales_at = if node.kind() == "Upsample" { 1 } else { 2 };
-    let scales = node.constant(scales_at, "scales")?.filter(|scales| scales.values.count() > 0);
-    let size = match (scales, node.constant(3, "sizes")?) {
-        (Some(scales), _) => match *scales.as_floats()? {
-            [1.0, 1.0, rows, columns] if rows > 0.0 && columns > 0.0 => {
-                if let Some(scale) = [rows, columns].into_iter().find(|&scale| scale >= MAX_SCALE) {
-                    return Err(format!(
-                        "its scale of {scale} is too large; it must be below {MAX_SCALE}"
-                    ));
+    one(Resize { kind, coordinates, size: size(node, value, is_old)? }, vec![value])
+}
+
+/// Rows and columns of the output.
+fn size(node: &NodeReader<'_>, value: usize, is_old: bool) -> Result<Size, String> {
+    let are_of_all = match node.ints("axes") {
+        None | Some(&[0, 1, 2, 3]) => true,
+        Some(&[2, 3]) => false,
+        Some(axes) => {
+            return Err(format!(
+                "scales of the axes {axes:?} are not supported, only those of rows and columns"
+            ));
+        }
+    };
+    let scales = match node.floats("scales") {
+        Some(scales) => Some(scales),
+        None => node
+            .constant(if is_old { 1 } else { 2 }, "scales")?
+            .map(Constant::as_floats)
+            .transpose()?,
+    };
+    let scales = scales.filter(|scales| !scales.is_empty());
+    let sizes = if is_old { None } else { node.constant(3, "sizes")? };
+    match (scales, sizes, are_of_all) {
+        (Some(&[1.0, 1.0, rows, columns]), _, true) | (Some(&[rows, columns]), _, false)
+            if rows > 0.0 && columns > 0.0 =>
+        {
+            match [rows, columns].into_iter().find(|&scale| scale >= MAX_SCALE) {
+                None => Ok(Size::Scales([rows, columns])),
+                Some(scale) => {
+                    Err(format!("its scale of {scale} is too large; it must be below {MAX_SCALE}"))
                 }
-                Size::Scales([rows, columns])
             }
-            ref scales => {
-                return Err(format!(
-                    "scales {scales:?} are not supported, only those of rows and columns"
-                ));
+        }
+        (Some(scales), _, _) => {
+            Err(format!("scales {scales:?} are not supported, only those of rows and columns"))
+        }
+        (None, Some(sizes), _) => match (sizes.as_integers()?, are_of_all) {
+            (&[rows, columns], false) => {
+                Ok(Size::Sizes([positive("size", rows)?, positive("size", columns)?]))
             }
-        },
-        (None, Some(sizes)) => match *sizes.as_integers()? {
-            [1, channels, rows, columns]
+            (&[1, channels, rows, columns], true)
                 if (node.forms)(value).shape().get(1)
                     == usize::try_from(channels).ok().as_ref() =>
             {
-                Size::Sizes([positive("size", rows)?, positive("size", columns)?])
+                Ok(Size::Sizes([positive("size", rows)?, positive("size", columns)?]))
             }
-            ref sizes => return Err(format!("sizes {sizes:?} are not supported")),
+            (sizes, _) => Err(format!("sizes {sizes:?} are not supported")),
         },
-        (None, None) => return Err("it has neither scales nor sizes".to_owned()),
-    };
-    one(Resize { kind, coordinates, size }, vec![value])
+        (None, None, _) => Err("it has neither scales nor sizes".to_owned()),
+    }
 }
