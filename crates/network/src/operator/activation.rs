@@ -51,6 +51,13 @@ pub(crate) enum Activation {
     Abs,
     Neg,
     Erf,
+    Reciprocal,
+    Floor,
+    Ceil,
+    Round,
+    Sign,
+    Sin,
+    Cos,
 }
 
 impl Activation {
@@ -112,6 +119,15 @@ impl Activation {
             Self::Abs => x.abs(),
             Self::Neg => -x,
             Self::Erf => erf(x),
+            Self::Reciprocal => 1.0 / x,
+            Self::Floor => x.floor(),
+            Self::Ceil => x.ceil(),
+            // To the even one of two that are as near.
+            Self::Round => x.round_ties_even(),
+            Self::Sign if x == 0.0 => 0.0,
+            Self::Sign => 1.0f32.copysign(x),
+            Self::Sin => x.sin(),
+            Self::Cos => x.cos(),
         }
     }
 }

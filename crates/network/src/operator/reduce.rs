@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The mean or the largest value over whole axes: global pooling.
+//! One value of all along some axes: global pooling, sums and norms, and where the largest value is.
 
-use super::{Job, Operator, everything, only, values_of};
+use super::reduced::Reduced;
+use super::{Job, Operator};
+use crate::element::{Element, Encoding};
 use crate::form::Form;
 use crate::mask::Mask;
 
@@ -9,59 +11,111 @@ use crate::mask::Mask;
 pub(crate) enum Reduction {
     Mean,
     Max,
+    Min,
+    Sum,
+    /// The sum of all distances from 0.
+    L1,
+    /// The root of the sum of all squares.
+    L2,
+    SumSquare,
+    Prod,
 }
 
-/// A reduction of all axes from one on.
+impl Reduction {
+    /// In double precision, so that a sum over a large picture is as good as over a small one.
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_precision_loss,
+        reason = "a result is rounded once"
+    )]
+    fn of(self, values: &mut dyn Iterator<Item = &[f32]>) -> f32 {
+        let fold =
+            |start: f64, values: &mut dyn Iterator<Item = &[f32]>, add: fn(f64, f64) -> f64| {
+                let each = |sum, values: &[f32]| {
+                    values.iter().fold(sum, |sum, &value| add(sum, f64::from(value)))
+                };
+                values.fold(start, each)
+            };
+        let most =
+            |most: f64, value: f64| if value > most || value.is_nan() { value } else { most };
+        let least =
+            |least: f64, value: f64| if value < least || value.is_nan() { value } else { least };
+        let value = match self {
+            Self::Mean => {
+                let mut count = 0;
+                let mut counted = values.inspect(|values| count += values.len());
+                fold(0.0, &mut counted, |sum, value| sum + value) / count as f64
+            }
+            Self::Max => fold(f64::NEG_INFINITY, values, most),
+            Self::Min => fold(f64::INFINITY, values, least),
+            Self::Sum => fold(0.0, values, |sum, value| sum + value),
+            Self::L1 => fold(0.0, values, |sum, value| sum + value.abs()),
+            Self::L2 => fold(0.0, values, |sum, value| sum + value * value).sqrt(),
+            Self::SumSquare => fold(0.0, values, |sum, value| sum + value * value),
+            Self::Prod => fold(1.0, values, |product, value| product * value),
+        };
+        value as f32
+    }
+}
+
 #[derive(Clone, Debug)]
 pub(crate) struct Reduce {
     pub(crate) kind: Reduction,
-    /// The first axis that is reduced; all that follow are, too.
-    pub(crate) from: usize,
-    /// Whether they stay, of length 1.
-    pub(crate) keep: bool,
+    pub(crate) over: Reduced,
 }
 
 impl Operator for Reduce {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        let shape = only(inputs)?.shape();
-        if self.from >= shape.len() {
-            return Err(format!("its input has no axis {}", self.from));
-        }
-        let mut left = shape[..self.from].to_vec();
-        if self.keep {
-            left.resize(shape.len(), 1);
-        }
-        let is_features = self.keep && self.from == 2;
-        Ok(if is_features { Form::features(left) } else { Form::whole(left) })
+        self.over.form(inputs)
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        everything(inputs, output)
+        self.over.spread(inputs[0], output)
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at } = job;
-        if at.is_empty() {
-            return;
+        self.over.fill(job, |values| self.kind.of(values));
+    }
+}
+
+/// The place of the largest value along an axis, or of the lowest.
+#[derive(Clone, Debug)]
+pub(crate) struct ArgMax {
+    pub(crate) over: Reduced,
+    pub(crate) is_lowest: bool,
+    /// Of several that are as large, the last.
+    pub(crate) is_last: bool,
+}
+
+impl Operator for ArgMax {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        self.over.form(inputs)
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        match inputs.iter().find(|input| input.element != Element::F32) {
+            None => Ok(Encoding::plain(Element::I32)),
+            Some(input) => Err(super::wanted(Element::F32, input.element)),
         }
-        let output = values_of(output, form);
-        let length = inputs[0].values::<f32>().len() / output.len();
-        for (output, values) in output.iter_mut().zip(inputs[0].values::<f32>().chunks(length)) {
-            *output = match self.kind {
-                // In double precision, so that a mean over a large picture is as good as over a small one.
-                #[allow(
-                    clippy::cast_possible_truncation,
-                    clippy::cast_precision_loss,
-                    reason = "a mean is rounded once"
-                )]
-                Reduction::Mean => {
-                    (values.iter().map(|&value| f64::from(value)).sum::<f64>() / length as f64)
-                        as f32
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        self.over.spread(inputs[0], output)
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        self.over.fill(job, |values| {
+            let mut best: Option<(i32, f32)> = None;
+            for (at, &value) in (0..).zip(values.flatten()) {
+                let is_better = best.is_none_or(|(_, best)| {
+                    let is_beyond = if self.is_lowest { value < best } else { value > best };
+                    is_beyond || (self.is_last && value == best)
+                });
+                if is_better {
+                    best = Some((at, value));
                 }
-                Reduction::Max => values.iter().fold(f32::NEG_INFINITY, |most, &value| {
-                    if value > most || value.is_nan() { value } else { most }
-                }),
-            };
-        }
+            }
+            best.map_or(0, |(at, _)| at)
+        });
     }
 }

@@ -1,14 +1,55 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Exponentials as shares of their sum.
 
-use super::{Job, Operator, everything, only, same_position, values_of};
+use super::places::aligned;
+use super::sums::rounded;
+use super::{Job, Operator, of_bytes, only, values_of};
+use crate::element::{Encoding, typed_byte};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::values::Byte;
+use rayon::prelude::*;
 
-/// Along one axis.
+/// Along one axis, or over all axes from one on.
 #[derive(Clone, Debug)]
 pub(crate) struct Softmax {
     pub(crate) axis: i64,
+    pub(crate) is_to_end: bool,
+    /// The logarithm of the shares.
+    pub(crate) is_logarithm: bool,
+}
+
+impl Softmax {
+    /// Values that are shares of one sum, and how far apart they are.
+    fn line(&self, form: &Form) -> (usize, usize) {
+        let axis = form.axis(self.axis).expect("the form has it");
+        let behind = form.shape()[axis + 1..].iter().product();
+        if self.is_to_end { (form.shape()[axis] * behind, 1) } else { (form.shape()[axis], behind) }
+    }
+
+    /// The places of the output at which sums are wanted begin, for as many as follow each other.
+    fn shares(&self, from: &[f32], to: &mut [f32], step: usize) {
+        let values = || from.iter().step_by(step);
+        let most = values().fold(f32::NEG_INFINITY, |most, &value| most.max(value));
+        let sum: f32 = values().map(|value| (value - most).exp()).sum();
+        let logarithm = sum.ln();
+        for (to, value) in to.iter_mut().step_by(step).zip(values()) {
+            *to = if self.is_logarithm {
+                value - most - logarithm
+            } else {
+                (value - most).exp() / sum
+            };
+        }
+    }
+
+    /// The positions of the output that depend on changed ones.
+    fn dependent(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        let axis = output.axis(self.axis).expect("the form has it");
+        aligned(inputs[0], output, |own| {
+            let is_summed = own == axis || (self.is_to_end && own > axis);
+            (!is_summed).then_some(own)
+        })
+    }
 }
 
 impl Operator for Softmax {
@@ -19,32 +60,60 @@ impl Operator for Softmax {
     }
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        let along = output.axis(self.axis).expect("the form has it");
-        if output.axes().contains(&along) {
-            everything(inputs, output)
-        } else {
-            same_position(inputs, output)
-        }
+        self.dependent(inputs, output)
     }
 
     fn compute(&self, job: Job<'_>) {
-        let Job { inputs, form, output, at, .. } = job;
-        if at.is_empty() {
-            return;
+        let Job { inputs, form, output, .. } = job;
+        let (length, step) = self.line(form);
+        let planes = values_of::<f32>(output, form).par_chunks_mut(length * step);
+        planes.zip(inputs[0].values::<f32>().par_chunks(length * step)).for_each(|(to, from)| {
+            (0..step).for_each(|first| self.shares(&from[first..], &mut to[first..], step));
+        });
+    }
+}
+
+/// The same of 8-bit values.
+#[derive(Clone, Debug)]
+pub(crate) struct QuantizedSoftmax {
+    pub(crate) softmax: Softmax,
+    pub(crate) from: Encoding,
+    pub(crate) to: Encoding,
+}
+
+impl QuantizedSoftmax {
+    #[allow(clippy::cast_precision_loss, reason = "differences of 8-bit values")]
+    fn shares<T: Byte>(&self, job: Job<'_>) {
+        let Job { inputs, form, output, .. } = job;
+        let (length, step) = self.softmax.line(form);
+        let planes = values_of::<T>(output, form).chunks_mut(length * step);
+        let real =
+            |&value: &T| (Into::<i32>::into(value) - self.from.zero) as f32 * self.from.scale;
+        for (to, from) in planes.zip(inputs[0].values::<T>().chunks(length * step)) {
+            let from: Vec<f32> = from.iter().map(real).collect();
+            let mut shares = vec![0.0; from.len()];
+            (0..step)
+                .for_each(|first| self.softmax.shares(&from[first..], &mut shares[first..], step));
+            let stored = |share: f32| rounded(share / self.to.scale, self.to.zero);
+            to.iter_mut().zip(shares).for_each(|(to, share)| *to = stored(share));
         }
-        let along = form.axis(self.axis).expect("the form has it");
-        let length = form.shape()[along];
-        let step: usize = form.shape()[along + 1..].iter().product();
-        let (from, output) = (inputs[0].values::<f32>(), values_of::<f32>(output, form));
-        for start in
-            (0..form.elements() / length).map(|line| line / step * step * length + line % step)
-        {
-            let values = || from[start..].iter().step_by(step).take(length);
-            let most = values().fold(f32::NEG_INFINITY, |most, &value| most.max(value));
-            let sum: f32 = values().map(|value| (value - most).exp()).sum();
-            for (to, value) in output[start..].iter_mut().step_by(step).zip(values()) {
-                *to = (value - most).exp() / sum;
-            }
-        }
+    }
+}
+
+impl Operator for QuantizedSoftmax {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        self.softmax.form(inputs)
+    }
+
+    fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
+        of_bytes(inputs, self.to)
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        self.softmax.dependent(inputs, output)
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        typed_byte!(self.to.element, T => self.shares::<T>(job));
     }
 }

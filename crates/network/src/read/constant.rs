@@ -41,7 +41,7 @@ impl Folder {
     }
 
     /// Counts bytes that are to be read.
-    fn charge(&self, bytes: u64) -> Result<(), String> {
+    pub(super) fn charge(&self, bytes: u64) -> Result<(), String> {
         let left = self.left.get().checked_sub(bytes);
         self.left.set(left.ok_or("all constants together have more than 4 GiB")?);
         Ok(())
@@ -165,7 +165,8 @@ fn element(kind: i32) -> Option<Element> {
         data_type::FLOAT | data_type::DOUBLE | data_type::FLOAT16 | data_type::BFLOAT16 => {
             Some(Element::F32)
         }
-        data_type::UINT8 => Some(Element::U8),
+        // Truth values are 0 and 1.
+        data_type::UINT8 | data_type::BOOL => Some(Element::U8),
         data_type::INT8 => Some(Element::I8),
         data_type::INT32 => Some(Element::I32),
         _ => None,

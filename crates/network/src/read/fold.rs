@@ -2,9 +2,16 @@
 //! Nodes whose outputs are known when the network is read: shapes and what is computed of them.
 
 use super::constant::{Constant, Values};
+use super::elementwise;
+use super::moves::{axes, axes_of};
 use super::node::{Known, NodeReader, from_start, signed};
 use super::quantized;
-use super::rearrange::{MAX_FOLDED, filled, reshaped, sliced, transposed};
+use super::rearrange::{
+    MAX_FOLDED, filled, gathered, joined, reshaped, sliced, spread, transposed,
+};
+use crate::element::Element;
+use crate::form::MAX_AXES;
+use crate::operator::broadcast;
 
 /// The output of a node that only computes with constants; `None` if it is not one of those that are known.
 pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
@@ -74,62 +81,86 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
                 values.iter().map(|&value| value as i64).collect(),
             ),
             (1 | 10 | 16, Values::Floats(_)) | (6 | 7, Values::Integers(_)) => first.clone(),
+            (9, values) => {
+                let is = match values {
+                    Values::Floats(values) => values.iter().map(|&value| value != 0.0).collect(),
+                    Values::Integers(values) => {
+                        values.iter().map(|&value| value != 0).collect::<Vec<bool>>()
+                    }
+                };
+                Constant {
+                    shape: first.shape.clone(),
+                    values: Values::Integers(is.into_iter().map(i64::from).collect()),
+                    element: Some(Element::U8),
+                }
+            }
             (other, _) => {
                 return Err(format!("a cast of a constant to type {other} is not supported"));
             }
         },
         "DequantizeLinear" => return quantized::dequantized(node, first).map(Some),
         "QuantizeLinear" => return quantized::quantized(node, first).map(Some),
-        "Gather" if first.shape.len() == 1 => {
-            let index = inputs.get(1).ok_or("it has no indices")?;
-            let pick = |&at: &i64| {
-                let at = from_start(at, first.shape[0]);
-                usize::try_from(at)
-                    .ok()
-                    .filter(|&at| at < first.shape[0])
-                    .ok_or_else(|| format!("its index {at} is outside"))
+        "Gather" => gathered(node, first, inputs.get(1).ok_or("it has no indices")?)?,
+        "Unsqueeze" => {
+            let new = node.ints_of("axes", 1)?.ok_or("it has no axes")?;
+            let axes = axes_of(&new, (first.shape.len() + new.len()).min(2 * MAX_AXES))?;
+            let mut old = first.shape.iter();
+            let length = |axis| match axes.contains(&axis) {
+                true => 1,
+                false => old.next().copied().unwrap_or(1),
             };
-            let places: Vec<usize> =
-                index.as_integers()?.iter().map(pick).collect::<Result<_, _>>()?;
-            let values = first.as_integers()?;
-            Constant::integers(index.shape.clone(), places.iter().map(|&at| values[at]).collect())
-        }
-        // Of shapes, which have one axis at most, only the values matter.
-        "Unsqueeze" if first.shape.is_empty() => Constant { shape: vec![1], ..first.clone() },
-        "Squeeze" if first.values.count() == 1 => Constant { shape: Vec::new(), ..first.clone() },
-        "Concat" => {
-            let parts: Vec<&[i64]> =
-                inputs.iter().map(|input| input.as_integers()).collect::<Result<_, _>>()?;
-            let values = parts.concat();
-            Constant::integers(vec![values.len()], values)
-        }
-        "Add" | "Sub" | "Mul" | "Div" if inputs.len() == 2 && first.as_integers().is_ok() => {
-            let (a, b) = (first.as_integers()?, inputs[1].as_integers()?);
-            let of = |a: i64, b: i64| match node.kind() {
-                "Add" => a.checked_add(b),
-                "Sub" => a.checked_sub(b),
-                "Mul" => a.checked_mul(b),
-                _ => a.checked_div(b),
-            };
-            let length = a.len().max(b.len());
-            if [a.len(), b.len()].iter().any(|&own| own != length && own != 1) {
-                return Err("its inputs do not fit together".to_owned());
+            let shape: Vec<usize> = (0..first.shape.len() + axes.len()).map(length).collect();
+            if shape.len() > MAX_AXES {
+                return Err(format!("its output has more than {MAX_AXES} axes"));
             }
-            let at = |values: &[i64], at: usize| values[if values.len() == 1 { 0 } else { at }];
-            let values: Option<Vec<i64>> =
-                (0..length).map(|place| of(at(a, place), at(b, place))).collect();
-            let shape =
-                if a.len() == length { first.shape.clone() } else { inputs[1].shape.clone() };
-            Constant::integers(shape, values.ok_or("its result is no integer of 64 bits")?)
+            Constant { shape, ..first.clone() }
         }
+        "Squeeze" => {
+            let axes = axes(node, first.shape.len())?;
+            let left = first.shape.iter().enumerate().filter(|(axis, length)| {
+                **length != 1 || axes.as_ref().is_some_and(|axes| !axes.contains(axis))
+            });
+            Constant { shape: left.map(|(_, &length)| length).collect(), ..first.clone() }
+        }
+        "Concat" => joined(node, inputs)?,
+        "Expand" => {
+            let wanted = inputs.get(1).ok_or("it has no shape")?.as_integers()?;
+            let wanted: Option<Vec<usize>> =
+                wanted.iter().map(|&length| usize::try_from(length).ok()).collect();
+            let wanted = wanted.filter(|wanted| wanted.len() <= MAX_AXES);
+            let wanted = wanted.ok_or("its shape has too many axes, or a negative length")?;
+            let shape = broadcast(&first.shape, &wanted)
+                .ok_or_else(|| format!("{:?} cannot become {wanted:?}", first.shape))?;
+            spread(first, &shape)?
+        }
+        "Range" => elementwise::range(inputs)?,
+        "Where" => match inputs {
+            [condition, a, b] => elementwise::select(condition, a, b)?,
+            _ => return Err(format!("it has {} inputs, not 3", inputs.len())),
+        },
         "ConstantOfShape" => filled(node, first)?,
         "Reshape" => reshaped(first, inputs.get(1).ok_or("it has no shape")?)?,
         "Transpose" => transposed(node, first)?,
         "Slice" => sliced(first, inputs)?,
-        _ => return Ok(None),
+        kind => {
+            let made = match inputs {
+                [one] => elementwise::unary(kind, one)?,
+                [a, b] => elementwise::binary(kind, a, b)?,
+                _ => None,
+            };
+            match made {
+                Some(made) => made,
+                None => return Ok(None),
+            }
+        }
     };
-    if made.values.count() > MAX_FOLDED {
+    let count = made.values.count();
+    let most = inputs.iter().map(|input| input.values.count()).max().unwrap_or(0);
+    if count > MAX_FOLDED.max(most) {
         return Err(format!("it makes a constant of more than {MAX_FOLDED} values"));
+    }
+    if count > MAX_FOLDED {
+        node.folder.charge(4 * count as u64)?;
     }
     Ok(Some(made))
 }

@@ -2,6 +2,7 @@
 //! Reads a network from an ONNX file.
 
 mod constant;
+mod elementwise;
 mod fold;
 mod graph;
 mod input;
@@ -10,6 +11,7 @@ mod memory;
 mod moves;
 mod names;
 mod node;
+mod normal;
 mod operators;
 mod parts;
 mod pointwise;

@@ -3,8 +3,8 @@
 
 use super::made::{Made, one};
 use super::node::NodeReader;
-use super::{moves, parts, pointwise, quantized, sizes, sums, transposed};
-use crate::operator::{Activation, Arithmetic, PoolKind, Reduction};
+use super::{moves, normal, parts, pointwise, quantized, sizes, sums, transposed};
+use crate::operator::{Activation, Arithmetic, Comparison, PoolKind, Reduction};
 
 type Maker = fn(&NodeReader<'_>) -> Result<Vec<Made>, String>;
 
@@ -12,12 +12,15 @@ type Maker = fn(&NodeReader<'_>) -> Result<Vec<Made>, String>;
 const OPERATORS: &[(&str, Maker)] = &[
     ("Abs", |node| pointwise::finish(node, Activation::Abs)),
     ("Add", |node| pointwise::binary(node, Arithmetic::Add)),
+    ("ArgMax", |node| sums::arg_max(node, false)),
+    ("ArgMin", |node| sums::arg_max(node, true)),
     ("AveragePool", |node| {
         let with_padding = node.int("count_include_pad", 0) != 0;
         one(sums::pool(node, PoolKind::Average { with_padding })?, vec![node.value(0)?])
     }),
     ("BatchNormalization", pointwise::normalization),
     ("Cast", pointwise::cast),
+    ("Ceil", |node| pointwise::finish(node, Activation::Ceil)),
     ("Celu", |node| pointwise::finish(node, Activation::Celu { alpha: node.float("alpha", 1.0) })),
     ("Clip", pointwise::clip),
     ("Concat", moves::concat),
@@ -26,19 +29,26 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Conv", sums::conv),
     ("ConvInteger", quantized::conv_integer),
     ("ConvTranspose", transposed::conv),
+    ("Cos", |node| pointwise::finish(node, Activation::Cos)),
+    ("DepthToSpace", sizes::depth_to_space),
     ("DequantizeLinear", quantized::dequantize),
     ("Div", |node| pointwise::binary(node, Arithmetic::Div)),
     ("Dropout", pointwise::dropout),
     ("Elu", |node| pointwise::finish(node, Activation::Elu { alpha: node.float("alpha", 1.0) })),
+    ("Equal", |node| pointwise::compare(node, Comparison::Equal)),
     ("Erf", |node| pointwise::finish(node, Activation::Erf)),
     ("Exp", |node| pointwise::finish(node, Activation::Exp)),
     ("Expand", moves::expand),
     ("Flatten", moves::flatten),
+    ("Floor", |node| pointwise::finish(node, Activation::Floor)),
     ("Gather", parts::gather),
     ("Gelu", pointwise::gelu),
     ("Gemm", sums::gemm),
     ("GlobalAveragePool", |node| sums::global(node, Reduction::Mean)),
     ("GlobalMaxPool", |node| sums::global(node, Reduction::Max)),
+    ("Greater", |node| pointwise::compare(node, Comparison::Greater)),
+    ("GreaterOrEqual", |node| pointwise::compare(node, Comparison::GreaterOrEqual)),
+    ("GroupNormalization", normal::group),
     ("HardSigmoid", |node| {
         pointwise::finish(
             node,
@@ -50,10 +60,16 @@ const OPERATORS: &[(&str, Maker)] = &[
     }),
     ("HardSwish", |node| pointwise::finish(node, Activation::HardSwish)),
     ("Identity", pointwise::same),
+    ("InstanceNormalization", normal::instance),
+    ("LRN", normal::local_response),
+    ("LayerNormalization", normal::layer),
     ("LeakyRelu", |node| {
         pointwise::finish(node, Activation::LeakyRelu { alpha: node.float("alpha", 0.01) })
     }),
+    ("Less", |node| pointwise::compare(node, Comparison::Less)),
+    ("LessOrEqual", |node| pointwise::compare(node, Comparison::LessOrEqual)),
     ("Log", |node| pointwise::finish(node, Activation::Log)),
+    ("LogSoftmax", |node| normal::softmax(node, true)),
     ("MatMul", sums::matmul),
     ("MatMulInteger", quantized::matmul_integer),
     ("Max", |node| pointwise::binary(node, Arithmetic::Max)),
@@ -68,10 +84,20 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("QLinearConv", quantized::conv),
     ("QLinearMatMul", quantized::matmul),
     ("QuantizeLinear", quantized::quantize),
-    ("ReduceMean", sums::reduce_mean),
+    ("Range", |_| Err("it is supported only for constants".to_owned())),
+    ("Reciprocal", |node| pointwise::finish(node, Activation::Reciprocal)),
+    ("ReduceL1", |node| sums::reduce(node, Reduction::L1)),
+    ("ReduceL2", |node| sums::reduce(node, Reduction::L2)),
+    ("ReduceMax", |node| sums::reduce(node, Reduction::Max)),
+    ("ReduceMean", |node| sums::reduce(node, Reduction::Mean)),
+    ("ReduceMin", |node| sums::reduce(node, Reduction::Min)),
+    ("ReduceProd", |node| sums::reduce(node, Reduction::Prod)),
+    ("ReduceSum", |node| sums::reduce(node, Reduction::Sum)),
+    ("ReduceSumSquare", |node| sums::reduce(node, Reduction::SumSquare)),
     ("Relu", pointwise::relu),
     ("Reshape", moves::reshape),
     ("Resize", sizes::resize),
+    ("Round", |node| pointwise::finish(node, Activation::Round)),
     ("Selu", |node| {
         pointwise::finish(
             node,
@@ -83,10 +109,13 @@ const OPERATORS: &[(&str, Maker)] = &[
     }),
     ("Shape", |_| Err("it has no input".to_owned())),
     ("Sigmoid", |node| pointwise::finish(node, Activation::Sigmoid)),
+    ("Sign", |node| pointwise::finish(node, Activation::Sign)),
+    ("Sin", |node| pointwise::finish(node, Activation::Sin)),
     ("Slice", parts::slice),
-    ("Softmax", sums::softmax),
+    ("Softmax", |node| normal::softmax(node, false)),
     ("Softplus", |node| pointwise::finish(node, Activation::Softplus)),
     ("Softsign", |node| pointwise::finish(node, Activation::Softsign)),
+    ("SpaceToDepth", sizes::space_to_depth),
     ("Split", parts::split),
     ("Sqrt", |node| pointwise::finish(node, Activation::Sqrt)),
     ("Squeeze", moves::squeeze),
@@ -102,6 +131,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("Transpose", moves::transpose),
     ("Unsqueeze", moves::unsqueeze),
     ("Upsample", sizes::resize),
+    ("Where", pointwise::select),
     ("com.microsoft.QGemm", quantized::gemm),
     ("com.microsoft.QLinearAdd", |node| quantized::binary(node, Arithmetic::Add)),
     ("com.microsoft.QLinearAveragePool", quantized::average_pool),
@@ -112,6 +142,7 @@ const OPERATORS: &[(&str, Maker)] = &[
     }),
     ("com.microsoft.QLinearMul", |node| quantized::binary(node, Arithmetic::Mul)),
     ("com.microsoft.QLinearSigmoid", |node| quantized::activation(node, Activation::Sigmoid)),
+    ("com.microsoft.QLinearSoftmax", quantized::softmax),
 ];
 
 /// The operators that are supported, in the order of the alphabet; those that are not of ONNX with their domain.

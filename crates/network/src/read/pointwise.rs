@@ -2,12 +2,13 @@
 //! Operators of ONNX in which every value has its own: activations, arithmetic and scales.
 
 use super::constant::Constant;
-use super::made::{Made, one};
+use super::made::{Made, of, one};
 use super::node::{Known, NodeReader};
 use crate::element::Element;
 use crate::form::Form;
 use crate::operator::{
-    Activation, Arithmetic, Binary, Dequantize, Operator, Pointwise, Scale, Scales, Table,
+    Activation, Arithmetic, Binary, Compare, Comparison, Dequantize, Operator, Pointwise, Scale,
+    Scales, Select, Table,
 };
 use crate::tensor::Tensor;
 use std::sync::Arc;
@@ -80,6 +81,14 @@ pub(super) fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made
     }
 }
 
+pub(super) fn compare(node: &NodeReader<'_>, comparison: Comparison) -> Result<Vec<Made>, String> {
+    of(Compare(comparison), vec![node.operand(0)?, node.operand(1)?])
+}
+
+pub(super) fn select(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    of(Select, vec![node.operand(0)?, node.operand(1)?, node.operand(2)?])
+}
+
 pub(super) fn sum(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     if node.input(1).is_none() { same(node) } else { binary(node, Arithmetic::Add) }
 }
@@ -121,13 +130,13 @@ pub(super) fn normalization(node: &NodeReader<'_>) -> Result<Vec<Made>, String> 
     if node.int("training_mode", 0) != 0 {
         return Err("it is in training mode".to_owned());
     }
-    let of = |at, what| node.wanted(at, what).and_then(Constant::as_weights);
+    let at = |at, what| node.wanted(at, what).and_then(Constant::as_weights);
     let epsilon = node.float("epsilon", 1e-5);
     let scale = Scale::normalization(
-        of(1, "scale")?,
-        of(2, "bias")?,
-        of(3, "mean")?,
-        of(4, "variance")?,
+        at(1, "scale")?,
+        at(2, "bias")?,
+        at(3, "mean")?,
+        at(4, "variance")?,
         epsilon,
     )?;
     one(scale, vec![node.value(0)?])

@@ -4,13 +4,15 @@
 use super::constant::{Constant, Values};
 use super::made::{Made, one};
 use super::node::{Known, NodeReader};
+use super::normal::shares;
 use super::scales::{bytes, row_major};
 use super::sums::pool;
 use crate::element::{Element, Encoding};
 use crate::form::Form;
 use crate::operator::{
     Activation, Arithmetic, Binary, Concat, Dequantize, IntegerConv, IntegerMatMul, PoolKind,
-    Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool, Sums, Table,
+    Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool, QuantizedSoftmax,
+    Sums, Table,
 };
 use crate::tensor::Tensor;
 use foveate_lanes::Level;
@@ -195,6 +197,14 @@ pub(super) fn activation(node: &NodeReader<'_>, activation: Activation) -> Resul
     let value = node.value(0)?;
     let (from, to) = through(node, value)?;
     one(Table::of_reals(from, to, activation), vec![value])
+}
+
+/// `QLinearSoftmax`, whose version is its own attribute.
+pub(super) fn softmax(node: &NodeReader<'_>) -> Result<Vec<Made>> {
+    let value = node.value(0)?;
+    let (from, to) = through(node, value)?;
+    let softmax = shares(node, value, node.int("opset", 13), false)?;
+    one(QuantizedSoftmax { softmax, from, to }, vec![value])
 }
 
 /// `QLinearConcat`.

@@ -5,7 +5,7 @@ use super::constant::{Constant, Values};
 use super::node::{NodeReader, from_start, signed};
 use crate::form::MAX_AXES;
 
-/// Values of the largest constant that is computed.
+/// Values of the largest constant that is computed; it may have as many as one that it is made of.
 pub(super) const MAX_FOLDED: usize = 1 << 16;
 
 /// As many times the same value as a shape says.
@@ -118,6 +118,101 @@ pub(super) fn stretch(
     }
 }
 
+/// A constant repeated to a shape along axes of one element, and along new axes in front.
+pub(super) fn spread(of: &Constant, shape: &[usize]) -> Result<Constant, String> {
+    if of.shape == shape {
+        return Ok(of.clone());
+    }
+    let new = shape.len().checked_sub(of.shape.len());
+    let fits = |new: &usize| {
+        of.shape.iter().zip(&shape[*new..]).all(|(&own, &wanted)| own == wanted || own == 1)
+    };
+    let new = new.filter(fits).ok_or_else(|| format!("{:?} cannot become {shape:?}", of.shape))?;
+    pick(of, shape.to_vec(), |place| {
+        let along = |axis: usize| match of.shape[axis] {
+            1 => 0,
+            _ => place[axis + new] * stride(&of.shape, axis),
+        };
+        (0..of.shape.len()).map(along).sum()
+    })
+}
+
+/// The elements of an axis that indices name.
+pub(super) fn gathered(
+    node: &NodeReader<'_>,
+    from: &Constant,
+    indices: &Constant,
+) -> Result<Constant, String> {
+    let axis = from_start(node.int("axis", 0), from.shape.len());
+    let axis = usize::try_from(axis).ok().filter(|&axis| axis < from.shape.len());
+    let axis = axis.ok_or("its axis is outside")?;
+    let length = from.shape[axis];
+    let index = |&index: &i64| {
+        let at = usize::try_from(from_start(index, length)).ok().filter(|&at| at < length);
+        at.ok_or_else(|| format!("its index {index} is outside of {length} elements"))
+    };
+    let places: Vec<usize> = indices.as_integers()?.iter().map(index).collect::<Result<_, _>>()?;
+    let (front, behind) = (&from.shape[..axis], &from.shape[axis + 1..]);
+    if front.len() + indices.shape.len() + behind.len() > MAX_AXES {
+        return Err(format!("its output has more than {MAX_AXES} axes"));
+    }
+    let shape = [front, indices.shape.as_slice(), behind].concat();
+    // As if the indices were one axis.
+    let (count, inner) = (places.len(), behind.iter().product::<usize>());
+    let made = pick(from, vec![front.iter().product(), count, inner], |place| {
+        (place[0] * length + places[place[1]]) * inner + place[2]
+    })?;
+    Ok(Constant { shape, ..made })
+}
+
+/// Constants one behind the other along an axis.
+pub(super) fn joined(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Constant, String> {
+    let first = parts[0];
+    let axis = usize::try_from(from_start(node.int("axis", 0), first.shape.len()))
+        .ok()
+        .filter(|&axis| axis < first.shape.len())
+        .ok_or("its axis is outside")?;
+    let fits = |part: &&Constant| {
+        let own = part.shape.iter().zip(&first.shape).enumerate();
+        part.shape.len() == first.shape.len()
+            && own.into_iter().all(|(at, (a, b))| at == axis || a == b)
+    };
+    if !parts.iter().all(|part| fits(part)) {
+        return Err("its inputs do not fit together".to_owned());
+    }
+    let mut shape = first.shape.clone();
+    shape[axis] = parts.iter().map(|part| part.shape[axis]).sum();
+    let outer: usize = shape[..axis].iter().product();
+    if shape
+        .iter()
+        .try_fold(1usize, |all, &length| all.checked_mul(length))
+        .is_none_or(|all| all > MAX_FOLDED)
+    {
+        return Err(format!("it makes a constant of more than {MAX_FOLDED} values"));
+    }
+    fn lines<T: Copy>(parts: &[&[T]], outer: usize) -> Vec<T> {
+        let line = |line| {
+            parts.iter().flat_map(move |part: &&[T]| {
+                let own = part.len() / outer;
+                part[line * own..(line + 1) * own].iter().copied()
+            })
+        };
+        (0..outer).flat_map(line).collect()
+    }
+    let values = match &first.values {
+        Values::Integers(_) => {
+            let parts =
+                parts.iter().map(|part| part.as_integers()).collect::<Result<Vec<_>, _>>()?;
+            Values::Integers(lines(&parts, outer))
+        }
+        Values::Floats(_) => {
+            let parts = parts.iter().map(|part| part.as_floats()).collect::<Result<Vec<_>, _>>()?;
+            Values::Floats(lines(&parts, outer))
+        }
+    };
+    Ok(Constant { shape, values, element: first.element })
+}
+
 /// Where an axis is in an order of all.
 fn position(order: &[usize], axis: usize) -> usize {
     order.iter().position(|&own| own == axis).expect("every axis is named")
@@ -136,7 +231,7 @@ fn pick(
 ) -> Result<Constant, String> {
     let count = shape.iter().try_fold(1usize, |count, &length| count.checked_mul(length));
     let count = count
-        .filter(|&count| count <= MAX_FOLDED)
+        .filter(|&count| count <= MAX_FOLDED.max(of.values.count()))
         .ok_or_else(|| format!("it makes a constant of more than {MAX_FOLDED} values"))?;
     let place = |at: usize| -> Vec<usize> {
         (0..shape.len()).map(|axis| at / stride(&shape, axis) % shape[axis]).collect()

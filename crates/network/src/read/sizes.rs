@@ -4,7 +4,9 @@
 use super::constant::Constant;
 use super::made::{Made, one};
 use super::node::{NodeReader, positive};
-use crate::operator::{Coordinates, Nearest, Resize, ResizeKind, Size};
+use crate::operator::{
+    Coordinates, DepthToSpace, Nearest, Order, Resize, ResizeKind, Size, SpaceToDepth,
+};
 
 /// The largest scale of a Resize is below this; what it makes is limited, too.
 const MAX_SCALE: f32 = 65536.0;
@@ -101,4 +103,19 @@ fn size(node: &NodeReader<'_>, value: usize, is_old: bool) -> Result<Size, Strin
         },
         (None, None, _) => Err("it has neither scales nor sizes".to_owned()),
     }
+}
+
+pub(super) fn depth_to_space(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let side = positive("blocksize", node.int("blocksize", 0))?;
+    let order = match node.text("mode", "DCR").as_str() {
+        "DCR" => Order::SquareFirst,
+        "CRD" => Order::ChannelFirst,
+        other => return Err(format!("the mode `{other}` is unknown; it is DCR or CRD")),
+    };
+    one(DepthToSpace { side, order }, vec![node.value(0)?])
+}
+
+pub(super) fn space_to_depth(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let side = positive("blocksize", node.int("blocksize", 0))?;
+    one(SpaceToDepth { side }, vec![node.value(0)?])
 }

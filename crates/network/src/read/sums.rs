@@ -2,10 +2,13 @@
 //! Operators of ONNX that sum over windows, channels or everything.
 
 use super::constant::Constant;
-use super::made::{Made, one};
-use super::node::{NodeReader, from_start, signed};
+use super::made::{Made, of, one};
+use super::moves::axes;
+use super::node::{Known, NodeReader, Operand};
 use super::pointwise;
-use crate::operator::{Conv, Linear, MatMul, Pool, PoolKind, Reduce, Reduction, Softmax};
+use crate::operator::{
+    ArgMax, Conv, Linear, MatMul, Pool, PoolKind, Product, Reduce, Reduced, Reduction,
+};
 use foveate_lanes::Level;
 
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -26,28 +29,30 @@ pub(super) fn pool(node: &NodeReader<'_>, kind: PoolKind) -> Result<Pool, String
 }
 
 pub(super) fn global(node: &NodeReader<'_>, kind: Reduction) -> Result<Vec<Made>, String> {
-    one(Reduce { kind, from: 2, keep: true }, vec![node.value(0)?])
+    let value = node.value(0)?;
+    let axes = (2..(node.forms)(value).shape().len()).collect();
+    one(Reduce { kind, over: Reduced { axes, keep: true } }, vec![value])
 }
 
-pub(super) fn reduce_mean(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+pub(super) fn reduce(node: &NodeReader<'_>, kind: Reduction) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
     let count = (node.forms)(value).shape().len();
     let keep = node.int("keepdims", 1) != 0;
-    let axes = node.ints_of("axes", 1)?.filter(|axes| !axes.is_empty());
-    if axes.is_none() && node.int("noop_with_empty_axes", 0) != 0 {
+    let named = axes(node, count)?.filter(|axes| !axes.is_empty());
+    if named.is_none() && node.int("noop_with_empty_axes", 0) != 0 {
         return pointwise::same(node);
     }
-    let axes = axes.unwrap_or_else(|| (0..).take(count).collect());
-    let mut axes: Vec<i64> = axes.iter().map(|&axis| from_start(axis, count)).collect();
+    let mut axes = named.unwrap_or_else(|| (0..count).collect());
     axes.sort_unstable();
-    let from = axes.first().copied().unwrap_or(0);
-    if !axes.iter().copied().eq(from..signed(count)) {
-        return Err(format!(
-            "the mean over axes {axes:?} of {count} is not supported, only one over the last axes"
-        ));
-    }
-    let from = usize::try_from(from).map_err(|_| format!("its axes are {axes:?}"))?;
-    one(Reduce { kind: Reduction::Mean, from, keep }, vec![value])
+    one(Reduce { kind, over: Reduced { axes, keep } }, vec![value])
+}
+
+pub(super) fn arg_max(node: &NodeReader<'_>, is_lowest: bool) -> Result<Vec<Made>, String> {
+    let value = node.value(0)?;
+    let axis = (node.forms)(value).axis(node.int("axis", 0))?;
+    let over = Reduced { axes: vec![axis], keep: node.int("keepdims", 1) != 0 };
+    let is_last = node.int("select_last_index", 0) != 0;
+    one(ArgMax { over, is_lowest, is_last }, vec![value])
 }
 
 pub(super) fn gemm(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -65,23 +70,20 @@ pub(super) fn gemm(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 }
 
 pub(super) fn matmul(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
-    let matrix = node.wanted(1, "second matrix")?;
-    one(MatMul::new(&matrix.shape, matrix.as_weights()?)?, vec![node.value(0)?])
-}
-
-pub(super) fn softmax(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
-    let value = node.value(0)?;
-    if node.opset >= 13 {
-        return one(Softmax { axis: node.int("axis", -1) }, vec![value]);
-    }
-    // Until version 13 it is over all axes from one on.
-    let form = (node.forms)(value);
-    let axis = from_start(node.int("axis", 1), form.shape().len());
-    let rest = usize::try_from(axis).ok().and_then(|axis| form.shape().get(axis + 1..));
-    match rest {
-        Some(rest) if rest.iter().all(|&length| length == 1) => one(Softmax { axis }, vec![value]),
-        _ => Err(format!(
-            "over all axes from {axis} on, as before version 13 of the operators, it is not supported"
-        )),
+    match (node.input(0), node.input(1)) {
+        (Some(&Known::Value(value)), Some(Known::Constant(matrix))) if matrix.shape.len() == 2 => {
+            one(MatMul::new(&matrix.shape, matrix.as_weights()?)?, vec![value])
+        }
+        (Some(Known::Constant(_)), Some(Known::Constant(_))) => {
+            Err("a product of two constants is not supported".to_owned())
+        }
+        _ => {
+            let operands = vec![node.operand(0)?, node.operand(1)?];
+            let inner = match &operands[0] {
+                Operand::Value(value) => (node.forms)(*value).shape().last().copied(),
+                Operand::Constant(tensor) => tensor.form().shape().last().copied(),
+            };
+            of(Product { level: Level::detect(), inner: inner.unwrap_or(1) }, operands)
+        }
     }
 }

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Values less their mean, by their standard deviation: of the last axes, or of the places of channels.
+
+use super::places::aligned;
+use super::{Job, Operator, only, values_of};
+use crate::form::Form;
+use crate::mask::Mask;
+use rayon::prelude::*;
+
+/// What a mean is over.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Over {
+    /// All axes from one on, each value with a scale of its own.
+    Axes(usize),
+    /// All places of as many channels as make so many groups; a scale per channel or per group.
+    Groups(usize),
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Normalize {
+    pub(crate) over: Over,
+    pub(crate) epsilon: f32,
+    pub(crate) scale: Vec<f32>,
+    /// As many, or none.
+    pub(crate) bias: Vec<f32>,
+}
+
+impl Normalize {
+    /// Values that share a mean, and how many neighbors share a scale.
+    fn lengths(&self, form: &Form) -> (usize, usize) {
+        match self.over {
+            Over::Axes(axis) => {
+                let block = form.shape()[axis..].iter().product::<usize>();
+                (block, block / self.scale.len())
+            }
+            Over::Groups(groups) => {
+                let each = form.shape()[0] * self.scale.len();
+                (form.elements() / form.shape()[0] / groups, form.elements() / each)
+            }
+        }
+    }
+}
+
+impl Operator for Normalize {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let form = only(inputs)?;
+        let (wanted, what) = match self.over {
+            Over::Axes(axis) => {
+                let behind = form.shape().get(axis..).filter(|behind| !behind.is_empty());
+                let behind =
+                    behind.ok_or_else(|| format!("{} has no axis {axis}", form.describe()))?;
+                (vec![behind.iter().product(), 1], "values that share a mean")
+            }
+            Over::Groups(groups) => {
+                let channels = form.shape().get(1).copied().unwrap_or(0);
+                if channels == 0 || groups == 0 || channels % groups != 0 {
+                    return Err(format!(
+                        "{} does not have {groups} groups of channels",
+                        form.describe()
+                    ));
+                }
+                (vec![channels, groups], "channels or groups")
+            }
+        };
+        if !wanted.contains(&self.scale.len()) {
+            return Err(format!(
+                "it has {} scales; {} has {} {what}",
+                self.scale.len(),
+                form.describe(),
+                wanted[0]
+            ));
+        }
+        if !self.bias.is_empty() && self.bias.len() != self.scale.len() {
+            return Err(format!(
+                "it has {} scales, but a bias of {}",
+                self.scale.len(),
+                self.bias.len()
+            ));
+        }
+        Ok(form.clone())
+    }
+
+    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
+        let from = match self.over {
+            Over::Axes(axis) => axis,
+            Over::Groups(_) => 1,
+        };
+        aligned(inputs[0], output, |axis| (axis < from).then_some(axis))
+    }
+
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_precision_loss,
+        reason = "mean and deviation are rounded once"
+    )]
+    fn compute(&self, job: Job<'_>) {
+        let Job { inputs, form, output, .. } = job;
+        let (block, each) = self.lengths(form);
+        let blocks = inputs[0].values::<f32>().par_chunks(block);
+        let to = values_of::<f32>(output, form).par_chunks_mut(block);
+        to.zip(blocks).enumerate().for_each(|(number, (to, from))| {
+            let count = block as f64;
+            let mean = from.iter().map(|&value| f64::from(value)).sum::<f64>() / count;
+            let square = |&value: &f32| (f64::from(value) - mean) * (f64::from(value) - mean);
+            let variance = from.iter().map(square).sum::<f64>() / count;
+            let factor = (1.0 / (variance + f64::from(self.epsilon)).sqrt()) as f32;
+            let mean = mean as f32;
+            for (at, (to, &from)) in to.iter_mut().zip(from).enumerate() {
+                let own = (number * block + at) / each % self.scale.len();
+                let bias = self.bias.get(own).copied().unwrap_or(0.0);
+                *to = (from - mean) * factor * self.scale[own] + bias;
+            }
+        });
+    }
+
+    fn weight_bytes(&self) -> u64 {
+        4 * (self.scale.len() + self.bias.len()) as u64
+    }
+}
+
+/// Values by a sum of squares of their neighbors among the channels.
+#[derive(Clone, Debug)]
+pub(crate) struct LocalResponse {
+    /// Channels before and behind that count.
+    pub(crate) around: [usize; 2],
+    /// By the number of channels.
+    pub(crate) alpha: f32,
+    pub(crate) beta: f32,
+    pub(crate) bias: f32,
+}
+
+impl Operator for LocalResponse {
+    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let form = only(inputs)?;
+        let is_one = form.shape().len() > 1 && form.shape()[0] == 1 && !form.axes().contains(&1);
+        if is_one {
+            Ok(form.clone())
+        } else {
+            Err(format!("its input must be features, not {}", form.describe()))
+        }
+    }
+
+    fn compute(&self, job: Job<'_>) {
+        let channels = job.form.shape()[1];
+        let plane = job.form.elements() / channels;
+        let from = job.inputs[0].values::<f32>();
+        job.fill(|run, to| {
+            for (place, to) in run.zip(to) {
+                let (channel, at) = (place / plane, place % plane);
+                let first = channel.saturating_sub(self.around[0]);
+                let end = (channel + self.around[1] + 1).min(channels);
+                let square =
+                    |channel: usize| from[channel * plane + at] * from[channel * plane + at];
+                let sum: f32 = (first..end).map(square).sum();
+                *to = from[place] / (self.bias + self.alpha * sum).powf(self.beta);
+            }
+        });
+    }
+}

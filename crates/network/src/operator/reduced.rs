@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Axes of which one element is left.
+
+use super::places::aligned;
+use super::{Job, only};
+use crate::form::Form;
+use crate::mask::Mask;
+use crate::values::Number;
+
+#[derive(Clone, Debug)]
+pub(crate) struct Reduced {
+    /// In order, each once.
+    pub(crate) axes: Vec<usize>,
+    /// Whether they stay, of length 1.
+    pub(crate) keep: bool,
+}
+
+impl Reduced {
+    pub(super) fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let input = only(inputs)?;
+        if let Some(axis) = self.axes.iter().find(|&&axis| axis >= input.shape().len()) {
+            return Err(format!("its input {} has no axis {axis}", input.describe()));
+        }
+        let left = input.shape().iter().enumerate().filter_map(|(axis, &length)| {
+            match (self.axes.contains(&axis), self.keep) {
+                (false, _) => Some(length),
+                (true, true) => Some(1),
+                (true, false) => None,
+            }
+        });
+        let shape = left.collect();
+        let axes: Vec<usize> =
+            input.axes().filter_map(|axis| self.place(axis, self.keep)).collect();
+        Ok(match (axes.first(), axes.last()) {
+            (Some(&first), Some(&last)) => Form::at(shape, first..last + 1),
+            _ => Form::whole(shape),
+        })
+    }
+
+    /// The axis of the output that one of the input becomes.
+    fn place(&self, axis: usize, is_kept: bool) -> Option<usize> {
+        let before = self.axes.iter().filter(|&&own| own < axis).count();
+        match (self.axes.contains(&axis), self.keep) {
+            (true, _) => is_kept.then_some(axis),
+            (false, true) => Some(axis),
+            (false, false) => Some(axis - before),
+        }
+    }
+
+    pub(super) fn spread(&self, input: (&Form, &Mask), output: &Form) -> Mask {
+        aligned(input, output, |axis| self.place(axis, false))
+    }
+
+    /// Where the values of each output begin, and how far from there each stretch of neighbors is that is reduced, and their number.
+    fn stretches(&self, form: &Form) -> (Vec<usize>, usize) {
+        let (shape, steps) = (form.shape(), form.steps());
+        let behind = (0..shape.len()).rev().take_while(|axis| self.axes.contains(axis)).count();
+        let solid = shape.len() - behind;
+        let mut offsets = vec![0];
+        for &axis in self.axes.iter().filter(|&&axis| axis < solid) {
+            let along = |offset: usize| (0..shape[axis]).map(move |at| (offset, at));
+            offsets = offsets
+                .into_iter()
+                .flat_map(along)
+                .map(|(offset, at)| offset + at * steps[axis])
+                .collect();
+        }
+        (offsets, shape[solid..].iter().product())
+    }
+
+    /// Fills every output with what is made of its values, which come in stretches and in the order of memory.
+    pub(super) fn fill<Y: Number>(
+        &self,
+        job: Job<'_>,
+        of: impl Fn(&mut dyn Iterator<Item = &[f32]>) -> Y + Sync,
+    ) {
+        let (values, input) = (job.inputs[0].values::<f32>(), job.inputs[0].form());
+        let (offsets, solid) = self.stretches(input);
+        // The output with the axes that are reduced, of length 1.
+        let steps = input.steps();
+        let whole = (0..input.shape().len()).map(|axis| match self.axes.contains(&axis) {
+            true => (1, 0),
+            false => (input.shape()[axis], steps[axis]),
+        });
+        let (shape, steps): (Vec<usize>, Vec<usize>) = whole.unzip();
+        let form = Form::whole(shape);
+        job.fill::<Y>(|run, to| {
+            for (place, to) in run.zip(to) {
+                let first = form.offset(place, &steps);
+                *to = of(&mut offsets.iter().map(|offset| &values[first + offset..][..solid]));
+            }
+        });
+    }
+}

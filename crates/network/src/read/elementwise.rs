@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Arithmetic, comparisons and choices of constants, each repeated where it has one element.
+
+use super::constant::{Constant, Values};
+use super::rearrange::{MAX_FOLDED, spread};
+use crate::operator::{Activation, broadcast};
+
+type Result<T> = std::result::Result<T, String>;
+
+/// A function of every value.
+pub(super) fn unary(kind: &str, from: &Constant) -> Result<Option<Constant>> {
+    let activation = match kind {
+        "Abs" => Activation::Abs,
+        "Ceil" => Activation::Ceil,
+        "Cos" => Activation::Cos,
+        "Exp" => Activation::Exp,
+        "Floor" => Activation::Floor,
+        "Log" => Activation::Log,
+        "Neg" => Activation::Neg,
+        "Reciprocal" => Activation::Reciprocal,
+        "Round" => Activation::Round,
+        "Sin" => Activation::Sin,
+        "Sqrt" => Activation::Sqrt,
+        _ => return Ok(None),
+    };
+    let values = match (&from.values, activation) {
+        (Values::Floats(values), activation) => {
+            Values::Floats(values.iter().map(|&value| activation.of(value)).collect())
+        }
+        (Values::Integers(values), Activation::Neg) => {
+            Values::Integers(values.iter().map(|value| value.wrapping_neg()).collect())
+        }
+        (Values::Integers(values), Activation::Abs) => {
+            Values::Integers(values.iter().map(|value| value.wrapping_abs()).collect())
+        }
+        (Values::Integers(_), _) => return Err("its constant is of integers".to_owned()),
+    };
+    Ok(Some(Constant { values, ..from.clone() }))
+}
+
+/// A function of two values.
+pub(super) fn binary(kind: &str, a: &Constant, b: &Constant) -> Result<Option<Constant>> {
+    let is_known = ["Add", "Sub", "Mul", "Div", "Pow", "Min", "Max"].contains(&kind);
+    let is_comparison =
+        ["Equal", "Greater", "GreaterOrEqual", "Less", "LessOrEqual"].contains(&kind);
+    if !is_known && !is_comparison {
+        return Ok(None);
+    }
+    let shape = together(&[a, b])?;
+    let (a, b) = (spread(a, &shape)?, spread(b, &shape)?);
+    let values = match (&a.values, &b.values) {
+        (Values::Integers(of_a), Values::Integers(of_b)) => {
+            let pairs = of_a.iter().zip(of_b);
+            let values: Option<Vec<i64>> = pairs.map(|(&a, &b)| integer(kind, a, b)).collect();
+            Values::Integers(values.ok_or("its result is no integer of 64 bits")?)
+        }
+        (Values::Floats(of_a), Values::Floats(of_b)) => {
+            let pairs = of_a.iter().zip(of_b);
+            if is_comparison {
+                Values::Integers(pairs.map(|(a, b)| compared(kind, a, b).into()).collect())
+            } else {
+                Values::Floats(pairs.map(|(&a, &b)| float(kind, a, b)).collect())
+            }
+        }
+        (Values::Integers(_), Values::Floats(_)) | (Values::Floats(_), Values::Integers(_)) => {
+            return Err("one of its constants is of integers, the other is not".to_owned());
+        }
+    };
+    let element = if is_comparison { Some(crate::element::Element::U8) } else { a.element };
+    Ok(Some(Constant { shape, values, element }))
+}
+
+fn compared<T: PartialOrd>(kind: &str, a: &T, b: &T) -> bool {
+    match kind {
+        "Equal" => a == b,
+        "Greater" => a > b,
+        "GreaterOrEqual" => a >= b,
+        "Less" => a < b,
+        _ => a <= b,
+    }
+}
+
+fn integer(kind: &str, a: i64, b: i64) -> Option<i64> {
+    match kind {
+        "Add" => a.checked_add(b),
+        "Sub" => a.checked_sub(b),
+        "Mul" => a.checked_mul(b),
+        "Div" => a.checked_div(b),
+        "Pow" => u32::try_from(b).ok().and_then(|b| a.checked_pow(b)),
+        "Min" => Some(a.min(b)),
+        "Max" => Some(a.max(b)),
+        _ => Some(compared(kind, &a, &b).into()),
+    }
+}
+
+fn float(kind: &str, a: f32, b: f32) -> f32 {
+    match kind {
+        "Add" => a + b,
+        "Sub" => a - b,
+        "Mul" => a * b,
+        "Div" => a / b,
+        "Pow" => a.powf(b),
+        "Min" => a.min(b),
+        _ => a.max(b),
+    }
+}
+
+/// The second constant where the first is not 0, else the third.
+pub(super) fn select(condition: &Constant, a: &Constant, b: &Constant) -> Result<Constant> {
+    let shape = together(&[condition, a, b])?;
+    let is = spread(condition, &shape)?;
+    let (a, b) = (spread(a, &shape)?, spread(b, &shape)?);
+    let is = is.as_integers()?;
+    fn chosen<T: Copy>(is: &[i64], a: &[T], b: &[T]) -> Vec<T> {
+        is.iter().zip(a.iter().zip(b)).map(|(&is, (&a, &b))| if is == 0 { b } else { a }).collect()
+    }
+    let values = match (&a.values, &b.values) {
+        (Values::Integers(of_a), Values::Integers(of_b)) => {
+            Values::Integers(chosen(is, of_a, of_b))
+        }
+        (Values::Floats(of_a), Values::Floats(of_b)) => Values::Floats(chosen(is, of_a, of_b)),
+        (Values::Integers(_), Values::Floats(_)) | (Values::Floats(_), Values::Integers(_)) => {
+            return Err("one of its constants is of integers, the other is not".to_owned());
+        }
+    };
+    Ok(Constant { shape, values, element: a.element })
+}
+
+/// Numbers from a first one to before a last one.
+pub(super) fn range(inputs: &[&Constant]) -> Result<Constant> {
+    let &[start, limit, delta] = inputs else {
+        return Err(format!("it has {} inputs, not 3", inputs.len()));
+    };
+    let too_many = || format!("it makes a constant of more than {MAX_FOLDED} values");
+    if let (Ok(&[start]), Ok(&[limit]), Ok(&[delta])) =
+        (start.as_integers(), limit.as_integers(), delta.as_integers())
+    {
+        let way = i128::from(limit) - i128::from(start);
+        let count = match i128::from(delta) {
+            0 => return Err("its step is 0".to_owned()),
+            delta => {
+                (way / delta + i128::from(way % delta != 0 && (way < 0) == (delta < 0))).max(0)
+            }
+        };
+        let count = usize::try_from(count).ok().filter(|&count| count <= MAX_FOLDED);
+        let numbers = (0..).take(count.ok_or_else(too_many)?);
+        let values = numbers.map(|at: i64| start.wrapping_add(at.wrapping_mul(delta))).collect();
+        let count = count.unwrap_or(0);
+        return Ok(Constant {
+            shape: vec![count],
+            values: Values::Integers(values),
+            element: None,
+        });
+    }
+    let one = |of: &Constant| match of.as_floats()? {
+        &[value] => Ok(value),
+        values => Err(format!("it takes single numbers, not {}", values.len())),
+    };
+    let (start, limit, delta) = (one(start)?, one(limit)?, one(delta)?);
+    let count = ((limit - start) / delta).ceil().max(0.0);
+    #[allow(clippy::cast_precision_loss, reason = "a small number")]
+    let most = MAX_FOLDED as f32;
+    if !(count <= most) {
+        return Err(too_many());
+    }
+    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is small")]
+    let count = count as usize;
+    #[allow(clippy::cast_precision_loss, reason = "a small number")]
+    let values = (0..count).map(|at| start + at as f32 * delta).collect();
+    Ok(Constant::floats(vec![count], values))
+}
+
+/// The shape of all constants together.
+fn together(constants: &[&Constant]) -> Result<Vec<usize>> {
+    constants.iter().try_fold(Vec::new(), |shape: Vec<usize>, constant| {
+        broadcast(&shape, &constant.shape)
+            .ok_or_else(|| format!("{shape:?} and {:?} do not fit together", constant.shape))
+    })
+}
