@@ -199,12 +199,13 @@ impl<'a> Executor<'a> {
 
     /// The positions of a node's output that are to be computed.
     fn wanting(&self, node: usize, camera: &Mask) -> Mask {
+        let is_under = self.network.lies_under_picture(node + 1);
         let (node, form) = (&self.network.nodes()[node], self.network.form(node + 1));
         if self.is_whole() {
             return Mask::full(form.height(), form.width());
         }
         // Rows that have become one, or none, lie under no part of the picture.
-        if self.mode == Mode::Fixed && form.axes().len() == 2 {
+        if self.mode == Mode::Fixed && is_under {
             return camera.under(form.height(), form.width());
         }
         let source = |&value: &usize| (self.network.form(value), &self.masks[value]);

@@ -21,6 +21,8 @@ const MAX_WEIGHTS: u64 = 1 << 32;
 pub struct Network {
     layout: Layout,
     forms: Vec<Form>,
+    /// Of each value whose positions are those of the picture, in its rows or all in a row: their rows and columns.
+    grids: Vec<Option<(usize, usize)>>,
     nodes: Vec<Node>,
     outputs: Vec<usize>,
     /// What the model calls them.
@@ -82,6 +84,7 @@ impl Network {
         let kept = input.elements();
         Ok(Self {
             layout,
+            grids: vec![Some((input.height(), input.width()))],
             forms: vec![input],
             nodes: Vec::new(),
             outputs: Vec::new(),
@@ -123,10 +126,29 @@ impl Network {
             return Err(problem("all weights up to here have more than 4 GiB".to_owned()));
         }
         let scheduled = operator.scheduled(&Mask::full(form.height(), form.width()));
+        self.grids.push(self.grid(&form, &inputs));
         self.forms.push(form);
         let (name, kind) = (name.to_owned(), kind.to_owned());
         self.nodes.push(Node { name, kind, operator, inputs, scheduled });
         Ok(self.nodes.len())
+    }
+
+    /// The rows and columns of the picture that are the positions of what is made of these inputs.
+    fn grid(&self, form: &Form, inputs: &[usize]) -> Option<(usize, usize)> {
+        let own = (form.height(), form.width());
+        let of = |&value: &usize| match (form.axes().len(), self.forms[value].axes().len()) {
+            (2, 2) => self.grids[value].map(|_| own),
+            // What stood in a row stands in rows again, if these are the same.
+            (2, _) => self.grids[value].filter(|&grid| grid == own),
+            (1, _) => self.grids[value].filter(|&(height, width)| height * width == form.places()),
+            _ => None,
+        };
+        inputs.iter().find_map(of)
+    }
+
+    /// Whether the rows and columns of a value's positions lie under those of the picture.
+    pub(crate) fn lies_under_picture(&self, value: usize) -> bool {
+        self.grids[value].is_some() && self.forms[value].axes().len() == 2
     }
 
     /// Says which values are the outputs, with their names, and which weights are not finite.

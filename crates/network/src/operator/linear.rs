@@ -1,84 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Products with a matrix: fully connected layers.
 
-use super::{Job, Operator, Products, everything, only, values_of};
+use super::{Job, Operator, Products, only, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
 use rayon::prelude::*;
 
 /// Partial sums of a dot product, added at the end in one order.
 const PARTS: usize = 16;
-
-/// A fully connected layer: every output is a sum over the whole input.
-#[derive(Clone, Debug)]
-pub(crate) struct Linear {
-    /// A row per output.
-    weights: Vec<f32>,
-    bias: Vec<f32>,
-    inputs: usize,
-}
-
-impl Linear {
-    /// `alpha * (weights of inputs x outputs, or of outputs x inputs if `transposed`) * input + beta * bias`.
-    pub(crate) fn new(
-        shape: &[usize],
-        weights: &[f32],
-        bias: Option<&[f32]>,
-        transposed: bool,
-        alpha: f32,
-        beta: f32,
-    ) -> Result<Self, String> {
-        let &[rows, columns] = shape else {
-            return Err(format!("its weights have {} axes, not 2", shape.len()));
-        };
-        let (outputs, inputs) = if transposed { (rows, columns) } else { (columns, rows) };
-        let at = |output: usize, input: usize| {
-            if transposed { output * inputs + input } else { input * outputs + output }
-        };
-        let row = |output| (0..inputs).map(move |input| alpha * weights[at(output, input)]);
-        let bias = match bias {
-            None => vec![0.0; outputs],
-            Some(&[one]) => vec![beta * one; outputs],
-            Some(bias) if bias.len() == outputs => bias.iter().map(|bias| beta * bias).collect(),
-            Some(bias) => {
-                return Err(format!("its bias has {} values for {outputs} outputs", bias.len()));
-            }
-        };
-        Ok(Self { weights: (0..outputs).flat_map(row).collect(), bias, inputs })
-    }
-}
-
-impl Operator for Linear {
-    fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-        let form = only(inputs)?;
-        match *form.shape() {
-            [1, length] if length == self.inputs => Ok(Form::whole(vec![1, self.bias.len()])),
-            _ => Err(format!("it takes [1, {}], not {}", self.inputs, form.describe())),
-        }
-    }
-
-    fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-        everything(inputs, output)
-    }
-
-    fn compute(&self, job: Job<'_>) {
-        if job.at.is_empty() {
-            return;
-        }
-        let input = job.inputs[0].values::<f32>();
-        let outputs = values_of::<f32>(job.output, job.form).par_iter_mut().zip(&self.bias);
-        let rows = self.weights.par_chunks(self.inputs);
-        outputs.zip(rows).for_each(|((output, bias), row)| *output = bias + dot(row, input));
-    }
-
-    fn products(&self) -> Products {
-        Products::Matrix { inputs: self.inputs }
-    }
-
-    fn weight_bytes(&self) -> u64 {
-        4 * (self.weights.len() + self.bias.len()) as u64
-    }
-}
 
 /// The sum of all products, always in the same order.
 fn dot(a: &[f32], b: &[f32]) -> f32 {
@@ -112,20 +41,49 @@ pub(super) fn along_last(inputs: &[&Form], own: usize, outputs: usize) -> Result
 
 /// The product of the last axis with a constant matrix.
 #[derive(Clone, Debug)]
-pub(crate) struct MatMul {
+pub(crate) struct Linear {
     /// A row per output.
     weights: Vec<f32>,
+    /// One per output, or none.
+    bias: Vec<f32>,
     inputs: usize,
+    /// Whether the input must have two axes.
+    is_flat: bool,
 }
 
-impl MatMul {
+impl Linear {
     /// With a constant of `inputs` x `outputs` values.
-    pub(crate) fn new(shape: &[usize], weights: &[f32]) -> Result<Self, String> {
-        let &[inputs, outputs] = shape else {
-            return Err(format!("its matrix has {} axes, not 2", shape.len()));
+    pub(crate) fn matrix(shape: &[usize], weights: &[f32]) -> Result<Self, String> {
+        let linear = Self::new(shape, weights, None, false, 1.0, 1.0)?;
+        Ok(Self { bias: Vec::new(), is_flat: false, ..linear })
+    }
+
+    /// `alpha * (weights of inputs x outputs, or of outputs x inputs if `transposed`) * input + beta * bias`.
+    pub(crate) fn new(
+        shape: &[usize],
+        weights: &[f32],
+        bias: Option<&[f32]>,
+        transposed: bool,
+        alpha: f32,
+        beta: f32,
+    ) -> Result<Self, String> {
+        let &[rows, columns] = shape else {
+            return Err(format!("its weights have {} axes, not 2", shape.len()));
         };
-        let row = |output| (0..inputs).map(move |input| weights[input * outputs + output]);
-        Ok(Self { weights: (0..outputs).flat_map(row).collect(), inputs })
+        let (outputs, inputs) = if transposed { (rows, columns) } else { (columns, rows) };
+        let at = |output: usize, input: usize| {
+            if transposed { output * inputs + input } else { input * outputs + output }
+        };
+        let row = |output| (0..inputs).map(move |input| alpha * weights[at(output, input)]);
+        let bias = match bias {
+            None => vec![0.0; outputs],
+            Some(&[one]) => vec![beta * one; outputs],
+            Some(bias) if bias.len() == outputs => bias.iter().map(|bias| beta * bias).collect(),
+            Some(bias) => {
+                return Err(format!("its bias has {} values for {outputs} outputs", bias.len()));
+            }
+        };
+        Ok(Self { weights: (0..outputs).flat_map(row).collect(), bias, inputs, is_flat: true })
     }
 
     fn outputs(&self) -> usize {
@@ -133,8 +91,12 @@ impl MatMul {
     }
 }
 
-impl Operator for MatMul {
+impl Operator for Linear {
     fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
+        let form = only(inputs)?;
+        if self.is_flat && form.shape().len() != 2 {
+            return Err(format!("it takes [rows, {}], not {}", self.inputs, form.describe()));
+        }
         along_last(inputs, self.inputs, self.outputs())
     }
 
@@ -143,14 +105,13 @@ impl Operator for MatMul {
         if at.is_empty() {
             return;
         }
-        let outputs = self.outputs();
-        let rows = inputs[0].values::<f32>().par_chunks(self.inputs);
-        values_of::<f32>(output, form).par_chunks_mut(outputs).zip(rows).for_each(
-            |(outputs, input)| {
-                let weights = self.weights.chunks(self.inputs);
-                outputs.iter_mut().zip(weights).for_each(|(output, row)| *output = dot(row, input));
-            },
-        );
+        let (outputs, input) = (self.outputs(), inputs[0].values::<f32>());
+        values_of::<f32>(output, form).par_iter_mut().enumerate().for_each(|(place, output)| {
+            let (row, column) = (place / outputs, place % outputs);
+            let bias = self.bias.get(column).copied().unwrap_or(0.0);
+            let weights = &self.weights[column * self.inputs..][..self.inputs];
+            *output = bias + dot(weights, &input[row * self.inputs..][..self.inputs]);
+        });
     }
 
     fn products(&self) -> Products {
@@ -162,6 +123,6 @@ impl Operator for MatMul {
     }
 
     fn weight_bytes(&self) -> u64 {
-        4 * self.weights.len() as u64
+        4 * (self.weights.len() + self.bias.len()) as u64
     }
 }

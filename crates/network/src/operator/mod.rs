@@ -39,7 +39,7 @@ pub(crate) use fixed::Fixed;
 pub(crate) use geometry::Geometry;
 pub(crate) use integer_conv::{IntegerConv, Rows};
 pub(crate) use integer_matmul::IntegerMatMul;
-pub(crate) use linear::{Linear, MatMul};
+pub(crate) use linear::Linear;
 pub(crate) use normalize::{LocalResponse, Normalize, Over};
 pub(crate) use pick::{Pick, Picked};
 pub(crate) use pool::{Pool, PoolKind};

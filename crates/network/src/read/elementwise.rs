@@ -160,7 +160,7 @@ pub(super) fn range(inputs: &[&Constant]) -> Result<Constant> {
     let count = ((limit - start) / delta).ceil().max(0.0);
     #[allow(clippy::cast_precision_loss, reason = "a small number")]
     let most = MAX_FOLDED as f32;
-    if !(count <= most) {
+    if count.is_nan() || count > most {
         return Err(too_many());
     }
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is small")]

@@ -177,7 +177,7 @@ pub(super) fn joined(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Const
         part.shape.len() == first.shape.len()
             && own.into_iter().all(|(at, (a, b))| at == axis || a == b)
     };
-    if !parts.iter().all(|part| fits(part)) {
+    if !parts.iter().all(fits) {
         return Err("its inputs do not fit together".to_owned());
     }
     let mut shape = first.shape.clone();

@@ -6,9 +6,7 @@ use super::made::{Made, of, one};
 use super::moves::axes;
 use super::node::{Known, NodeReader, Operand};
 use super::pointwise;
-use crate::operator::{
-    ArgMax, Conv, Linear, MatMul, Pool, PoolKind, Product, Reduce, Reduced, Reduction,
-};
+use crate::operator::{ArgMax, Conv, Linear, Pool, PoolKind, Product, Reduce, Reduced, Reduction};
 use foveate_lanes::Level;
 
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -72,7 +70,7 @@ pub(super) fn gemm(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 pub(super) fn matmul(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     match (node.input(0), node.input(1)) {
         (Some(&Known::Value(value)), Some(Known::Constant(matrix))) if matrix.shape.len() == 2 => {
-            one(MatMul::new(&matrix.shape, matrix.as_weights()?)?, vec![value])
+            one(Linear::matrix(&matrix.shape, matrix.as_weights()?)?, vec![value])
         }
         (Some(Known::Constant(_)), Some(Known::Constant(_))) => {
             Err("a product of two constants is not supported".to_owned())

@@ -59,6 +59,44 @@ enum Layer {
     Turn,
     /// A factor per channel that depends on the whole picture.
     Squeeze,
+    /// What inputs reach, so many places apart.
+    Transposed {
+        channels: usize,
+        kernel: i64,
+        stride: i64,
+        dilation: i64,
+        pad: i64,
+        more: i64,
+    },
+    /// Channels in another order, through other shapes.
+    Shuffle,
+    /// Squares to channels and back, or the other way round.
+    Blocks {
+        up: bool,
+    },
+    /// Rows and columns and channels, in one of the modes.
+    Around {
+        mode: &'static str,
+        pads: [i64; 8],
+    },
+    Backwards,
+    /// A constant channel.
+    Beside,
+    /// Means along some axes, taken away.
+    Centre {
+        axes: Vec<i64>,
+    },
+    Normal {
+        kind: &'static str,
+    },
+    /// Places in a row, by places in a row.
+    Attention,
+    /// Places in a row behind each other.
+    Behind,
+    /// One channel, repeated.
+    Repeat,
+    Choose,
+    Cubic,
     /// Layers of 8-bit values, with a sign or without.
     Integers {
         signed: bool,
@@ -92,6 +130,21 @@ fn layer() -> impl Strategy<Value = Layer> {
         1 => Just(Layer::Softmax),
         1 => Just(Layer::Turn),
         1 => Just(Layer::Squeeze),
+        2 => (1..6usize, 1..5i64, 1..4i64, 1..3i64, 0..3i64, 0..2i64)
+            .prop_map(|(channels, kernel, stride, dilation, pad, more)| Layer::Transposed { channels, kernel, stride, dilation, pad, more }),
+        1 => Just(Layer::Shuffle),
+        1 => any::<bool>().prop_map(|up| Layer::Blocks { up }),
+        1 => (prop::sample::select(vec!["constant", "reflect", "edge", "wrap"]), prop::array::uniform6(-1..3i64))
+            .prop_map(|(mode, [a, b, c, d, e, f])| Layer::Around { mode, pads: [0, a.max(0), b, c, 0, d.max(0), e, f] }),
+        1 => Just(Layer::Backwards),
+        1 => Just(Layer::Beside),
+        1 => prop::sample::subsequence(vec![1i64, 2, -1], 1..4).prop_map(|axes| Layer::Centre { axes }),
+        1 => prop::sample::select(vec!["InstanceNormalization", "GroupNormalization", "LayerNormalization", "LRN", "LogSoftmax"]).prop_map(|kind| Layer::Normal { kind }),
+        1 => Just(Layer::Attention),
+        1 => Just(Layer::Behind),
+        1 => Just(Layer::Repeat),
+        1 => Just(Layer::Choose),
+        1 => Just(Layer::Cubic),
         4 => (any::<bool>(), prop::collection::vec(integer_layer(), 1..5)).prop_map(|(signed, layers)| Layer::Integers { signed, layers }),
     ]
 }
@@ -291,6 +344,162 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
         }
         Layer::Integers { signed, layers } => {
             Some(integer_layers::add(model, now, signed, &layers, seed))
+        }
+        Layer::Transposed { channels: outer, kernel, stride, dilation, pad, more } => {
+            let along = |length: i64| {
+                let all = (length - 1) * stride + more + (kernel - 1) * dilation + 1 - 2 * pad;
+                (all > 0 && all < 60).then_some(all)
+            };
+            let (height, width) = (along(height)?, along(width)?);
+            let count = outer * channels * usize::try_from(kernel * kernel).unwrap();
+            let shape = [signed(channels), signed(outer), kernel, kernel];
+            let weights = model.floats(&shape, &noise(seed, count));
+            let bias = model.floats(&[signed(outer)], &noise(seed + 100, outer));
+            let attributes = [
+                ("strides", Value::Ints(vec![stride; 2])),
+                ("dilations", Value::Ints(vec![dilation; 2])),
+                ("pads", Value::Ints(vec![pad; 4])),
+                ("output_padding", Value::Ints(vec![more; 2])),
+            ];
+            let name = model.node("ConvTranspose", &[&name, &weights, &bias], &attributes);
+            Some(State { name, channels: outer, height, width })
+        }
+        Layer::Shuffle => {
+            let half = Some(signed(channels / 2)).filter(|half| half * 2 == signed(channels))?;
+            let places = height * width;
+            let shapes = [vec![half, 2, places], vec![2, -1, half, height, width]];
+            let [apart, back] = shapes.map(|shape| model.ints(&shape));
+            let apart = model.node("Reshape", &[&name, &apart], &[]);
+            let turned =
+                model.node("Transpose", &[&apart], &[("perm", Value::Ints(vec![1, 0, 2]))]);
+            let back = model.node("Reshape", &[&turned, &back], &[]);
+            let index = model.index(1);
+            let own = model.node("Gather", &[&back, &index], &[("axis", Value::Int(0))]);
+            Some(State { name: own, channels: channels / 2, ..now.clone() })
+        }
+        Layer::Blocks { up } => {
+            let side = ("blocksize", Value::Int(2));
+            if up {
+                let mode =
+                    ("mode", Value::Text(if seed.is_multiple_of(2) { "DCR" } else { "CRD" }));
+                let fits = channels % 4 == 0 && height * width < 1000;
+                fits.then(|| State {
+                    name: model.node("DepthToSpace", &[&name], &[side, mode]),
+                    channels: channels / 4,
+                    height: 2 * height,
+                    width: 2 * width,
+                })
+            } else {
+                let fits = height % 2 == 0 && width % 2 == 0 && channels < 20;
+                fits.then(|| State {
+                    name: model.node("SpaceToDepth", &[&name], &[side]),
+                    channels: 4 * channels,
+                    height: height / 2,
+                    width: width / 2,
+                })
+            }
+        }
+        Layer::Around { mode, pads } => {
+            let along = |length: i64, axis: usize| length + pads[axis] + pads[axis + 4];
+            let (height, width) = (along(height, 2), along(width, 3));
+            let channels = along(signed(channels), 1);
+            if height < 1 || width < 1 || channels > 40 {
+                return None;
+            }
+            let pads = model.ints(&pads);
+            let name = model.node("Pad", &[&name, &pads], &[("mode", Value::Text(mode))]);
+            Some(State { name, channels: usize::try_from(channels).unwrap(), height, width })
+        }
+        Layer::Backwards => {
+            let bounds = [-1, i64::MIN, -1, -1].map(|value| model.ints(&[value]));
+            let [starts, ends, axes, steps] = &bounds;
+            of(model.node("Slice", &[&name, starts, ends, axes, steps], &[]))
+        }
+        Layer::Beside => {
+            let own = model.floats(
+                &[1, 1, height, width],
+                &noise(seed, usize::try_from(height * width).unwrap()),
+            );
+            let name = model.node("Concat", &[&own, &name], &[("axis", Value::Int(1))]);
+            (channels < 20).then(|| State { name, channels: channels + 1, ..now.clone() })
+        }
+        Layer::Centre { axes } => {
+            let axes = ("axes", Value::Ints(axes));
+            let mean = model.node("ReduceMean", &[&name], &[axes]);
+            of(model.node("Sub", &[&name, &mean], &[]))
+        }
+        Layer::Normal { kind } => {
+            let groups = if channels.is_multiple_of(2) { 2 } else { 1 };
+            let count = match kind {
+                "LayerNormalization" => usize::try_from(width).unwrap(),
+                _ => channels,
+            };
+            let scale = model.floats(&[signed(count)], &noise(seed, count));
+            let bias = model.floats(&[signed(count)], &noise(seed + 1, count));
+            of(match kind {
+                "LRN" => model.node(
+                    kind,
+                    &[&name],
+                    &[("size", Value::Int(3)), ("alpha", Value::Float(0.5))],
+                ),
+                "LogSoftmax" => model.node(kind, &[&name], &[("axis", Value::Int(1))]),
+                "GroupNormalization" => {
+                    model.node(kind, &[&name, &scale, &bias], &[("num_groups", Value::Int(groups))])
+                }
+                _ => model.node(kind, &[&name, &scale, &bias], &[]),
+            })
+        }
+        Layer::Attention => {
+            if height * width > 400 {
+                return None;
+            }
+            let shape = model.ints(&[1, 0, -1]);
+            let flat = model.node("Reshape", &[&name, &shape], &[]);
+            let turned = model.node("Transpose", &[&flat], &[("perm", Value::Ints(vec![0, 2, 1]))]);
+            let alike = model.node("MatMul", &[&turned, &flat], &[]);
+            let shares = model.node("Softmax", &[&alike], &[]);
+            let mixed = model.node("MatMul", &[&shares, &turned], &[]);
+            let turned =
+                model.node("Transpose", &[&mixed], &[("perm", Value::Ints(vec![0, 2, 1]))]);
+            let shape = model.ints(&[1, -1, height, width]);
+            of(model.node("Reshape", &[&turned, &shape], &[]))
+        }
+        Layer::Behind => {
+            let shape = model.ints(&[1, signed(channels), -1]);
+            let flat = model.node("Reshape", &[&name, &shape], &[]);
+            let relu = model.node("Relu", &[&flat], &[]);
+            let both = model.node("Concat", &[&flat, &relu], &[("axis", Value::Int(-1))]);
+            let shape = model.ints(&[1, signed(channels), 2 * height, width]);
+            (height * width < 1000).then(|| State {
+                name: model.node("Reshape", &[&both, &shape], &[]),
+                height: 2 * height,
+                ..now.clone()
+            })
+        }
+        Layer::Repeat => {
+            let axes = ("axes", Value::Ints(vec![1]));
+            let most = model.node("ReduceMax", &[&name], &[axes]);
+            let shape = model.ints(&[1, 3, height, 1]);
+            let name = model.node("Expand", &[&most, &shape], &[]);
+            Some(State { name, channels: 3, ..now.clone() })
+        }
+        Layer::Choose => {
+            let limit = model.floats(&[], &[0.125]);
+            let is = model.node("Greater", &[&name, &limit], &[]);
+            let half = model.node("Mul", &[&name, &limit], &[]);
+            of(model.node("Where", &[&is, &name, &half], &[]))
+        }
+        Layer::Cubic => {
+            if height * width > 1000 || height < 2 || width < 2 {
+                return None;
+            }
+            let scales = model.floats(&[4], &[1.0, 1.0, 1.5, 2.0]);
+            let attributes = [
+                ("mode", Value::Text("cubic")),
+                ("exclude_outside", Value::Int(i64::from(seed.is_multiple_of(2)))),
+            ];
+            let name = model.node("Resize", &[&name, "", &scales], &attributes);
+            Some(State { name, height: height * 3 / 2, width: 2 * width, ..now.clone() })
         }
         Layer::Squeeze => {
             let mean = model.node("GlobalAveragePool", &[&name], &[]);
@@ -505,6 +714,24 @@ fn a_part_is_never_more_than_the_whole() {
             );
         }
     }
+}
+
+/// In a row of boxes of all scales no place has a part of the picture: it is computed where the places that it sees are.
+#[test]
+fn the_fixed_mode_follows_places_in_a_row() {
+    let mut model = Model::new(&[1, 1, 16, 16]);
+    let weights = model.floats(&[4, 1, 1, 1], &noise(1, 4));
+    let features = model.node("Conv", &["picture", &weights], &[]);
+    let shape = model.ints(&[1, 4, -1]);
+    let flat = model.node("Reshape", &[&features, &shape], &[]);
+    let both = model.node("Concat", &[&flat, &flat], &[("axis", Value::Int(2))]);
+    let shape = model.ints(&[1, 4, 8, 64]);
+    let other = model.node("Reshape", &[&both, &shape], &[]);
+    let relu = model.node("Relu", &[&other], &[]);
+    model.output(&relu);
+    let network = model.read(16, 16).unwrap();
+    let frames = clip(1, [16, 16], &[vec![(4, 4, 6)]]);
+    assert_eq!(difference(&network, Mode::Fixed, &frames), None);
 }
 
 /// The fixed mode copies what lies outside of the camera's mask.

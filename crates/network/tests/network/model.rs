@@ -43,6 +43,16 @@ impl Model {
         self.constant(&[values.len().cast_signed() as i64], tensor)
     }
 
+    /// A constant integer; returns its name.
+    pub(crate) fn index(&mut self, value: i64) -> String {
+        let tensor = TensorProto {
+            data_type: Some(data_type::INT64),
+            int64_data: vec![value],
+            ..TensorProto::default()
+        };
+        self.constant(&[], tensor)
+    }
+
     /// A constant of integers of a type of ONNX; returns its name.
     pub(crate) fn typed(&mut self, data_type: i32, shape: &[i64], values: &[i32]) -> String {
         let tensor = TensorProto {

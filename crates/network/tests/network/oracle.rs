@@ -65,6 +65,63 @@ proptest! {
     }
 }
 
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
+
+    /// Every input is added, by its weights, to the outputs that it reaches.
+    #[test]
+    fn transposed_convolution_is_that_of_the_standard(
+        groups in 1..3usize, inner in 1..3usize, outer in 1..4usize, size in (1..6usize, 1..7usize), kernel in (1..5usize, 1..5usize),
+        stride in (1..4usize, 1..4usize), dilation in (1..4usize, 1..3usize), pads in prop::array::uniform4(0..3usize), more in (0..2usize, 0..2usize),
+    ) {
+        let (inputs, outputs) = (groups * inner, groups * outer);
+        let spread = noise(21, inputs);
+        let weights = noise(22, inputs * outer * kernel.0 * kernel.1);
+        let bias = noise(23, outputs);
+        let picture = noise(24, size.0 * size.1);
+        let dims = |values: &[usize]| -> Vec<i64> { values.iter().map(|&value| i64::try_from(value).unwrap()).collect() };
+        let mut model = Model::new(&dims(&[1, 1, size.0, size.1]));
+        let first = model.floats(&dims(&[inputs, 1, 1, 1]), &spread);
+        let channels = model.node("Conv", &["picture", &first], &[]);
+        let second = model.floats(&dims(&[inputs, outer, kernel.0, kernel.1]), &weights);
+        let third = model.floats(&dims(&[outputs]), &bias);
+        let attributes = [
+            ("strides", Value::Ints(dims(&[stride.0, stride.1]))), ("dilations", Value::Ints(dims(&[dilation.0, dilation.1]))),
+            ("pads", Value::Ints(dims(&pads))), ("output_padding", Value::Ints(dims(&[more.0, more.1]))), ("group", Value::Int(i64::try_from(groups).unwrap())),
+        ];
+        let output = model.node("ConvTranspose", &[&channels, &second, &third], &attributes);
+        model.output(&output);
+        let all = |length: usize, stride: usize, kernel: usize, dilation: usize, more: usize| (length - 1) * stride + (kernel - 1) * dilation + 1 + more;
+        let all = (all(size.0, stride.0, kernel.0, dilation.0, more.0), all(size.1, stride.1, kernel.1, dilation.1, more.1));
+        let left = (all.0.checked_sub(pads[0] + pads[2]), all.1.checked_sub(pads[1] + pads[3]));
+        let (Some(height @ 1..), Some(width @ 1..)) = left else {
+            prop_assert!(model.read(size.1, size.0).unwrap_err().to_string().contains("leave no output"));
+            return Ok(());
+        };
+        let mut wanted: Vec<f64> = bias.iter().flat_map(|&bias| vec![f64::from(bias); all.0 * all.1]).collect();
+        for (input, channel) in (0..inputs).flat_map(|input| (0..outer).map(move |channel| (input, channel))) {
+            for (y, x) in (0..size.0).flat_map(|y| (0..size.1).map(move |x| (y, x))) {
+                for (ky, kx) in (0..kernel.0).flat_map(|ky| (0..kernel.1).map(move |kx| (ky, kx))) {
+                    let weight = weights[((input * outer + channel) * kernel.0 + ky) * kernel.1 + kx];
+                    let to = (input / inner * outer + channel) * all.0 + y * stride.0 + ky * dilation.0;
+                    wanted[to * all.1 + x * stride.1 + kx * dilation.1] +=
+                        f64::from(weight) * f64::from(spread[input]) * f64::from(picture[y * size.1 + x]);
+                }
+            }
+        }
+        let network = model.read(size.1, size.0).unwrap();
+        let mut executor = Executor::new(&network, Mode::Dense);
+        executor.step(&picture, &Mask::full(size.0, size.1));
+        let found = executor.value(2);
+        prop_assert_eq!(found.form().shape(), &[1, outputs, height, width]);
+        for (at, &found) in found.reals().iter().enumerate() {
+            let (channel, y, x) = (at / width / height, at / width % height, at % width);
+            let wanted = wanted[(channel * all.0 + y + pads[0]) * all.1 + x + pads[1]];
+            prop_assert!((f64::from(found) - wanted).abs() < 1e-4, "{found} for {wanted} at {at}");
+        }
+    }
+}
+
 /// A value of every pooling, computed by hand.
 #[test]
 fn pooling_is_that_of_the_standard() {

@@ -8,15 +8,20 @@ use std::path::Path;
 const TOLERANCE: f32 = 4e-6;
 
 /// Name, width and height of each.
-const NETWORKS: [(&str, usize, usize); 8] = [
+const NETWORKS: [(&str, usize, usize); 13] = [
     ("activations", 9, 7),
+    ("attention", 7, 6),
     ("convolutions", 19, 13),
+    ("head", 8, 6),
     ("inverted", 18, 21),
     ("lenet", 20, 20),
+    ("moves", 7, 6),
+    ("norms", 7, 6),
     ("pools", 14, 11),
     ("residual", 37, 30),
     ("resizes", 7, 5),
     ("shapes", 10, 9),
+    ("transposed", 7, 5),
 ];
 
 fn values(path: &Path) -> Vec<f32> {
