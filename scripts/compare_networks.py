@@ -3,9 +3,9 @@
 """Compares networks with onnxruntime: whether each is read, how far its outputs are from onnxruntime's, and whether parts have the bits of
 the whole.
 
-    compare_networks.py FILE.onnx... [--size WIDTHxHEIGHT] [--limit L]
+    compare_networks.py FILE.onnx... [--size WIDTHxHEIGHT] [--highest H] [--limit L]
 
-The input is noise from 0 to 1. The difference is the largest of any output, as a share of that output's largest value (of 0.01 at least); above the limit (1e-4) the
+The input is noise from 0 to H (1). The difference is the largest of any output, as a share of that output's largest value (of 0.01 at least); above the limit (1e-4) the
 script fails, as it does where a part differs from the whole. A network of 16-bit values is compared with itself cast to 32 bits, and beside
 that as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network (its path in OUTPUTS, or cargo
 builds it).
@@ -78,7 +78,7 @@ def run(model, picture):
     return outputs, best
 
 
-def row(path, size, outputs):
+def row(path, size, highest, outputs):
     """The row of a network, and whether something is wrong beside its difference."""
     model = onnx.load(path)
     constants = {tensor.name for tensor in model.graph.initializer}
@@ -87,7 +87,7 @@ def row(path, size, outputs):
     lengths = [dim.dim_value for dim in given.type.tensor_type.shape.dim]
     width, height = map(int, size.split("x")) if size else (lengths[3] or 640, lengths[2] or 360)
     channels = lengths[1]
-    picture = np.random.default_rng(1).random((1, channels, height, width), dtype=np.float32)
+    picture = np.random.default_rng(1).random((1, channels, height, width), dtype=np.float32) * np.float32(highest)
     with tempfile.TemporaryDirectory() as folder:
         files = [os.path.join(folder, name) for name in ("picture", "outputs")]
         picture.tofile(files[0])
@@ -109,13 +109,14 @@ def main():
     parser = argparse.ArgumentParser(prog="compare_networks.py", description="Compares networks with onnxruntime.")
     parser.add_argument("files", nargs="+", metavar="FILE.onnx")
     parser.add_argument("--size", help="WIDTHxHEIGHT of the picture, for networks that take any (640x360)")
+    parser.add_argument("--highest", type=float, default=1.0, help="the largest value of the input (1)")
     parser.add_argument("--limit", type=float, default=1e-4)
     options = parser.parse_args()
     outputs, is_right = program(), True
     print(f"onnxruntime {onnxruntime.__version__}\n")
     print("| network | | difference | exact, compare | onnxruntime | dense | speed |\n| --- | --- | ---: | --- | ---: | ---: | ---: |")
     for path in options.files:
-        cells, found, is_same = row(path, options.size, outputs)
+        cells, found, is_same = row(path, options.size, options.highest, outputs)
         is_right &= is_same and found <= options.limit
         print("| " + " | ".join([os.path.splitext(os.path.basename(path))[0], *cells]) + " |", flush=True)
     sys.exit(not is_right)

@@ -4,7 +4,7 @@
 
     networks.py FOLDER [NAME...] [--size WIDTHxHEIGHT] [--int8]
 
---int8 also writes forms of 8-bit integers, by scripts/quantize.py: NAME-qoperator.onnx and NAME-qdq.onnx. Needs torch, torchvision and onnx; --int8
+--int8 also writes forms of 8-bit integers, by scripts/quantize.py: NAME-qoperator.onnx and NAME-qdq.onnx. Needs torch, torchvision, onnx and onnxscript; --int8
 needs onnxruntime. The weights are random: they serve for masks, counts and time, not for what the network says.
 """
 import argparse
@@ -83,7 +83,7 @@ def main():
         torch.manual_seed(1)
         network = make().eval()
         path = os.path.join(options.folder, f"{name}.onnx")
-        torch.onnx.export(network, (torch.zeros(1, channels, height, width),), path, opset_version=17, dynamo=False, input_names=["picture"])
+        torch.onnx.export(network, (torch.zeros(1, channels, height, width),), path, input_names=["picture"], external_data=False, verbose=False)
         print(f"{path}: {channels} x {height} x {width}, {sum(p.numel() for p in network.parameters()):,} parameters")
         if options.int8:
             # Needed for nothing else, and it needs onnxruntime.

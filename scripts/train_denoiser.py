@@ -4,7 +4,7 @@
 
     train_denoiser.py FILE.onnx
 
-Needs `foveate` on the path (or its path in FOVEATE), torch, onnx, numpy and Pillow. It takes about two minutes on two cores.
+Needs `foveate` on the path (or its path in FOVEATE), torch, onnx, onnxscript, numpy and Pillow. It takes about two minutes on two cores.
 The network sees a noisy frame of any size, with pixels from 0 to 1, and gives the frame without noise.
 """
 import glob
@@ -87,8 +87,10 @@ def main():
         print(f"street: {psnr(noisy, clips[0][:8]):.1f} dB with noise, {psnr(network(noisy), clips[0][:8]):.1f} dB without")
         noisy = test + NOISE * torch.randn_like(test)
         print(f"night-rain, not seen in training: {psnr(noisy, test):.1f} dB with noise, {psnr(network(noisy), test):.1f} dB without")
-    torch.onnx.export(network, (torch.zeros(1, 1, 32, 32),), sys.argv[1], opset_version=17, dynamo=False, input_names=["picture"],
-                      output_names=["clean"], dynamic_axes={"picture": {2: "height", 3: "width"}, "clean": {2: "height", 3: "width"}})
+    # Lengths below the windows are not traced.
+    height, width = torch.export.Dim("height", min=4), torch.export.Dim("width", min=4)
+    torch.onnx.export(network, (torch.zeros(1, 1, 32, 48),), sys.argv[1], input_names=["picture"], output_names=["clean"],
+                      dynamic_shapes=({2: height, 3: width},), external_data=False, verbose=False)
     print(f"{sys.argv[1]}: {os.path.getsize(sys.argv[1])} bytes, {sum(p.numel() for p in network.parameters())} parameters")
 
 

@@ -13,3 +13,4 @@ mod model;
 mod oracle;
 mod refused;
 mod torch;
+mod trained;

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Trained networks of others, where the environment variable FOVEATE_DATA names their folder: each is read, and parts have the bits of the
+//! whole. `scripts/compare_networks.py` compares them with onnxruntime.
+
+use crate::exact::{clip, difference};
+use foveate_network::{FrameSize, Mode, Network};
+use foveate_toolchain::testing::data_folder;
+
+/// Name, width and height of each.
+const NETWORKS: [(&str, usize, usize); 7] = [
+    ("FastestDet", 352, 352),
+    ("RFB-320", 320, 240),
+    ("SqueezeNet_fp16", 224, 224),
+    ("deeplab_nchw", 513, 513),
+    ("prisma_nchw", 256, 256),
+    ("yolox_nano", 416, 416),
+    ("yunet_n_320_320", 320, 320),
+];
+
+#[test]
+fn trained_networks_run() {
+    let Some(folder) = data_folder() else { return };
+    for (name, width, height) in NETWORKS {
+        let path = folder.join("networks").join(format!("{name}.onnx"));
+        let network = Network::read(&path, FrameSize { width, height })
+            .unwrap_or_else(|error| panic!("{name}: {error}"));
+        let frames = clip(3, [height, width], &[vec![(width / 3, height / 2, 12)]]);
+        assert_eq!(difference(&network, Mode::Exact, &frames), None, "{name}");
+    }
+}
