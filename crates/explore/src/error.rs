@@ -57,7 +57,7 @@ pub enum ExploreError {
     },
     /// A network cannot be read or shown frames.
     #[error(transparent)]
-    Inference(#[from] InferenceError),
+    Inference(Box<InferenceError>),
     /// Boxes that cannot be read, or that do not fit the clips.
     #[error(transparent)]
     Boxes(#[from] BoxError),
@@ -162,5 +162,11 @@ impl ExploreError {
     ) -> impl FnOnce(std::io::Error) -> Self {
         let path = path.to_owned();
         move |source| Self::Io { action, path, source }
+    }
+}
+
+impl From<InferenceError> for ExploreError {
+    fn from(error: InferenceError) -> Self {
+        Self::Inference(Box::new(error))
     }
 }

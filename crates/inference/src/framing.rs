@@ -257,7 +257,7 @@ mod tests {
                     *pixel = 90;
                 }
             }
-            let mut given = vec![false; 35];
+            let mut given = [false; 35];
             let is = |x, y| (x, y) == (column, row);
             lens.project(&after, 4, is, |_, at, _| given[at] = true);
             let [old, new] = [before, after].map(|frame| all(&lens, &frame, 35));

@@ -295,3 +295,34 @@ fn quiet_is_quiet() {
     let text = succeed_in(dir.path(), &[&args[..], &["--force"]].concat());
     assert!(text.contains("the only frame was computed whole"), "{text}");
 }
+
+/// What the network loses is printed, written and shown; what does not fit is refused by name.
+#[test]
+fn what_the_network_loses_behind_the_camera_is_told() {
+    let dir = tempfile::tempdir().unwrap();
+    let infer = ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "4", "--force"];
+    let with = |more: &[&str]| [&infer[..], more].concat();
+    let text = succeed_in(dir.path(), &with(&["--whole-frames", "--preset", "fovea"]));
+    for part in ["sent  ", " bytes per frame, ", "PSNR of what the receiver sees", "agreement  "] {
+        assert!(text.contains(part), "{part} in {text}");
+    }
+    let rows = fs::read_to_string(dir.path().join("out/frames.csv")).unwrap();
+    let heading = rows.lines().next().unwrap();
+    assert!(heading.ends_with("agreement,whole_detections,kept_detections,added_detections"));
+    let found = summary_of(dir.path(), "4", &["--whole-frames", "--framing", "letterbox=96x96"]);
+    assert_eq!(found["framing"], "letterbox=96x96");
+    let sight = &found["sight"];
+    let agreement = sight["agreement"].as_f64().unwrap();
+    assert!((agreement + sight["relative_rms"].as_f64().unwrap() - 1.0).abs() < 1e-12);
+    assert!(sight["detections"].is_null() && sight["truth"].is_null());
+    for (wrong, says) in [
+        (&["--detect", "yolox"][..], "`clean` [1, 1, 224, 224]"),
+        (&["--detect", "yolo"], "yolox, yolov5, yolov8, ssd, yunet, fastestdet"),
+        (&["--framing", "crop"], "letterbox=416x416"),
+        (&["--framing", "letterbox"], "letterbox=416x416"),
+        (&["--boxes", "gt.txt"], "--detect"),
+        (&["--scale", "1/0"], "1/255"),
+    ] {
+        fail_in(dir.path(), 2, &with(wrong), &[says]);
+    }
+}

@@ -119,8 +119,9 @@ impl Constraints {
 
     /// Whether there is one of those on what a camera sees and sends.
     pub(super) fn limits_figures(&self) -> bool {
-        let Self { max_flips, max_missed, min_psnr, max_stale_frames, max_bytes, min_recall, .. } =
-            self;
+        let Self {
+            max_flips, max_missed, min_psnr, max_stale_frames, max_bytes, min_recall, ..
+        } = self;
         let shares = [max_flips, max_missed, min_psnr, max_bytes, min_recall];
         shares.iter().any(|limit| limit.is_some()) || max_stale_frames.is_some()
     }

@@ -209,7 +209,7 @@ fn neighbors(config: &CameraConfig) -> Vec<CameraConfig> {
     for count in [1, 2, 3, 5, 8, 12] {
         other(&|config| config.temporal.min_count = count);
     }
-    if config.render.irrelevant == Irrelevant::Mean {
+    if config.validate().is_ok_and(|camera| camera.periphery().is_some()) {
         for level in LEVELS {
             other(&|config| {
                 config.periphery.level =

@@ -44,8 +44,8 @@ use looks::Search;
 use network::Jury;
 
 pub use constraints::{Constraints, Held};
-pub use network::{Agreed, Cheapest, NetworkGoal};
-pub use report::{Design, Fit, FittedNetwork, Target};
+pub use network::{Agreed, Cheapest, FittedNetwork, NetworkGoal};
+pub use report::{Design, Fit, Target};
 
 /// What is to be fitted.
 #[derive(Clone, Debug)]
@@ -109,9 +109,10 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     }
     let built = build(&search, request, memory, hooks)?;
     let chosen = built.chosen();
+    let steps = (asked.len(), descent::steps(&asked, &chosen.look.config));
     let second = search.second_half(&chosen.look)?;
     let network = jury.map(|jury| jury.report(&chosen.look)).transpose()?;
-    Ok(report::fit(request, &search, &asked, &built, target, (second, network), &lengths))
+    Ok(report::fit(request, &search, steps, &built, target, (second, network), &lengths))
 }
 
 /// The sums of both halves of all clips in frames.

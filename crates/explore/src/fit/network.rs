@@ -17,7 +17,6 @@ use serde::Serialize;
 
 use super::held_out::Halves;
 use super::looks::Look;
-use super::report::FittedNetwork;
 use crate::footage::Footage;
 use crate::measure::{at_depth, at_depths};
 use crate::row::real;
@@ -60,6 +59,25 @@ pub struct Agreed {
     pub at_most: bool,
     /// Detections, if they are read.
     pub detections: Option<Found>,
+}
+
+/// What a network says of the design, beside what it says of whole frames.
+#[derive(Clone, Debug, Serialize)]
+pub struct FittedNetwork {
+    /// Its file.
+    pub network: String,
+    /// How detections are read, if they are.
+    pub detector: Option<String>,
+    /// The least agreement that was wanted, 0..=1.
+    pub min_agreement: f64,
+    /// What the design was to be cheapest in.
+    pub cheapest: Cheapest,
+    /// On the first half, on which it was fitted.
+    pub fitted: Agreed,
+    /// On the second half, which influenced no choice.
+    pub held_out: Agreed,
+    /// Bytes of a whole frame.
+    pub bytes_per_whole_frame: f64,
 }
 
 /// A half of every clip.

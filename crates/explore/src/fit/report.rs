@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What came out of a fit, for people and programs.
 
-use std::collections::BTreeMap;
-
 use foveate_design::Config;
 use foveate_estimate::Speed;
 use foveate_fidelity::Figures;
@@ -12,8 +10,8 @@ use super::build::Built;
 use super::constraints::{Held, all_hold};
 use super::held_out::Halves;
 use super::looks::Search;
-use super::network::{Agreed, Cheapest};
-use super::{FitRequest, descent, frames, why};
+use super::network::FittedNetwork;
+use super::{FitRequest, frames, why};
 use crate::cost::Silicon;
 use crate::row::bytes_per_frame;
 
@@ -26,25 +24,6 @@ pub struct Target {
     pub found: f64,
     /// The task with these thresholds, as TOML.
     pub task: String,
-}
-
-/// What a network says of the design, beside what it says of whole frames.
-#[derive(Clone, Debug, Serialize)]
-pub struct FittedNetwork {
-    /// Its file.
-    pub network: String,
-    /// How detections are read, if they are.
-    pub detector: Option<String>,
-    /// The least agreement that was wanted, 0..=1.
-    pub min_agreement: f64,
-    /// What the design was to be cheapest in.
-    pub cheapest: Cheapest,
-    /// On the first half, on which it was fitted.
-    pub fitted: Agreed,
-    /// On the second half, which influenced no choice.
-    pub held_out: Agreed,
-    /// Bytes of a whole frame.
-    pub bytes_per_whole_frame: f64,
 }
 
 /// The design that was chosen.
@@ -110,13 +89,14 @@ pub struct Fit {
 pub(super) fn fit(
     request: &FitRequest<'_>,
     search: &Search<'_>,
-    asked: &BTreeMap<String, Agreed>,
+    (asked, mut reasons): (usize, Vec<String>),
     built: &Built,
     target: Option<Target>,
     ((held_out, mut held), network): ((Figures, Vec<Held>), Option<FittedNetwork>),
     halves: &Halves,
 ) -> Fit {
     let chosen = built.chosen();
+    reasons.extend(why::why(search, built, chosen, request));
     held.extend(request.constraints.on_speed(chosen.speed.as_ref()));
     held.extend(request.constraints.on_silicon(&chosen.silicon));
     let agreement =
@@ -130,15 +110,11 @@ pub(super) fn fit(
         task: Config { camera: search.task().clone(), ..Config::default() }.to_toml(),
         target,
         clock_hz: request.clock_hz,
-        considered: (search.all().count().max(asked.len()), built.all().len(), built.left_out),
+        considered: (search.all().count().max(asked), built.all().len(), built.left_out),
         feasible: chosen.holds(),
         borne_out: all_hold(&held),
         binding: why::binding(built),
-        why: {
-            let mut why = descent::steps(asked, &chosen.look.config);
-            why.extend(why::why(search, built, chosen, request));
-            why
-        },
+        why: reasons,
         problems: halves.problems.clone(),
         network,
         design: Design {

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fitting over scenes: the cheapest design that holds, honest when none does.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, Design};
 use foveate_emit::Top;
 use foveate_engine::Engine;
 use foveate_estimate::{EstimateJob, estimate};
 use foveate_explore::{
-    Constraints, ExploreError, Fit, FitRequest, Held, Hooks, Progress, Synthesizer, fit,
+    Cheapest, Constraints, ExploreError, Fit, FitRequest, Held, Hooks, NetworkGoal, Progress,
+    Synthesizer, fit,
 };
 use foveate_footage::{InputOptions, open};
+use foveate_inference::{Framing, Mapping, Viewing};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 
@@ -64,6 +66,61 @@ fn run_with(
         },
         hooks,
     )
+}
+
+/// The denoiser's outputs of what the receiver sees are to be near those of whole frames, in bytes as few as there are; and if nothing can be as near,
+/// that is said.
+#[test]
+fn a_network_cannot_tell_the_design_from_whole_frames() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
+    let mapping = Mapping { mean: vec![0.0], scale: vec![1.0] };
+    let viewing = Viewing { framing: Framing::Same, mapping, detector: None };
+    let fitted = |min_agreement: f64, cheapest: Cheapest, max_bytes: Option<f64>| {
+        let task = "[frame]\nwidth = 48\nheight = 32\n[temporal]\nreference = \"last-sent\"\n";
+        let request = FitRequest {
+            task: &Config::from_toml(task).unwrap(),
+            inputs: &[PathBuf::from("scene:street")],
+            input: &InputOptions { frames: Some(8), ..InputOptions::default() },
+            constraints: &Constraints { max_bytes, ..Constraints::default() },
+            clock_hz: Some(1_000_000),
+            target_active: None,
+            boxes: &[],
+            network: Some(NetworkGoal {
+                path: Path::new(path),
+                viewing: &viewing,
+                min_agreement,
+                cheapest,
+                frames: 3,
+            }),
+            synthesizer: &Synthesizer {
+                toolchain: Toolchain::system(),
+                cache: Cache::from_env().unwrap(),
+            },
+            most: 1,
+        };
+        fit(&request, &Quiet).unwrap()
+    };
+    let found = fitted(0.9, Cheapest::Bytes, None);
+    let network = found.network.as_ref().unwrap();
+    assert!(found.feasible && network.fitted.share >= 0.9, "{network:?}");
+    assert_eq!((network.fitted.frames, network.held_out.frames), (3, 3));
+    assert_eq!(network.bytes_per_whole_frame, 48.0 * 32.0);
+    assert!(found.design.bytes_per_frame.0 < 48.0 * 32.0, "{:?}", found.design.bytes_per_frame);
+    let held = found.design.held_out_held.iter().find(|held| held.name == "min-agreement").unwrap();
+    assert_eq!((held.value, held.limit), (network.held_out.share, 0.9));
+    // More agreement costs more bytes.
+    let near = fitted(0.97, Cheapest::Bytes, None);
+    assert!(near.design.bytes_per_frame.0 > found.design.bytes_per_frame.0);
+    assert!(near.network.as_ref().unwrap().fitted.share >= 0.97);
+    assert!(near.why.iter().any(|line| line.contains(": agreement ")), "{:?}", near.why);
+    // Two bits for each of 24 regions are all that fits.
+    let none = fitted(0.9, Cheapest::Area, Some(8.0));
+    assert!(!none.feasible);
+    let held = |name| none.design.fitted_held.iter().find(|held| held.name == name).unwrap().holds;
+    assert!(!held("max-bytes") || !held("min-agreement"), "{:?}", none.design.fitted_held);
 }
 
 #[test]

@@ -51,7 +51,7 @@ fn bright_squares(folder: &Path) -> PathBuf {
         ints: ints.to_vec(),
         ..AttributeProto::default()
     };
-    let channels = CHANNELS as i64;
+    let channels = i64::try_from(CHANNELS).unwrap();
     let graph = GraphProto {
         input: vec![value("picture", &[1, 1, 48, 64])],
         initializer: vec![
@@ -67,7 +67,6 @@ fn bright_squares(folder: &Path) -> PathBuf {
             ..NodeProto::default()
         }],
         output: vec![value("found", &[])],
-        ..GraphProto::default()
     };
     let model = ModelProto { ir_version: Some(8), graph: Some(graph), ..ModelProto::default() };
     let path = folder.join("squares.onnx");
