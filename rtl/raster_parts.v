@@ -29,6 +29,7 @@ module raster_parts #(
     wire last;
     generate
         if (SIZE == 1) begin : g_place
+            wire unused_inputs = |{clk_i, rst_i, step_i};
             assign first_o = 1'b1;
             assign last = 1'b1;
         end else begin : g_places
