@@ -2,136 +2,138 @@
 //! Every parameter and port of the Verilog is documented, and a parameter out of range does not elaborate, in
 //! Verilator, Icarus and Yosys alike.
 
+mod cases;
+
 use std::collections::BTreeSet;
 
 use crate::common::{design, every_design};
-use foveate_emit::{LEAVES, Leaf, Top, verilog};
+use cases::{Case, cases, with_default};
+use foveate_emit::{LEAVES, Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::yosys::{self, YosysJob};
-use foveate_toolchain::{Cache, Source, Tool, Toolchain, verilator};
+use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, verilator};
 use rayon::prelude::*;
 
 const TOOLS: &[Tool] = &[Tool::Verilator, Tool::Iverilog, Tool::Yosys];
 
-/// A module with other parameters than its defaults.
-struct Case {
-    module: String,
-    /// Names and values.
-    parameters: Vec<(String, String)>,
-    /// The module that refuses them; none if they are in range.
-    refused: Option<String>,
+/// What a tool says, as far as it is an error.
+fn said<T>(result: Result<T, ToolError>) -> Option<String> {
+    result.err().map(|error| match error {
+        ToolError::Failed { full, .. } => full,
+        other => other.to_string(),
+    })
 }
 
-/// The lines of `limits.txt`. Parameters of a line that must elaborate hold for those below it, too.
-fn cases() -> Vec<Case> {
-    let mut list: Vec<Case> = Vec::new();
-    let mut common: Vec<(String, String)> = Vec::new();
-    let lines = include_str!("limits.txt").lines().map(str::trim);
-    for line in lines.filter(|line| !line.is_empty() && !line.starts_with('#')) {
-        let mut parts = line.split('|').map(str::trim);
-        let module = parts.next().unwrap().to_owned();
-        let own = parts.next().unwrap_or_default().split_whitespace().map(|pair| {
-            let (name, value) = pair.split_once('=').unwrap_or_else(|| panic!("{line}"));
-            (name.to_owned(), value.to_owned())
-        });
-        let own: Vec<_> = own.collect();
-        let refused = parts.next().map(str::to_owned);
-        let mut parameters = own.clone();
-        match refused {
-            None => common.clone_from(&own),
-            Some(_) => {
-                let first = |name: &String| own.iter().all(|(given, _)| given != name);
-                parameters.extend(common.iter().filter(|(name, _)| first(name)).cloned());
-            }
-        }
-        list.push(Case { module, parameters, refused });
-    }
-    list
+fn verilator_says(sources: &[Source], top: &str) -> Option<String> {
+    said(verilator::lint(&Toolchain::system(), sources, top, None))
 }
 
-/// The text of a module with another default of a parameter.
-fn with_default(text: &str, name: &str, value: &str) -> String {
-    let start = format!(" {name} = ");
-    let line = text.lines().find(|line| line.contains("parameter ") && line.contains(&start));
-    let line = line.unwrap_or_else(|| panic!("no parameter {name}"));
-    let (before, after) = line.split_once(&start).unwrap();
-    let end = after.find([',', ' ']).unwrap_or(after.len());
-    text.replacen(line, &format!("{before}{start}{value}{}", &after[end..]), 1)
-}
-
-fn leaf(name: &str) -> &'static Leaf {
-    LEAVES.iter().find(|leaf| leaf.name == name).unwrap_or_else(|| panic!("no leaf {name}"))
-}
-
-/// A leaf and all that it instantiates, with the parameters of a case.
-fn sources(case: &Case) -> Vec<Source> {
-    let mut names: Vec<&str> = vec![leaf(&case.module).name];
-    let mut at = 0;
-    while let Some(name) = names.get(at) {
-        let uses = leaf(name).uses.iter().filter(|used| !names.contains(used));
-        let uses: Vec<&str> = uses.copied().collect();
-        names.extend(uses);
-        at += 1;
-    }
-    let text = |name: &str| {
-        let text = leaf(name).contents.to_owned();
-        if name != case.module {
-            return text;
-        }
-        let parameters = case.parameters.iter();
-        parameters.fold(text, |text, (name, value)| with_default(&text, name, value))
-    };
-    names.iter().map(|name| (format!("rtl/{name}.v"), text(name))).collect()
-}
-
-/// What each tool says against a module; nothing if it elaborates.
-fn said(sources: &[Source], top: &str) -> [(Tool, Option<String>); 3] {
-    let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
-    let verilator = verilator::lint(&toolchain, sources, top, None).err();
+fn icarus_says(sources: &[Source], top: &str) -> Option<String> {
     let job = IverilogJob {
         sources: sources.to_vec(),
         top: top.to_owned(),
         strict: true,
         ..IverilogJob::default()
     };
-    let icarus = iverilog::compile(&toolchain, &cache, &job).err();
-    let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
-    let script = format!("read_verilog {}\nhierarchy -check -top {top}\n", names.join(" "));
-    let job = YosysJob { sources: sources.to_vec(), script, outputs: Vec::new() };
-    let yosys = yosys::run(&toolchain, &cache, &job).err();
-    [
-        (Tool::Verilator, verilator.map(|error| error.to_string())),
-        (Tool::Iverilog, icarus.map(|error| error.to_string())),
-        (Tool::Yosys, yosys.map(|error| error.to_string())),
-    ]
+    said(iverilog::compile(&Toolchain::system(), &Cache::throw_away().unwrap(), &job))
 }
 
-/// What is wrong with the answers of the tools.
-fn problems(sources: &[Source], top: &str, refused: Option<&str>) -> Vec<String> {
-    let wrong = |(tool, said): (Tool, Option<String>)| match (refused, said) {
+/// `before` are commands between reading and elaboration.
+fn yosys_says(sources: &[Source], before: &str, top: &str) -> Option<String> {
+    let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
+    let script = format!("read_verilog {}\n{before}hierarchy -check -top {top}\n", names.join(" "));
+    let job = YosysJob { sources: sources.to_vec(), script, outputs: Vec::new() };
+    said(yosys::run(&Toolchain::system(), &Cache::throw_away().unwrap(), &job))
+}
+
+/// What is wrong with the answer of a tool.
+fn problem(tool: Tool, refused: Option<&str>, said: Option<String>) -> Option<String> {
+    match (refused, said) {
         (None, None) => None,
         (None, Some(said)) => Some(format!("{tool} refuses what is in range: {said}")),
         (Some(name), None) => Some(format!("{tool} takes it, and not {name}")),
         (Some(name), Some(said)) => {
             (!said.contains(name)).then(|| format!("{tool} does not name {name}: {said}"))
         }
-    };
-    said(sources, top).into_iter().filter_map(wrong).collect()
+    }
 }
 
+/// What is wrong with the answers of all tools.
+fn problems(sources: &[Source], top: &str, refused: Option<&str>) -> Vec<String> {
+    let answers = [
+        (Tool::Verilator, verilator_says(sources, top)),
+        (Tool::Iverilog, icarus_says(sources, top)),
+        (Tool::Yosys, yosys_says(sources, "", top)),
+    ];
+    answers.into_iter().filter_map(|(tool, said)| problem(tool, refused, said)).collect()
+}
+
+/// Verilator stops at the first module that does not exist: each case is a run of its own. Icarus names all of them
+/// in one run; see [`parameters_out_of_range_are_refused_together`].
 #[test]
-fn parameters_out_of_range_are_refused() {
+fn parameters_out_of_range_are_refused_one_by_one() {
     if !require_tools(TOOLS) {
         return;
     }
     let check = |case: &Case| {
-        let found = problems(&sources(case), &case.module, case.refused.as_deref());
+        let (sources, top) = (case.sources(), case.module.as_str());
+        let found = match case.refused.as_deref() {
+            None => problems(&sources, top, None),
+            refused => problem(Tool::Verilator, refused, verilator_says(&sources, top))
+                .into_iter()
+                .collect(),
+        };
         (!found.is_empty())
             .then(|| format!("{} {:?}: {}", case.module, case.parameters, found.join("; ")))
     };
     let failures: Vec<String> = cases().par_iter().filter_map(check).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// All cases out of range in one elaboration, in Icarus and in Yosys.
+#[test]
+fn parameters_out_of_range_are_refused_together() {
+    if !require_tools(TOOLS) {
+        return;
+    }
+    let cases = cases();
+    let refused = cases.iter().filter_map(|case| case.refused.as_ref().map(|limit| (case, limit)));
+    let named: Vec<(String, &Case, &String)> = refused
+        .enumerate()
+        .map(|(number, (case, limit))| (format!("case_{number}"), case, limit))
+        .collect();
+    let modules: String = named.iter().map(|(name, case, _)| case.named(name)).collect();
+    let instances: String =
+        named.iter().map(|(name, ..)| format!("    {name} u_{name} ();\n")).collect();
+    let copies = ("cases.v".to_owned(), modules);
+    let top = ("top.v".to_owned(), format!("module top;\n{instances}endmodule\n"));
+    let leaves =
+        LEAVES.iter().map(|leaf| (format!("rtl/{}.v", leaf.name), leaf.contents.to_owned()));
+
+    let all: Vec<Source> = [copies.clone(), top].into_iter().chain(leaves).collect();
+    let icarus = icarus_says(&all, "top").unwrap_or_default();
+    let missing: BTreeSet<&str> = icarus.split_whitespace().collect();
+    // Yosys elaborates each module as it reads it, and then stops at the first module that does not exist: those
+    // that the copies instantiate are shown before, as `cell \MODULE \INSTANCE`.
+    let yosys = yosys_says(&[copies], "dump t:*_must_*\n", "case_0").unwrap_or_default();
+    let cells: BTreeSet<&str> = yosys.split_whitespace().collect();
+    let of_first = format!("Module `\\{}_case_0' referenced in module `\\case_0'", named[0].2);
+    let mut wrong = Vec::new();
+    if !yosys.contains(&of_first) || !yosys.contains("is not part of the design") {
+        wrong
+            .push(format!("{} does not refuse a module that does not exist: {yosys}", Tool::Yosys));
+    }
+    for (name, Case { module, parameters, .. }, limit) in &named {
+        if !missing.contains(format!("{limit}_{name}").as_str()) {
+            wrong
+                .push(format!("{module} {parameters:?}: {} does not name {limit}", Tool::Iverilog));
+        }
+        if !cells.contains(format!("\\{limit}_{name}").as_str()) {
+            wrong.push(format!("{module} {parameters:?}: {} has no {limit}", Tool::Yosys));
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
 /// The tops of all organizations: grids that are none, or that have fewer regions than a lane, or more than a frame
