@@ -5,10 +5,10 @@ the whole.
 
     compare_networks.py FILE.onnx... [--size WIDTHxHEIGHT] [--highest H] [--limit L]
 
-The input is noise from 0 to H (1). The difference is the largest of any output, as a share of that output's largest value (of 0.01 at least); above the limit (1e-4) the
-script fails, as it does where a part differs from the whole. A network of 16-bit values is compared with itself cast to 32 bits, and beside
-that as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network (its path in OUTPUTS, or cargo
-builds it).
+The input is noise from 0 to H (1). The difference is the largest of any output, as a share of that output's largest value (of 0.01 at least);
+above the limit (1e-4) the script fails, as it does where a part differs from the whole. A network of 16-bit values is compared with itself cast to
+32 bits, and beside that as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network (its path
+in OUTPUTS, or cargo builds it).
 """
 import argparse
 import os

@@ -95,8 +95,10 @@ def shapes():
 
 def transposed():
     return Zoo(
-        nn.ConvTranspose2d(4, 6, 3, 2, 1, output_padding=1), nn.ConvTranspose2d(4, 5, 2, 2), nn.ConvTranspose2d(4, 4, (3, 5), (3, 1), (1, 0), dilation=(1, 2)),
-        nn.ConvTranspose2d(4, 6, 3, 2, groups=2), nn.ConvTranspose2d(4, 4, 4, 2, 1, groups=4), nn.Sequential(nn.ConvTranspose2d(4, 2, 1, 2), nn.ReLU()))
+        nn.ConvTranspose2d(4, 6, 3, 2, 1, output_padding=1), nn.ConvTranspose2d(4, 5, 2, 2),
+        nn.ConvTranspose2d(4, 4, (3, 5), (3, 1), (1, 0), dilation=(1, 2)),
+        nn.ConvTranspose2d(4, 6, 3, 2, groups=2), nn.ConvTranspose2d(4, 4, 4, 2, 1, groups=4),
+        nn.Sequential(nn.ConvTranspose2d(4, 2, 1, 2), nn.ReLU()))
 
 
 def norms():
@@ -111,8 +113,10 @@ def moves():
         nn.ChannelShuffle(2), nn.PixelShuffle(2), Of(lambda x: functional.pixel_unshuffle(x[:, :, :6, :6], 2)),
         nn.ReflectionPad2d((2, 1, 0, 3)), nn.ReplicationPad2d((1, 2, 3, 0)), Of(lambda x: functional.pad(x, (0, 0, 0, 0, 1, 2), value=0.25)),
         nn.Upsample(scale_factor=2, mode="bicubic"), nn.Upsample(size=(5, 9), mode="bicubic", align_corners=True),
-        Of(lambda x: x.flip(3)), Of(lambda x: x[:, 2]), Of(lambda x: x.mean(2, keepdim=True).expand(1, 4, 6, 7)), Of(lambda x: x.amax((1, 3)) + x.sum((1, 3))),
-        Of(lambda x: torch.where(x > 0.1, x, x * 0.5 - 1)), Of(lambda x: x.argmax(1).float()), Of(lambda x: x.flatten(2).max(2).values + x.flatten(2).norm(dim=2)),
+        Of(lambda x: x.flip(3)), Of(lambda x: x[:, 2]), Of(lambda x: x.mean(2, keepdim=True).expand(1, 4, 6, 7)),
+        Of(lambda x: x.amax((1, 3)) + x.sum((1, 3))),
+        Of(lambda x: torch.where(x > 0.1, x, x * 0.5 - 1)), Of(lambda x: x.argmax(1).float()),
+        Of(lambda x: x.flatten(2).max(2).values + x.flatten(2).norm(dim=2)),
         Of(lambda x: torch.cat([x, torch.full((1, 1, 6, 7), 0.5)], 1)))
 
 

@@ -4,8 +4,8 @@
 
     networks.py FOLDER [NAME...] [--size WIDTHxHEIGHT] [--int8]
 
---int8 also writes forms of 8-bit integers, by scripts/quantize.py: NAME-qoperator.onnx and NAME-qdq.onnx. Needs torch, torchvision, onnx and onnxscript; --int8
-needs onnxruntime. The weights are random: they serve for masks, counts and time, not for what the network says.
+--int8 also writes forms of 8-bit integers, by scripts/quantize.py: NAME-qoperator.onnx and NAME-qdq.onnx. Needs torch, torchvision, onnx and
+onnxscript; --int8 needs onnxruntime. The weights are random: they serve for masks, counts and time, not for what the network says.
 """
 import argparse
 import os
