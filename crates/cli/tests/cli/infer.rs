@@ -301,7 +301,7 @@ fn quiet_is_quiet() {
 fn what_the_network_loses_behind_the_camera_is_told() {
     let dir = tempfile::tempdir().unwrap();
     let infer = ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "4", "--force"];
-    let with = |more: &[&str]| [&infer[..], more].concat();
+    let with = |more: &[&'static str]| [&infer[..], more].concat();
     let text = succeed_in(dir.path(), &with(&["--whole-frames", "--preset", "fovea"]));
     for part in ["sent  ", " bytes per frame, ", "PSNR of what the receiver sees", "agreement  "] {
         assert!(text.contains(part), "{part} in {text}");
