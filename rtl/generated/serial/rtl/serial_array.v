@@ -122,7 +122,9 @@ module serial_array #(
         if (BLOCKS != 0 && BLOCKS != 1 && BLOCKS != 2 && BLOCKS != 4) begin : g_blocks
             BLOCKS_must_be_0_1_2_or_4 u_refused ();
         end
-        if (BLOCKS > 1 && SIDE % (BLOCKS > 1 ? BLOCKS : 1) != 0) begin : g_divides BLOCKS_must_divide_SIDE u_refused (); end
+        if ((BLOCKS == 2 && SIDE % 2 != 0) || (BLOCKS == 4 && SIDE % 4 != 0)) begin : g_divides
+            BLOCKS_must_divide_SIDE u_refused ();
+        end
         if (BLOCKS != 0 && MEAN_SUM_BITS > CHAIN_BITS) begin : g_mean_sum_bits
             MEAN_SUM_BITS_must_be_CHAIN_BITS_or_less u_refused ();
         end
