@@ -12,7 +12,7 @@ use foveate_toolchain::testing::require_tools;
 
 /// Not run here: they take minutes, each is the subject of other tests, and `examples` in the sources
 /// sees that they are taken.
-const LONG: [&str; 12] = [
+const LONG: [&str; 13] = [
     "foveate cosim",
     "foveate estimate",
     "foveate bench",
@@ -22,8 +22,9 @@ const LONG: [&str; 12] = [
     "foveate explore space.toml",
     "foveate explore designs",
     "foveate fit",
-    // A network that is not shipped.
+    // Networks that are not shipped.
     "foveate infer resnet50.onnx",
+    "foveate infer yolox_nano.onnx",
     // Events of a real sensor, and a folder of the system.
     "foveate analyze sensor",
     "foveate completions bash > /etc/",

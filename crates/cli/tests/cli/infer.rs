@@ -323,6 +323,11 @@ fn what_the_network_loses_behind_the_camera_is_told() {
         (&["--boxes", "gt.txt"], "--detect"),
         (&["--scale", "1/0"], "1/255"),
     ] {
-        fail_in(dir.path(), 2, &with(wrong), &[says]);
+        let refused = run_in(dir.path(), &with(wrong));
+        assert!(
+            refused.code == 2 && refused.stderr.contains(says),
+            "{wrong:?}: {}",
+            refused.stderr
+        );
     }
 }
