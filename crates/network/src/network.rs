@@ -168,6 +168,14 @@ impl Network {
         kind.clone_into(&mut last.kind);
     }
 
+    /// Takes the last node away, which no other takes.
+    pub(crate) fn remove_last(&mut self) {
+        let (node, form) = (self.nodes.pop(), self.forms.pop());
+        self.grids.pop();
+        self.kept -= form.map_or(0, |form| form.elements());
+        self.weight_bytes -= node.map_or(0, |node| node.weight_bytes());
+    }
+
     /// The nodes in order.
     #[must_use]
     pub fn nodes(&self) -> &[Node] {

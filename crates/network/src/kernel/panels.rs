@@ -134,12 +134,20 @@ fn add<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
 
 /// Writes the outputs of a channel to their positions.
 #[inline(always)]
-fn scatter(
-    sums: &[f32],
+fn scatter<const LANES: usize>(
+    sums: &[f32; LANES],
     chunks: &[Chunk],
     (plane, top, width): (&mut [f32], usize, usize),
     finish: impl Fn(f32) -> f32,
 ) {
+    let place = |chunk: &Chunk| (chunk.y - top) * width + chunk.x;
+    let is_row = chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK == place(&pair[1]));
+    if is_row && chunks.len() * CHUNK == LANES && width >= CHUNK {
+        let to: &mut [f32; LANES] =
+            plane[place(&chunks[0])..].first_chunk_mut().expect("chunks are inside");
+        to.iter_mut().zip(sums).for_each(|(output, &sum)| *output = finish(sum));
+        return;
+    }
     for (sums, chunk) in sums.chunks(CHUNK).zip(chunks) {
         let y = chunk.y - top;
         let row = &mut plane[y * width + chunk.x..(y + 1) * width];

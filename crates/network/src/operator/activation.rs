@@ -3,6 +3,7 @@
 
 use super::{Job, Operator, only};
 use crate::form::Form;
+use foveate_lanes::{Level, Task};
 
 /// A function of one value, by the definition of ONNX.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -189,6 +190,9 @@ impl Operator for Pointwise {
         match self.0 {
             // A function that is known here needs no choice in the loop.
             Activation::Sigmoid => apply(job, sigmoid),
+            Activation::Swish { alpha } => apply(job, |x| Activation::Swish { alpha }.of(x)),
+            Activation::HardSwish => apply(job, |x| Activation::HardSwish.of(x)),
+            Activation::Relu => apply(job, |x| Activation::Relu.of(x)),
             other => apply(job, |x| other.of(x)),
         }
     }
@@ -196,11 +200,24 @@ impl Operator for Pointwise {
 
 fn apply(job: Job<'_>, of: impl Fn(f32) -> f32 + Sync) {
     let from = job.inputs[0].values::<f32>();
-    job.fill(|run, to| {
-        for (to, &from) in to.iter_mut().zip(&from[run]) {
-            *to = of(from);
+    let level = Level::detect();
+    job.fill(|run, to| level.run(Each { from: &from[run], to, of: &of }));
+}
+
+/// A function of some values, in vector lanes.
+struct Each<'a, F> {
+    from: &'a [f32],
+    to: &'a mut [f32],
+    of: &'a F,
+}
+
+impl<F: Fn(f32) -> f32> Task for Each<'_, F> {
+    #[inline(always)]
+    fn run(self) {
+        for (to, &from) in self.to.iter_mut().zip(self.from) {
+            *to = (self.of)(from);
         }
-    });
+    }
 }
 
 #[cfg(test)]

@@ -111,6 +111,9 @@ impl Operator for Binary {
             (Arithmetic::Add, Activation::Relu) => {
                 self.lines(job, |a: f32, b| Activation::Relu.of(a + b));
             }
+            (Arithmetic::Sub, Activation::Identity) => self.lines(job, |a: f32, b| a - b),
+            (Arithmetic::Mul, Activation::Identity) => self.lines(job, |a: f32, b| a * b),
+            (Arithmetic::Div, Activation::Identity) => self.lines(job, |a: f32, b| a / b),
             (kind, finish) => self.lines(job, |a, b| finish.of(kind.of(a, b))),
         }
     }
@@ -124,6 +127,10 @@ impl Binary {
             self.operands(inputs, |tensor| tensor).expect("the form says how many there are");
         let (of_a, of_b) = (form.steps_of(a.form()), form.steps_of(b.form()));
         let last = form.shape().last().copied().unwrap_or(1);
+        if [a, b].iter().all(|operand| operand.form().shape() == form.shape()) {
+            let (a, b) = (a.values(), b.values());
+            return job.fill(|run, to| line(&a[run.clone()], &b[run], to, &of));
+        }
         job.fill(|run, to| {
             let (first, mut start) = (run.start, run.start);
             while start < run.end {

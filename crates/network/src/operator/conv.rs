@@ -66,6 +66,11 @@ impl Operator for Conv {
             Activation::Clip { min, max } => {
                 self.convolve(job, &chunks, |x| Activation::Clip { min, max }.of(x));
             }
+            Activation::Sigmoid => self.convolve(job, &chunks, |x| Activation::Sigmoid.of(x)),
+            Activation::Swish { alpha } => {
+                self.convolve(job, &chunks, |x| Activation::Swish { alpha }.of(x));
+            }
+            Activation::HardSwish => self.convolve(job, &chunks, |x| Activation::HardSwish.of(x)),
             finish => self.convolve(job, &chunks, |x| finish.of(x)),
         }
     }

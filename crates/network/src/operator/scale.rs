@@ -53,9 +53,16 @@ impl Operator for Scale {
         let plane = job.form.elements() / self.factors.len();
         let from = job.inputs[0].values::<f32>();
         job.fill(|run, to| {
-            for (place, (to, &from)) in run.clone().zip(to.iter_mut().zip(&from[run])) {
-                let channel = place / plane;
-                *to = from.mul_add(self.factors[channel], self.offsets[channel]);
+            let (mut start, mut to) = (run.start, to);
+            while !to.is_empty() {
+                let channel = start / plane;
+                let (own, rest) = to.split_at_mut(to.len().min((channel + 1) * plane - start));
+                let (factor, offset) = (self.factors[channel], self.offsets[channel]);
+                for (to, &from) in own.iter_mut().zip(&from[start..]) {
+                    *to = from * factor + offset;
+                }
+                start += own.len();
+                to = rest;
             }
         });
     }

@@ -90,6 +90,34 @@ fn activations_are_those_of_the_standard() {
     }
 }
 
+/// A value times its sigmoid becomes one activation of the operator before, unless another takes one of them.
+#[test]
+fn a_sigmoid_that_gates_its_own_input_is_joined_to_it() {
+    let kinds = |others: &[&str]| {
+        let mut model = model();
+        let weights = model.floats(&[1, 1, 1, 1], &[1.0]);
+        let conv = model.node("Conv", &["picture", &weights], &[]);
+        let gate = model.node("Sigmoid", &[&conv], &[]);
+        let gated = model.node("Mul", &[&gate, &conv], &[]);
+        for other in others {
+            let other = model.node("Abs", &[if *other == "conv" { &conv } else { &gate }], &[]);
+            model.output(&other);
+        }
+        model.output(&gated);
+        let network = model.read(35, 35).unwrap();
+        network.nodes().iter().map(|node| node.kind().to_owned()).collect::<Vec<_>>()
+    };
+    assert_eq!(kinds(&[]), ["Conv+Sigmoid+Mul"]);
+    assert_eq!(kinds(&["conv"]), ["Conv", "Sigmoid+Mul", "Abs"]);
+    assert_eq!(kinds(&["gate"]), ["Conv", "Sigmoid", "Mul", "Abs"]);
+    let mut model = model();
+    let gate = model.node("Sigmoid", &["picture"], &[]);
+    let output = model.node("Mul", &["picture", &gate], &[]);
+    for (x, y) in found(model, &output) {
+        assert!((y - x / (1.0 + (-x).exp())).abs() <= 2e-6 * (1.0 + x.abs()), "{x}: {y}");
+    }
+}
+
 #[test]
 fn a_slope_is_that_of_its_channel_and_sums_take_one_or_two() {
     let mut model = model();

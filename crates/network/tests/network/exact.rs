@@ -96,6 +96,10 @@ enum Layer {
     /// One channel, repeated.
     Repeat,
     Choose,
+    /// Values times their own sigmoid, which another may take, too.
+    Gate {
+        alone: bool,
+    },
     Cubic,
     /// Layers of 8-bit values, with a sign or without.
     Integers {
@@ -144,6 +148,7 @@ fn layer() -> impl Strategy<Value = Layer> {
         1 => Just(Layer::Behind),
         1 => Just(Layer::Repeat),
         1 => Just(Layer::Choose),
+        1 => any::<bool>().prop_map(|alone| Layer::Gate { alone }),
         1 => Just(Layer::Cubic),
         4 => (any::<bool>(), prop::collection::vec(integer_layer(), 1..5)).prop_map(|(signed, layers)| Layer::Integers { signed, layers }),
     ]
@@ -488,6 +493,11 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
             let is = model.node("Greater", &[&name, &limit], &[]);
             let half = model.node("Mul", &[&name, &limit], &[]);
             of(model.node("Where", &[&is, &name, &half], &[]))
+        }
+        Layer::Gate { alone } => {
+            let gate = model.node("Sigmoid", &[&name], &[]);
+            let gated = model.node("Mul", &[&name, &gate], &[]);
+            of(if alone { gated } else { model.node("Sub", &[&gated, &gate], &[]) })
         }
         Layer::Cubic => {
             if height * width > 1000 || height < 2 || width < 2 {
