@@ -66,13 +66,18 @@ def row(network, clip, camera, summary):
     """A row of the table."""
     sight, macs = summary["sight"], summary["macs"]
     found, truth = sight["detections"], sight["truth"]
-    shown = lambda value, digits=1: "" if value is None else f"{value:.{digits}f}"
-    percent = lambda value: shown(100 * value)
+
+    def shown(value, digits=1):
+        return "" if value is None else f"{value:.{digits}f}"
+
+    def percent(value):
+        return shown(100 * value)
+
     return dict(zip(COLUMNS, [
         network, os.path.basename(clip.rstrip("/")).rsplit(".", 1)[0], camera, summary["counted_frames"], shown(100 * sight["sent_share"], 2),
         shown(sight["picture_psnr"]), percent(macs["needed"] / macs["dense"]), percent(sight["agreement"]),
         *([found["all"]["whole"], percent(found["kept_share"]), percent(found["precision"])] if found else [""] * 3),
-        *([truth["objects"], percent(truth["whole_ap50"]), percent(truth["seen_ap50"])] if truth else [""] * 3)]))
+        *([truth["objects"], percent(truth["whole_ap50"]), percent(truth["seen_ap50"])] if truth else [""] * 3)], strict=True))
 
 
 def main():
