@@ -241,7 +241,8 @@ def main():
     began = time.monotonic()
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
-    designs = [design for some in (matrix(), summaries(), serial_matrix(), raster_matrix(), raster_summaries()) for design in list(some)[:: 7 if quick else 1]]
+    matrices = (matrix(), summaries(), serial_matrix(), raster_matrix(), raster_summaries())
+    designs = [design for some in matrices for design in list(some)[:: 7 if quick else 1]]
     excuses = waivers()
     used, bad = collections.Counter(), 0
     jobs = int(os.environ.get("JOBS", os.cpu_count() or 1))

@@ -41,7 +41,8 @@ CAMERAS = {
     "fovea (mean 2)": means(2),
     "mean 4": means(4),
     "mean 4; no median; temporal.level 4": means(4, "--set", 'denoise.filter="none"', "--set", "temporal.level=4"),
-    "mean 4; level 2; min_score 2; temporal.level 4": means(4, "--set", "periphery.level=2", "--set", "spatial.0.min_score=2", "--set", "temporal.level=4"),
+    "mean 4; level 2; min_score 2; temporal.level 4":
+        means(4, "--set", "periphery.level=2", "--set", "spatial.0.min_score=2", "--set", "temporal.level=4"),
 }
 COLUMNS = ["network", "clip", "camera", "frames", "sent_percent", "psnr_db", "macs_percent", "agreement_percent", "found", "kept_percent",
            "precision_percent", "objects", "ap50_whole", "ap50_seen"]
