@@ -35,6 +35,8 @@ module raster_walk #(
     reg [POSITION_BITS-1:0] position_q;
     reg [SEGMENT_BITS-1:0] in_segment_q;
 
+    wire [POSITION_BITS-1:0] stride;
+
     always @(posedge clk_i) begin
         if (begin_i) begin
             place_q      <= start_i;
@@ -47,7 +49,6 @@ module raster_walk #(
         end
     end
 
-    wire [POSITION_BITS-1:0] stride;
     wire last_mean, mean_line_end;
     generate
         if (BLOCKS > 0) begin : g_means
