@@ -37,7 +37,7 @@ fn pictures_of_another_size_are_refused_with_what_would_fit() {
     model.output(&output);
     assert_eq!(
         refusal(model),
-        "the network takes pictures of 224x224 pixels, but the frames have 8x8; give --resize 224x224"
+        "the network takes pictures of 224x224 pixels, but the frames have 8x8; give --resize 224x224, or --framing letterbox to scale behind the camera"
     );
 }
 
