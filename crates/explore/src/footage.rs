@@ -12,7 +12,7 @@ use foveate_footage::boxes::{Boxes, Clip, Rect, assign};
 use foveate_footage::{InputOptions, Source, SourceFrame, Subject, is_read_once, open, subjects};
 
 use crate::measure::{self, Measured};
-use crate::objects::{Objects, objects};
+use crate::objects::Objects;
 use crate::store::{Store, identity, key};
 use crate::{ExploreError, Hooks, Progress};
 
@@ -100,7 +100,8 @@ impl<'a> Footage<'a> {
         source: &dyn Source,
     ) -> Result<Option<Vec<Rect>>, ExploreError> {
         let Some(boxes) = self.boxes.get(clip) else { return Ok(None) };
-        objects(boxes, frame, source, self.input.crop)
+        let origin = source.origin().expect("an input knows where its frames are from");
+        Ok(boxes.objects(frame, &origin, self.input.crop)?)
     }
 
     /// For every clip and camera what was seen of it over the whole clip.

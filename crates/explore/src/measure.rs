@@ -17,7 +17,7 @@ use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::ExploreError;
-use crate::objects::{Objects, objects};
+use crate::objects::Objects;
 
 /// Frames that are ready before the engines ask for them.
 const AHEAD: usize = 2;
@@ -134,10 +134,12 @@ impl Clip<'_> {
             }
             let ideal = camera.step(&current.frame)?.clone();
             let objects = match self.boxes.filter(|_| set || number > 0) {
-                Some(boxes) => objects(boxes, &current, source.as_ref(), self.input.crop)?,
-                None => None,
+                Some(boxes) => {
+                    let origin = source.origin().expect("an input knows where its frames are from");
+                    boxes.objects(&current, &origin, self.input.crop)?.unwrap_or_default()
+                }
+                None => Vec::new(),
             };
-            let objects = objects.unwrap_or_default();
             if give.send(Judged { number, frame: current.frame, ideal, objects }).is_err() {
                 return Ok(None);
             }

@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Ground-truth objects of a clip, and of how many a camera sends at least half.
-
-use std::path::Path;
+//! Of how many ground-truth objects a camera sends at least half.
 
 use foveate_camera::Camera;
-use foveate_footage::boxes::{Boxes, Grid, Place, Rect, View};
-use foveate_footage::{Crop, Source, SourceFrame};
+use foveate_footage::boxes::{Grid, Rect};
 use serde::{Deserialize, Serialize};
-
-use crate::ExploreError;
 
 /// Objects over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -39,21 +34,4 @@ impl Objects {
         #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
         (self.all > 0).then(|| self.sent as f64 / self.all as f64)
     }
-}
-
-/// The objects of the frame that a source gave last, where the frame has them; `None` if the boxes have no entry
-/// for it.
-pub(crate) fn objects(
-    boxes: &Boxes,
-    frame: &SourceFrame,
-    source: &dyn Source,
-    crop: Option<Crop>,
-) -> Result<Option<Vec<Rect>>, ExploreError> {
-    let origin = source.origin().expect("an input knows where its frames are from");
-    let name = Path::new(&frame.name);
-    let (number, own_file, size) = (origin.number, origin.own_file, origin.size);
-    let found = boxes.at(&Place { name, own_file, number, size })?;
-    let seen = (frame.frame.width(), frame.frame.height());
-    let view = View::of(size, crop.map(|crop| (crop.size, crop.at)), seen);
-    Ok(found.map(|found| found.iter().filter_map(|one| view.see(&one.rect)).collect()))
 }

@@ -4,7 +4,7 @@
 //! [`Boxes`] reads a file of MOT, COCO or CSV, or a folder of YOLO files, and gives the boxes of a frame by
 //! its number or its name. [`assign`] finds the boxes of several clips. A [`View`] moves boxes into a frame
 //! that is cropped and scaled, and a [`Grid`] says which regions a box owns. Nothing here reads
-//! frames.
+//! pixels.
 
 mod assign;
 mod error;

@@ -4,12 +4,12 @@
 use crate::InferenceError;
 use crate::camera::{Camera, Seen, Shown};
 use foveate_design::Config;
-use foveate_footage::boxes::{Boxes, Clip, Place, Rect, View, assign};
+use foveate_footage::boxes::{Boxes, Clip, Rect, assign};
 use foveate_footage::{
     FootageError, Hooks, InputOptions, Progress, Source, SourceFrame, Subject, is_read_once, open,
     read_ahead, subjects,
 };
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::sync::Arc;
 
 /// Clips and sets.
@@ -133,12 +133,7 @@ impl Clips {
         let Some((boxes, origin)) = self.boxes.get(clip).zip(source.origin()) else {
             return Ok(None);
         };
-        let (name, size) = (Path::new(&frame.name), origin.size);
-        let place = Place { name, own_file: origin.own_file, number: origin.number, size };
-        let crop = self.input.crop.map(|crop| (crop.size, crop.at));
-        let view = View::of(size, crop, (frame.frame.width(), frame.frame.height()));
-        let found = boxes.at(&place)?;
-        Ok(found.map(|found| found.iter().filter_map(|one| view.see(&one.rect)).collect()))
+        Ok(boxes.objects(frame, &origin, self.input.crop)?)
     }
 
     pub(crate) fn count(&self) -> usize {

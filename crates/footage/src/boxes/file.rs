@@ -13,7 +13,9 @@ use std::sync::{Mutex, PoisonError};
 use super::error::BoxError;
 use super::format::{Format, coco, mot, table, yolo};
 use super::name::endings;
-use super::rect::Labelled;
+use super::rect::{Labelled, Rect};
+use super::view::View;
+use crate::{Crop, Origin, SourceFrame};
 
 /// A frame, as boxes are found for it.
 #[derive(Clone, Copy, Debug)]
@@ -26,6 +28,15 @@ pub struct Place<'a> {
     pub number: u64,
     /// Width and height before it is cropped and scaled.
     pub size: (u32, u32),
+}
+
+impl<'a> Place<'a> {
+    /// Of a frame that a source gave from this place in its input.
+    #[must_use]
+    pub fn of(frame: &'a SourceFrame, origin: &Origin) -> Self {
+        let name = Path::new(&frame.name);
+        Self { name, own_file: origin.own_file, number: origin.number, size: origin.size }
+    }
 }
 
 /// The boxes of a frame; `None` if the file has no entry for it.
@@ -105,6 +116,21 @@ impl Boxes {
                 yolo::read(&file, place.size).map(Some)
             }
         }
+    }
+
+    /// Where the objects of a frame lie in it, cropped and scaled as it is, without those that lie mostly outside; `None` if there is no entry for it.
+    ///
+    /// # Errors
+    /// As [`Boxes::at`].
+    pub fn objects(
+        &self,
+        frame: &SourceFrame,
+        origin: &Origin,
+        crop: Option<Crop>,
+    ) -> Result<Option<Vec<Rect>>, BoxError> {
+        let view = View::of(frame, origin, crop);
+        let found = self.at(&Place::of(frame, origin))?;
+        Ok(found.map(|found| found.iter().filter_map(|one| view.see(&one.rect)).collect()))
     }
 
     /// What to say where no frame of a clip has an entry.

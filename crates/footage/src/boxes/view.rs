@@ -2,6 +2,7 @@
 //! From a frame as the file describes it to the frame that a camera sees: cropped, then scaled.
 
 use crate::boxes::Rect;
+use crate::{Crop, Origin, SourceFrame};
 
 /// Boxes of which less than this share lies in the frame are not counted.
 const LEAST_INSIDE: f64 = 0.25;
@@ -18,11 +19,11 @@ pub struct View {
 }
 
 impl View {
-    /// Of a frame of this size, of which a part (its width and height, its left and upper pixel) may be taken.
+    /// Of a frame from this place in its input, of which a part may have been taken.
     #[must_use]
-    pub fn of(size: (u32, u32), crop: Option<((u32, u32), (u32, u32))>, seen: (u32, u32)) -> Self {
-        let (part, at) = crop.unwrap_or((size, (0, 0)));
-        Self { at, part, seen }
+    pub fn of(frame: &SourceFrame, origin: &Origin, crop: Option<Crop>) -> Self {
+        let Crop { size: part, at } = crop.unwrap_or(Crop { size: origin.size, at: (0, 0) });
+        Self { at, part, seen: (frame.frame.width(), frame.frame.height()) }
     }
 
     /// Where a box lies in the frame that is seen, also what lies outside.

@@ -3,7 +3,6 @@
 //! of which classes they are.
 
 use std::collections::HashMap;
-use std::path::Path;
 use std::sync::Arc;
 
 use foveate_footage::boxes::{BoxError, Boxes, Place, Rect, View};
@@ -65,16 +64,12 @@ impl Guide for Truth {
     fn look(&mut self, frame: &SourceFrame, source: &dyn Source) -> Result<(), StudyError> {
         self.objects.clear();
         let origin = source.origin().expect("an input knows where its frames are from");
-        let name = Path::new(&frame.name);
-        let (number, own_file) = (origin.number, origin.own_file);
-        let place = Place { name, own_file, number, size: origin.size };
-        let labelled = self.boxes.at(&place)?;
+        let labelled = self.boxes.at(&Place::of(frame, &origin))?;
         self.found |= labelled.is_some();
         let labelled = labelled.unwrap_or_default();
         // In a set an object is in one image.
         let has_tracks = source.kind() == Kind::Clip;
-        let seen = (frame.frame.width(), frame.frame.height());
-        let view = View::of(origin.size, self.crop.map(|crop| (crop.size, crop.at)), seen);
+        let view = View::of(frame, &origin, self.crop);
         let sums = (!labelled.is_empty()).then(|| Sums::of(&frame.frame));
         let before = std::mem::take(&mut self.before);
         for one in labelled {
