@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foveate_footage::{Hooks, Progress, in_memory};
 use foveate_frame::Raster;
 use foveate_inference::{
-    Computed, Framing, Inference, InferenceError, Mapping, Options, Record, Whole, parse_detector,
+    Computed, Inference, InferenceError, Mapping, Options, Record, Viewing, parse_detector,
     parse_framing, parse_goal, parse_mode, read_accelerator,
 };
 use numpy::PyUntypedArrayMethods;
@@ -37,7 +37,7 @@ impl Hooks for Flag {
 
 /// What is chosen of a run, by its names on the command line: taken out of `options`, which keeps those of
 /// inputs.
-fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Framing)> {
+fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBuf>)> {
     let text = |name: &str| -> PyResult<Option<String>> {
         let value = take(options, name)?;
         Ok(value.map(|value| value.str()).transpose()?.map(|text| text.to_string()))
@@ -90,19 +90,16 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Framing)> {
             "boxes are compared with detections: give detect, too, such as detect=\"yolox\"",
         ));
     }
-    let whole = flag("whole_frames")? || detector.is_some();
-    let sight = whole.then_some(Whole { detector, boxes });
     let options = Options {
         computed,
-        mapping,
         accelerator,
         reference: flag("reference")? || approximate,
         record: Record { arrays: true, pictures: flag("pictures")? },
         command: Vec::new(),
-        sight,
+        sight: flag("whole_frames")? || detector.is_some(),
         overwrite: flag("force")?,
     };
-    Ok((options, framing))
+    Ok((options, Viewing { framing, mapping, detector }, boxes))
 }
 
 /// The options that [`chosen`] takes, and the arguments.
@@ -178,18 +175,20 @@ pub(crate) fn infer(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<String> {
     let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
-    let (chosen, framing) = chosen(&options)?;
-    let mut input = input_options("infer", &OWN, Some(&options))?;
-    // Boxes go by the numbers of frames in their inputs.
-    input.numbered = chosen.sight.as_ref().is_some_and(|sight| !sight.boxes.is_empty());
+    let (chosen, viewing, boxes) = chosen(&options)?;
+    let input = input_options("infer", &OWN, Some(&options))?;
     let config = config::read(camera, None)?;
     let shown = shown(inputs, config.camera.frame.pixel_bits)?;
     let summary = interruptible(py, |cancel| {
         let inference = match shown {
-            Shown::Paths(paths) => Inference::new(&config, &network, framing, &paths, &input),
-            Shown::Frames(frames) => in_memory("array", frames, &input)
-                .map_err(InferenceError::from)
-                .and_then(|source| Inference::of_source(&config, &network, framing, source)),
+            Shown::Paths(paths) => {
+                Inference::new(&config, &network, viewing, (&paths, &boxes), &input)
+            }
+            Shown::Frames(frames) => {
+                in_memory("array", frames, &input).map_err(InferenceError::from).and_then(
+                    |source| Inference::of_source(&config, &network, viewing, (source, &boxes)),
+                )
+            }
         }
         .map_err(raise)?;
         inference.run(&output, &chosen, &mut Flag(cancel)).map_err(raise)

@@ -10,6 +10,7 @@
 
 mod compare;
 mod cost;
+mod depths;
 mod error;
 mod exploration;
 mod explore;

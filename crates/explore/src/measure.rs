@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A clip through the ideal camera once, and through the engine of every camera beside it.
 
-use std::collections::BTreeMap;
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::thread;
@@ -10,13 +9,14 @@ use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_fidelity::{ErrorTally, Fidelity};
 use foveate_footage::boxes::{Boxes, Rect};
-use foveate_footage::{FootageError, InputOptions, Kind, Source, Subject, open};
-use foveate_frame::{Raster, convert_depth};
+use foveate_footage::{InputOptions, Kind, Source, Subject, open};
+use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealOutcome};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
 use crate::ExploreError;
+use crate::depths::Depths;
 use crate::objects::Objects;
 
 /// Frames that are ready before the engines ask for them.
@@ -60,7 +60,6 @@ struct Judged {
 struct Candidate {
     camera: Camera,
     engine: Engine,
-    bits: u32,
     /// One for each part.
     fidelity: Vec<Fidelity>,
     objects: Vec<Objects>,
@@ -74,12 +73,12 @@ impl Clip<'_> {
         let ideal = &self.ideal.for_frames(width, height)?;
         let candidate = |camera| Candidate::new(ideal, camera, self.parts.len());
         let mut candidates = cameras.iter().map(candidate).collect::<Result<Vec<_>, _>>()?;
-        let set = source.kind() == Kind::Set;
+        let kind = source.kind();
         let problem = thread::scope(|scope| {
             let (give, take) = sync_channel(AHEAD);
             let end = self.parts.iter().map(|part| part.end).max().expect("a clip has a part");
             let judge = scope.spawn(move || self.judge(source, ideal, end, &give));
-            let seen = self.watch(&mut candidates, set, take);
+            let seen = self.watch(&mut candidates, kind, take);
             let problem = judge.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
             // What stopped the engines explains why nobody took the frames.
             seen.and(problem)
@@ -100,7 +99,7 @@ impl Clip<'_> {
     fn watch(
         &self,
         candidates: &mut [Candidate],
-        set: bool,
+        kind: Kind,
         frames: Receiver<Judged>,
     ) -> Result<(), ExploreError> {
         for judged in frames {
@@ -109,8 +108,9 @@ impl Clip<'_> {
             }
             let part = self.parts.iter().position(|part| part.contains(&judged.number));
             let Some(part) = part else { continue };
-            let frames = at_depths(&judged.frame, candidates.iter().map(|one| one.bits))?;
-            candidates.par_iter_mut().try_for_each(|one| one.see(&judged, &frames, part, set))?;
+            let frames =
+                Depths::of(&judged.frame, candidates.iter().map(|one| one.camera.pixel_bits()))?;
+            candidates.par_iter_mut().try_for_each(|one| one.see(&judged, &frames, part, kind))?;
         }
         Ok(())
     }
@@ -154,7 +154,6 @@ impl Candidate {
         let fidelity = (0..parts).map(|_| Fidelity::new(ideal, camera));
         Ok(Self {
             engine: Engine::new(camera),
-            bits: camera.pixel_bits(),
             fidelity: fidelity.collect::<Result<_, _>>()?,
             objects: vec![Objects::default(); parts],
             camera: camera.clone(),
@@ -164,51 +163,16 @@ impl Candidate {
     fn see(
         &mut self,
         judged: &Judged,
-        frames: &BTreeMap<u32, Raster>,
+        frames: &Depths<'_>,
         part: usize,
-        set: bool,
+        kind: Kind,
     ) -> Result<(), ExploreError> {
-        if set {
-            self.engine.reset();
+        if kind == Kind::Set {
             self.fidelity[part].next_clip();
         }
-        let frame = frames.get(&self.bits).unwrap_or(&judged.frame);
-        self.engine.step_raster(frame)?;
+        frames.show(&mut self.engine, kind)?;
         let (outcome, screen) = (self.engine.outcome(), self.engine.rendered());
         self.objects[part].add(&self.camera, &judged.objects, &outcome.active);
         Ok(self.fidelity[part].add(&judged.frame, &judged.ideal, outcome, screen)?)
     }
-}
-
-/// The frame in every depth that is not its own.
-pub(crate) fn at_depths(
-    frame: &Raster,
-    depths: impl Iterator<Item = u32>,
-) -> Result<BTreeMap<u32, Raster>, ExploreError> {
-    let mut found = BTreeMap::new();
-    for bits in depths {
-        if !found.contains_key(&bits)
-            && let Some(other) = at_depth(frame, bits)?
-        {
-            found.insert(bits, other);
-        }
-    }
-    Ok(found)
-}
-
-/// The frame in another depth; nothing if that is its own.
-pub(crate) fn at_depth(frame: &Raster, bits: u32) -> Result<Option<Raster>, ExploreError> {
-    let (width, height, own) = (frame.width(), frame.height(), frame.bits());
-    if bits == own {
-        return Ok(None);
-    }
-    let words = frame.plane().to_words().into_iter();
-    let pixels = words.map(|pixel| convert_depth(pixel, own, bits));
-    let raster = if bits <= 8 {
-        let bytes = pixels.map(|pixel| u8::try_from(pixel).expect("at most 8 bits")).collect();
-        Raster::from_bytes(width, height, bits, bytes)
-    } else {
-        Raster::from_words(width, height, bits, pixels.collect())
-    };
-    Ok(Some(raster.map_err(FootageError::from)?))
 }

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the network sees: the rendered frames of a design, and where each differs from the one before.
 
-use crate::framing::Lens;
+use crate::InferenceError;
 use crate::picture::Picture;
-use crate::{InferenceError, Mapping};
+use crate::witness::Witness;
 use foveate_design::Design;
 use foveate_engine::Engine;
 use foveate_footage::boxes::Rect;
 use foveate_footage::{Kind, SourceFrame};
-use foveate_network::{Form, Mask};
+use foveate_network::Mask;
 
 /// A design with a receiver behind it.
 pub(crate) struct Camera {
@@ -16,21 +16,19 @@ pub(crate) struct Camera {
     picture: Picture,
     /// From which every image of a set begins.
     black: Option<Picture>,
-    /// The frame as it was before the camera, where the network is to see it, too.
-    original: Option<Picture>,
-    /// Ground-truth objects of it, where they are known.
-    objects: Option<Vec<Rect>>,
+    /// Whether the network is to see the frames as they were before the camera, too.
+    with_originals: bool,
+    /// The last of these.
+    original: Option<KeptOriginal>,
     /// Frames so far.
     frames: u64,
 }
 
-/// What a network is shown, and through which lens.
+/// What a network is shown.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     pub(crate) design: &'a Design,
-    pub(crate) input: &'a Form,
-    pub(crate) mapping: &'a Mapping,
-    pub(crate) lens: Option<&'a Lens>,
+    pub(crate) witness: &'a Witness,
     /// Whether it is to see the frames as they were before the camera, too.
     pub(crate) with_originals: bool,
 }
@@ -56,7 +54,6 @@ pub(crate) struct Seen<'a> {
 /// A frame as it was before the camera.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Original<'a> {
-    pub(crate) values: &'a [f32],
     pub(crate) frame: &'a [u16],
     pub(crate) objects: Option<&'a [Rect]>,
 }
@@ -64,21 +61,18 @@ pub(crate) struct Original<'a> {
 impl Seen<'_> {
     /// Bytes of its pictures.
     pub(crate) fn bytes(&self) -> usize {
-        let original = self
-            .original
-            .map_or(0, |original| size_of_val(original.values) + size_of_val(original.frame));
+        let original = self.original.map_or(0, |original| size_of_val(original.frame));
         size_of_val(self.values) + size_of_val(self.screen) + original
     }
 }
 
 impl Camera {
     pub(crate) fn new(shown: Shown<'_>, kind: Kind) -> Self {
-        let Shown { design, input, mapping, lens, with_originals } = shown;
-        let picture = Picture::new(design, input, mapping, lens);
+        let Shown { design, witness, with_originals } = shown;
+        let picture = witness.picture(design);
         let black = (kind == Kind::Set).then(|| picture.clone());
-        let original = with_originals.then(|| picture.clone());
         let engine = Engine::new(design);
-        Self { engine, picture, black, original, objects: None, frames: 0 }
+        Self { engine, picture, black, with_originals, original: None, frames: 0 }
     }
 
     /// The picture before the first frame.
@@ -98,10 +92,8 @@ impl Camera {
         }
         self.engine.step_raster(&frame.frame)?;
         self.picture.show(self.engine.rendered());
-        if let Some(original) = &mut self.original {
-            original.show(frame.frame.plane());
-        }
-        self.objects = objects;
+        let words = || frame.frame.plane().to_words();
+        self.original = self.with_originals.then(|| KeptOriginal { frame: words(), objects });
         self.frames += 1;
         let active = self.engine.outcome().active.iter().filter(|&&active| active).count();
         Ok(Seen {
@@ -114,11 +106,7 @@ impl Camera {
             changed_regions: self.picture.changed_regions as u64,
             sent_values: self.engine.camera().values_of(&self.engine.outcome().actions),
             screen: self.picture.frame(),
-            original: self.original.as_ref().map(|original| Original {
-                values: &original.values,
-                frame: original.frame(),
-                objects: self.objects.as_deref(),
-            }),
+            original: self.original.as_ref().map(KeptOriginal::shown),
         })
     }
 }
@@ -141,9 +129,14 @@ pub(crate) struct Kept {
 /// A frame that is kept as it was before the camera.
 #[derive(Clone, Debug)]
 struct KeptOriginal {
-    values: Vec<f32>,
     frame: Vec<u16>,
     objects: Option<Vec<Rect>>,
+}
+
+impl KeptOriginal {
+    fn shown(&self) -> Original<'_> {
+        Original { frame: &self.frame, objects: self.objects.as_deref() }
+    }
 }
 
 impl Kept {
@@ -159,7 +152,6 @@ impl Kept {
             sent_values: seen.sent_values,
             screen: seen.screen.to_vec(),
             original: seen.original.map(|original| KeptOriginal {
-                values: original.values.to_vec(),
                 frame: original.frame.to_vec(),
                 objects: original.objects.map(<[Rect]>::to_vec),
             }),
@@ -177,11 +169,7 @@ impl Kept {
             changed_regions: self.changed_regions,
             sent_values: self.sent_values,
             screen: &self.screen,
-            original: self.original.as_ref().map(|original| Original {
-                values: &original.values,
-                frame: &original.frame,
-                objects: original.objects.as_deref(),
-            }),
+            original: self.original.as_ref().map(KeptOriginal::shown),
         }
     }
 }

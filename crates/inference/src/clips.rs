@@ -4,10 +4,10 @@
 use crate::InferenceError;
 use crate::camera::{Camera, Seen, Shown};
 use foveate_design::Config;
-use foveate_footage::boxes::{Boxes, Clip, Rect, assign};
+use foveate_footage::boxes::{Boxes, Clip, assign};
 use foveate_footage::{
-    FootageError, Hooks, InputOptions, Progress, Source, SourceFrame, Subject, is_read_once, open,
-    read_ahead, subjects,
+    FootageError, Hooks, InputOptions, Progress, Source, Subject, is_read_once, open, read_ahead,
+    subjects,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -51,12 +51,16 @@ pub(crate) struct Showing<'a> {
 const INTERRUPTED: &str = "it was interrupted";
 
 impl Clips {
-    /// Looks at all of them: image files together are one clip, every other input is one of its own.
+    /// Looks at all of them: image files together are one clip, every other input is one of its own. Ground-truth boxes are of one file or folder
+    /// for all clips, or of one for each.
     pub(crate) fn new(
         inputs: &[PathBuf],
+        boxes: &[PathBuf],
         config: &Config,
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
+        // Boxes go by the numbers of frames in their inputs.
+        let input = &InputOptions { numbered: !boxes.is_empty(), ..input.clone() };
         let subjects = subjects(inputs, input)?;
         let several = subjects.len() > 1;
         let mut found = Self {
@@ -91,11 +95,15 @@ impl Clips {
             found.only = (!several).then_some(source);
             found.subjects.push(subject);
         }
-        Ok(found)
+        found.with_boxes(boxes)
     }
 
     /// One clip that is open already.
-    pub(crate) fn of(source: Box<dyn Source>, config: &Config) -> Self {
+    pub(crate) fn of(
+        source: Box<dyn Source>,
+        boxes: &[PathBuf],
+        config: &Config,
+    ) -> Result<Self, InferenceError> {
         let inputs = source.inputs().iter().map(PathBuf::from).collect();
         let name = source.inputs().join(", ");
         Self {
@@ -107,33 +115,23 @@ impl Clips {
             boxes: Vec::new(),
             only: Some(source),
         }
+        .with_boxes(boxes)
     }
 
-    /// Reads ground-truth boxes: one file or folder for all clips, or one for each.
-    ///
-    /// # Errors
-    /// When they cannot be read, or do not fit the clips.
-    pub(crate) fn with_boxes(&mut self, files: &[PathBuf]) -> Result<(), InferenceError> {
+    /// Reads ground-truth boxes.
+    fn with_boxes(mut self, files: &[PathBuf]) -> Result<Self, InferenceError> {
         if !files.is_empty() {
             let clips = self.subjects.iter();
             let clips = clips.map(|clip| Clip { name: &clip.name, input: &clip.inputs[0] });
             let clips: Vec<_> = clips.collect();
             self.boxes = assign(files, &clips)?;
         }
-        Ok(())
+        Ok(self)
     }
 
-    /// The objects of the frame that a source gave last; nothing where the boxes have no entry for it.
-    fn objects(
-        &self,
-        clip: usize,
-        frame: &SourceFrame,
-        source: &dyn Source,
-    ) -> Result<Option<Vec<Rect>>, InferenceError> {
-        let Some((boxes, origin)) = self.boxes.get(clip).zip(source.origin()) else {
-            return Ok(None);
-        };
-        Ok(boxes.objects(frame, &origin, self.input.crop)?)
+    /// Whether there are ground-truth objects.
+    pub(crate) fn have_boxes(&self) -> bool {
+        !self.boxes.is_empty()
     }
 
     pub(crate) fn count(&self) -> usize {
@@ -175,11 +173,7 @@ impl Showing<'_> {
             let mut camera = Camera::new(self.shown, kind);
             audience.begin(&self.clips.subjects[clip].name, camera.black());
             let before = self.done;
-            let ended = if self.clips.boxes.is_empty() {
-                self.watch(source.as_mut(), &mut camera, hooks, audience)?
-            } else {
-                self.watch_objects((clip, source.as_mut()), &mut camera, hooks, audience)?
-            };
+            let ended = self.watch(clip, source.as_mut(), &mut camera, hooks, audience)?;
             match (ended, self.done - before) {
                 (false, 0) if before == 0 => return Err(InferenceError::Cancelled),
                 (true, 0) => {
@@ -196,52 +190,36 @@ impl Showing<'_> {
         Ok(true)
     }
 
-    /// Shows the camera every frame. Returns whether that was all of them.
+    /// Shows the camera every frame, with the objects of the frames whose places in the input are known. Returns whether that was all of them.
     fn watch(
         &mut self,
+        clip: usize,
         source: &mut dyn Source,
         camera: &mut Camera,
         hooks: &mut dyn Hooks,
         audience: &mut dyn Audience,
     ) -> Result<bool, InferenceError> {
-        let total = self.clips.frames;
+        let (total, boxes) = (self.clips.frames, self.clips.boxes.get(clip));
+        let mut fits = boxes.is_none();
         read_ahead(source, |frames| {
-            while let Some(current) = frames.next()? {
+            while let Some((current, origin)) = frames.next()? {
                 if hooks.cancelled() {
                     return Ok(false);
                 }
-                audience.look(camera.see(&current, None)?)?;
+                let objects = match boxes.zip(origin) {
+                    Some((boxes, at)) => boxes.objects(&current, &at, self.clips.input.crop)?,
+                    None => None,
+                };
+                fits |= objects.is_some();
+                audience.look(camera.see(&current, objects)?)?;
                 frames.give_back(current);
                 self.done += 1;
                 hooks.progress(Progress { done: self.done, total });
             }
-            Ok(true)
-        })
-    }
-
-    /// The same with the objects of every frame, whose places the source knows.
-    fn watch_objects(
-        &mut self,
-        (clip, source): (usize, &mut dyn Source),
-        camera: &mut Camera,
-        hooks: &mut dyn Hooks,
-        audience: &mut dyn Audience,
-    ) -> Result<bool, InferenceError> {
-        let (total, mut is_any) = (self.clips.frames, false);
-        while let Some(current) = source.next_frame()? {
-            if hooks.cancelled() {
-                return Ok(false);
+            match boxes.filter(|_| !fits) {
+                Some(boxes) => Err(boxes.none_fit(&self.clips.subjects[clip].name).into()),
+                None => Ok(true),
             }
-            let objects = self.clips.objects(clip, &current, source)?;
-            is_any |= objects.is_some();
-            audience.look(camera.see(&current, objects)?)?;
-            source.give_back(current);
-            self.done += 1;
-            hooks.progress(Progress { done: self.done, total });
-        }
-        if !is_any {
-            return Err(self.clips.boxes[clip].none_fit(&self.clips.subjects[clip].name).into());
-        }
-        Ok(true)
+        })
     }
 }

@@ -9,19 +9,19 @@ use crate::cost::Costs;
 use crate::details::Details;
 use crate::facts::{DETECTIONS, FRAMES, LAYERS, TRIED, table};
 use crate::frame::counted;
-use crate::framing::Lens;
 use crate::page::page;
 use crate::player::{Player, Way};
 use crate::recording::{Record, Recording};
 use crate::run::{Beside, Ended, Files, Run, Told};
-use crate::sight::{Detector, Judge};
+use crate::sight::Judge;
 use crate::summary::{Summary, mode_name};
 use crate::tune::{Tuned, tune};
-use crate::{Framing, Goal, InferenceError, Mapping};
+use crate::witness::{Viewing, Witness};
+use crate::{Goal, InferenceError};
 use foveate_accelerator::Accelerator;
 use foveate_design::{Config, Design};
 use foveate_footage::{Hooks, InputOptions, Source};
-use foveate_network::{Mode, Network};
+use foveate_network::Mode;
 use foveate_staging::{Kind as FolderKind, StagedFolder};
 use std::path::{Path, PathBuf};
 
@@ -30,14 +30,12 @@ use std::path::{Path, PathBuf};
 pub struct Options {
     /// What is computed for a frame.
     pub computed: Computed,
-    /// How pixels become inputs.
-    pub mapping: Mapping,
     /// The accelerator whose cost is counted, with its name.
     pub accelerator: Option<(String, Accelerator)>,
     /// Whether a whole computation runs beside, to be compared with.
     pub reference: bool,
-    /// Whether the network runs on the whole frames, too, and how what it says there is compared.
-    pub sight: Option<Whole>,
+    /// Whether the network runs on the whole frames, too, to compare what it says there.
+    pub sight: bool,
     /// What is written of the outputs.
     pub record: Record,
     /// The words of the command line, which the page shows; none if there was no command.
@@ -56,28 +54,19 @@ pub enum Computed {
     Tuned(Goal),
 }
 
-/// How what the network says of whole frames is compared with what it says behind the camera.
-#[derive(Clone, Debug, Default)]
-pub struct Whole {
-    /// How detections are read; without it, outputs are compared as classes or as numbers.
-    pub detector: Option<Detector>,
-    /// Files of ground-truth boxes, for average precision: one for all clips, or one for each; none without.
-    pub boxes: Vec<PathBuf>,
-}
-
 /// A camera, a network, and the clips to show them.
 pub struct Inference {
     design: Design,
-    network: Network,
-    framing: Framing,
-    lens: Option<Lens>,
+    witness: Witness,
+    viewing: Viewing,
     path: PathBuf,
     clips: Clips,
 }
 
 impl Inference {
     /// Looks at the inputs, fits the configuration to their frames, and reads the network for them. Image files together are one clip,
-    /// every other input is a clip or set of its own; each begins with a camera and a network that have seen nothing.
+    /// every other input is a clip or set of its own; each begins with a camera and a network that have seen nothing. Beside the inputs are files of
+    /// ground-truth boxes, for average precision: one for all clips, or one for each; none without.
     ///
     /// # Errors
     /// When an input cannot be read, clips have different sizes, the configuration is not a valid design, or the network cannot be read or
@@ -85,11 +74,11 @@ impl Inference {
     pub fn new(
         config: &Config,
         network: &Path,
-        framing: Framing,
-        inputs: &[PathBuf],
+        viewing: Viewing,
+        (inputs, boxes): (&[PathBuf], &[PathBuf]),
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
-        Self::with(config, network, framing, Clips::new(inputs, config, input)?)
+        Self::with(config, network, viewing, Clips::new(inputs, boxes, config, input)?)
     }
 
     /// The same for one clip or set that is open already.
@@ -99,23 +88,22 @@ impl Inference {
     pub fn of_source(
         config: &Config,
         network: &Path,
-        framing: Framing,
-        source: Box<dyn Source>,
+        viewing: Viewing,
+        (source, boxes): (Box<dyn Source>, &[PathBuf]),
     ) -> Result<Self, InferenceError> {
-        Self::with(config, network, framing, Clips::of(source, config))
+        Self::with(config, network, viewing, Clips::of(source, boxes, config)?)
     }
 
     fn with(
         config: &Config,
         network: &Path,
-        framing: Framing,
+        viewing: Viewing,
         clips: Clips,
     ) -> Result<Self, InferenceError> {
         let (width, height) = clips.size;
-        let path = network.to_owned();
-        let (network, lens) = framing.read(network, clips.size)?;
+        let witness = Witness::read(network, clips.size, &viewing)?;
         let design = config.for_frames(width, height)?;
-        Ok(Self { design, network, framing, lens, path, clips })
+        Ok(Self { design, witness, viewing, path: network.to_owned(), clips })
     }
 
     /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when everything is written; on an error nothing is left.
@@ -128,36 +116,24 @@ impl Inference {
         options: &Options,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
-        let Self { design, network, framing, lens, path, mut clips } = self;
-        let mapping = &options.mapping;
-        mapping.check(network.input().shape()[1])?;
+        let Self { design, witness, viewing, path, mut clips } = self;
+        let network = &witness.network;
         let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
         let accelerator = options.accelerator.as_ref();
         let costs =
-            accelerator.map(|(_, accelerator)| Costs::new(accelerator, &network)).transpose();
+            accelerator.map(|(_, accelerator)| Costs::new(accelerator, network)).transpose();
         let costs = costs.map_err(|(node, source)| InferenceError::Accelerator { node, source })?;
         let files = Files {
-            outputs: Recording::new(&staging, &network, options.record)?,
+            outputs: Recording::new(&staging, network, options.record)?,
             details: Details::new(&staging)?,
         };
         let (all, inputs) = (clips.count(), clips.inputs());
-        let judge = options.sight.as_ref().map(|sight| {
-            clips.with_boxes(&sight.boxes)?;
-            let (detector, with_truth) = (sight.detector.as_ref(), !sight.boxes.is_empty());
-            Judge::new(&network, &design, lens.as_ref(), detector, with_truth)
-        });
-        let judge = judge.transpose()?;
-        let shown = Shown {
-            design: &design,
-            input: network.input(),
-            mapping,
-            lens: lens.as_ref(),
-            with_originals: judge.is_some(),
-        };
+        let judge = options.sight.then(|| Judge::new(&witness, &design, clips.have_boxes()));
+        let shown = Shown { design: &design, witness: &witness, with_originals: options.sight };
         let mut showing = Showing { shown, clips: &mut clips, done: 0 };
         let run = |way, reference| {
             let beside = Beside { reference, judge };
-            Run::new(&design, Player::new(&network, way), beside, costs, files)
+            Run::new(&design, Player::new(network, way), beside, costs, files)
         };
         let (run, problem, mode, tuning) = match options.computed {
             Computed::Mode(mode) => {
@@ -173,7 +149,7 @@ impl Inference {
                     return Err(InferenceError::Cancelled);
                 }
                 let (parts, rest) = album.parts(all)?;
-                let Tuned { limits, tuning } = tune(&network, goal, &parts, album.frames(), hooks)?;
+                let Tuned { limits, tuning } = tune(network, goal, &parts, album.frames(), hooks)?;
                 let mut run = run(Way::Limits(limits), true);
                 if let Some(rest) = rest {
                     run.see(rest)?;
@@ -200,8 +176,8 @@ impl Inference {
             problem,
             network: path.display().to_string(),
             inputs,
-            mapping: mapping.clone(),
-            framing,
+            mapping: viewing.mapping,
+            framing: viewing.framing,
         })?;
         write(&staging, &ended)?;
         let Ended { summary, frames, detected } = &ended;

@@ -39,7 +39,7 @@ pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};
 pub use error::InferenceError;
 pub use framing::{Framing, parse_framing};
-pub use inference::{Computed, Inference, Options, Whole};
+pub use inference::{Computed, Inference, Options};
 pub use macs::Macs;
 pub use picture::Mapping;
 pub use recording::{Record, Recorded};

@@ -2,6 +2,7 @@
 //! A network that says whether two pictures show the same, for whoever looks for a camera that it cannot tell from whole frames.
 
 use std::path::Path;
+use std::time::{Duration, Instant};
 
 use crate::framing::Lens;
 use crate::picture::Picture;
@@ -14,20 +15,20 @@ use foveate_network::{Executor, Mask, Mode, Network};
 /// A network, and how frames of one size are shown to it.
 #[derive(Debug)]
 pub struct Witness {
-    network: Network,
+    pub(crate) network: Network,
     lens: Option<Lens>,
     mapping: Mapping,
     reader: Reader,
 }
 
-/// How a network is read and shown frames.
+/// How a network is shown frames, and how what it says is read.
 #[derive(Clone, Debug)]
 pub struct Viewing {
     /// How frames get the size of the network's input.
     pub framing: Framing,
     /// How pixels become inputs.
     pub mapping: Mapping,
-    /// How detections are read, if it makes some.
+    /// How detections are read; without it, outputs are compared as classes or as numbers.
     pub detector: Option<Detector>,
 }
 
@@ -67,38 +68,72 @@ impl Witness {
         let input = self.network.input();
         Looking {
             witness: self,
-            picture: Picture::new(camera, input, &self.mapping, self.lens.as_ref()),
+            picture: self.picture(camera),
             executor: Executor::new(&self.network, Mode::Dense),
             full: Mask::full(input.height(), input.width()),
         }
+    }
+
+    /// A black picture for a camera.
+    pub(crate) fn picture(&self, camera: &Camera) -> Picture {
+        Picture::new(camera, self.network.input(), &self.mapping, self.lens.as_ref())
+    }
+
+    /// How detections are read, if they are.
+    pub(crate) fn detector(&self) -> Option<&Detector> {
+        self.reader.detector.as_ref()
+    }
+
+    /// What an executor of the network says.
+    pub(crate) fn findings(&self, executor: &Executor<'_>) -> Findings {
+        self.reader.read(&self.network, executor)
+    }
+
+    /// Which detections are the same, if they are read.
+    pub(crate) fn pairs(&self, whole: &Findings, other: &Findings) -> Option<Pairs> {
+        let both = whole.detections.as_ref().zip(other.detections.as_ref());
+        let (detector, (whole, other)) = self.detector().zip(both)?;
+        Some(Pairs::of(detector, whole, other))
     }
 
     /// How much of what was said of a whole frame is said of another.
     #[must_use]
     pub fn compare(&self, whole: &Testimony, other: &Testimony) -> Agreement {
         let (whole, other) = (&whole.0, &other.0);
-        let detector = self.reader.detector.as_ref();
-        let pairs = detector.zip(whole.detections.as_ref().zip(other.detections.as_ref()));
-        let pairs = pairs.map(|(detector, (whole, other))| Pairs::of(detector, whole, other));
-        Agreement(Sums::of(whole, other, pairs.as_ref()))
+        Agreement(Sums::of(whole, other, self.pairs(whole, other).as_ref()))
     }
 }
 
 impl Looking<'_> {
     /// What the network says of a frame.
     pub fn look(&mut self, frame: Plane<'_>) -> Testimony {
+        self.run(frame);
+        Testimony(self.findings())
+    }
+
+    /// Runs the network on a frame, and says how long that took.
+    pub(crate) fn run(&mut self, frame: Plane<'_>) -> Duration {
         self.picture.show(frame);
+        let start = Instant::now();
         self.executor.step(&self.picture.values, &self.full);
-        Testimony(self.witness.reader.read(&self.witness.network, &self.executor))
+        start.elapsed()
+    }
+
+    /// What it says of the frame before.
+    pub(crate) fn findings(&self) -> Findings {
+        self.witness.findings(&self.executor)
+    }
+}
+
+impl<'a> std::iter::Sum<&'a Agreement> for Agreement {
+    fn sum<I: Iterator<Item = &'a Self>>(frames: I) -> Self {
+        let mut sum = Self::default();
+        frames.for_each(|frame| sum.0.add(&frame.0));
+        sum
     }
 }
 
 impl Agreement {
-    /// Adds that of other frames.
-    pub fn add(&mut self, other: &Self) {
-        self.0.add(&other.0);
-    }
-
     /// The agreement in one number, 0 to 1, as [`Sight::agreement`](crate::Sight::agreement).
     #[must_use]
     pub fn share(&self) -> f64 {

@@ -88,7 +88,7 @@ impl Simulation {
         let mut engine = Engine::new(&self.design);
         let (total, kind) = (self.source.frames(), self.source.kind());
         read_ahead(self.source.as_mut(), |frames| {
-            while let Some(current) = frames.next()? {
+            while let Some((current, _)) = frames.next()? {
                 if hooks.cancelled() {
                     return Ok(End::Cancelled);
                 }

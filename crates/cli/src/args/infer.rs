@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use foveate_accelerator::Accelerator;
-use foveate_inference::{Computed, Goal, Record, Whole, parse_goal, parse_mode, read_accelerator};
+use foveate_inference::{Computed, Goal, Record, parse_goal, parse_mode, read_accelerator};
 use foveate_network::Mode;
 
 use super::DesignArgs;
@@ -109,10 +109,9 @@ impl InferArgs {
         Ok(self.accelerator.as_deref().map(read_accelerator).transpose()?)
     }
 
-    /// How the network on whole frames is compared, if it runs.
-    pub(crate) fn sight(&self) -> Option<Whole> {
-        let whole = || Whole { detector: self.viewing.detect.clone(), boxes: self.boxes.clone() };
-        (self.whole_frames || self.viewing.detect.is_some()).then(whole)
+    /// Whether the network runs on whole frames, too.
+    pub(crate) fn sight(&self) -> bool {
+        self.whole_frames || self.viewing.detect.is_some()
     }
 
     /// Whether a whole computation runs beside.

@@ -25,14 +25,9 @@ pub(crate) struct ViewingArgs {
 }
 
 impl ViewingArgs {
-    /// How pixels become inputs.
-    pub(crate) fn mapping(&self) -> Mapping {
-        Mapping { mean: self.mean.clone(), scale: self.scale.clone() }
-    }
-
-    /// All of it.
     pub(crate) fn viewing(&self) -> Viewing {
-        Viewing { framing: self.framing, mapping: self.mapping(), detector: self.detect.clone() }
+        let mapping = Mapping { mean: self.mean.clone(), scale: self.scale.clone() };
+        Viewing { framing: self.framing, mapping, detector: self.detect.clone() }
     }
 }
 

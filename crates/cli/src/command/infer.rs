@@ -15,16 +15,14 @@ use crate::error::CliError;
 use crate::output;
 
 pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
-    let (config, mut input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
-    // Boxes go by the numbers of frames in their inputs.
-    input.numbered = !args.boxes.is_empty();
+    let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
     warn_of(&args.inputs, &input);
+    let footage = (&args.inputs[..], &args.boxes[..]);
     let inference =
-        Inference::new(&config, &args.network, args.viewing.framing, &args.inputs, &input)?;
+        Inference::new(&config, &args.network, args.viewing.viewing(), footage, &input)?;
     let options = Options {
         computed: args.computed(),
         accelerator: args.accelerator()?,
-        mapping: args.viewing.mapping(),
         reference: args.has_reference(),
         sight: args.sight(),
         record: args.record(),

@@ -52,20 +52,29 @@ pub struct Held {
     /// Of frames per second: the clock in MHz that they hold at.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clock_mhz: Option<f64>,
+    /// Whether the figure is the one to expect of other frames, and not that of these.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub is_expected: bool,
 }
 
 impl Held {
     fn at_most(name: &'static str, value: f64, limit: f64) -> Self {
-        Self { name, value, limit, at_least: false, holds: value <= limit, clock_mhz: None }
+        Self { at_least: false, holds: value <= limit, ..Self::at_least(name, value, limit) }
     }
 
     fn at_least(name: &'static str, value: f64, limit: f64) -> Self {
-        Self { name, value, limit, at_least: true, holds: value >= limit, clock_mhz: None }
+        let holds = value >= limit;
+        Self { name, value, limit, at_least: true, holds, clock_mhz: None, is_expected: false }
     }
 
     /// The agreement of a network, 0 to 1, and the least that is wanted.
     pub(super) fn agreement(share: f64, least: f64) -> Self {
         Self::at_least("min-agreement", share, least)
+    }
+
+    /// The agreement that is to be expected of other frames.
+    pub(super) fn expected_agreement(share: f64, least: f64) -> Self {
+        Self { is_expected: true, ..Self::agreement(share, least) }
     }
 
     /// How far the figure is from the limit: 0 if the limit is met, 1 if the figure is twice or half of it.

@@ -3,18 +3,22 @@
 //!
 //! It begins at the task, whatever its irrelevant regions show, and at a camera that sends nearly all. Cameras that differ from the best one so far in
 //! one thing are examined, the cheapest first, until one agrees enough; that is the best one then. It ends when none is cheaper.
+//!
+//! The cheapest of many cameras that agree enough on some frames is one that had luck with them. So enough is what can be expected on others, too.
 
 use std::collections::BTreeMap;
 
 use foveate_camera::{
-    Camera, CameraConfig, FeatureKind, Filter, Irrelevant, Reference, SUMMARY_BLOCKS, SpatialConfig,
+    Camera, CameraConfig, FeatureKind, Filter, Irrelevant, PeripheryConfig, Reference,
+    SUMMARY_BLOCKS, SpatialConfig,
 };
 use foveate_design::HardwareConfig;
 
+use super::agreed::Agreed;
 use super::build::cheapest_rough;
 use super::constraints::Held;
-use super::looks::{Look, Search};
-use super::network::{Agreed, Cheapest, Half, Jury};
+use super::looks::Search;
+use super::network::{Cheapest, Half, Jury};
 use super::target::scaled_by;
 use crate::ExploreError;
 
@@ -24,6 +28,8 @@ const SIDES: [u32; 2] = [8, 16];
 const OCTAVES: [i32; 6] = [-1, 1, 2, 3, 4, 5];
 /// Grey levels of 8 bits by which means may differ.
 const LEVELS: [u32; 4] = [2, 4, 8, 12];
+/// Changed pixels of a region that make it active.
+const COUNTS: [u32; 6] = [1, 2, 3, 5, 8, 12];
 /// Bits per pixel that are tried below the task's.
 const FEWER_BITS: u32 = 3;
 
@@ -32,8 +38,7 @@ pub(super) struct Descent<'s, 'a> {
     search: &'s mut Search<'a>,
     jury: &'s Jury<'a>,
     hardware: &'s HardwareConfig,
-    /// What the network said of cameras, by their configurations.
-    pub(super) asked: BTreeMap<String, Agreed>,
+    asked: Asked,
 }
 
 impl<'s, 'a> Descent<'s, 'a> {
@@ -42,31 +47,31 @@ impl<'s, 'a> Descent<'s, 'a> {
         jury: &'s Jury<'a>,
         hardware: &'s HardwareConfig,
     ) -> Self {
-        Self { search, jury, hardware, asked: BTreeMap::new() }
+        Self { search, jury, hardware, asked: Asked::default() }
     }
 
     /// Goes down from the task and from a camera that sends nearly all, until nothing is cheaper. The camera where it ends is in the search then, or
     /// that which sends nearly all if none holds.
-    pub(super) fn run(&mut self) -> Result<(), ExploreError> {
+    pub(super) fn run(mut self) -> Result<Asked, ExploreError> {
         let all = nearly_all(self.search.task());
         let mut starts = ways_to_show(self.search.task());
         starts.push(all.clone());
         let mut best = self.cheapest(&starts, f64::INFINITY)?;
         loop {
-            let (most, from) = match &best {
-                Some((cost, config)) => (*cost, config.clone()),
-                None => (f64::INFINITY, all.clone()),
-            };
-            match self.cheapest(&neighbors(&from), most)? {
+            let (most, from) =
+                best.as_ref().map_or((f64::INFINITY, &all), |(cost, config)| (*cost, config));
+            match self.cheapest(&neighbors(from), most)? {
                 Some(better) => best = Some(better),
                 None => break,
             }
         }
         let (_, chosen) = best.unwrap_or((f64::INFINITY, all));
         let camera = chosen.validate()?;
-        let agreed = self.jury.ask(&camera, Half::First, None, self.asked.len())?;
-        self.asked.insert(chosen.to_toml(), agreed);
-        self.look(&chosen, agreed).map(drop)
+        let agreed = self.ask(&camera, None)?;
+        if self.search.get(camera.config()).is_none() {
+            self.look(camera.config(), agreed)?;
+        }
+        Ok(self.asked)
     }
 
     /// The cheapest that holds and costs less than `most`.
@@ -79,8 +84,9 @@ impl<'s, 'a> Descent<'s, 'a> {
         priced.retain(|(cost, _)| *cost < most);
         priced.sort_by(|one, other| one.0.total_cmp(&other.0));
         for (cost, camera) in priced {
-            let (config, agreed) = (camera.config(), self.ask(&camera)?);
-            let agrees = agreed.share >= self.jury.goal.min_agreement;
+            let least = self.jury.goal.min_agreement;
+            let (config, agreed) = (camera.config(), self.ask(&camera, Some(least))?);
+            let agrees = agreed.expected >= least;
             // To know what else a camera shows takes longer than to ask.
             if agrees && (!self.search.limits_figures() || self.look(config, agreed)?) {
                 return Ok(Some((cost, config.clone())));
@@ -98,7 +104,7 @@ impl<'s, 'a> Descent<'s, 'a> {
             }
         }
         let costs = match self.jury.goal.cheapest {
-            Cheapest::Bytes => self.jury.bytes_sent(&cameras, self.asked.len())?,
+            Cheapest::Bytes => self.jury.bytes_sent(&cameras, self.asked.count())?,
             Cheapest::Area => {
                 let cost = |camera: &Camera| cheapest_rough(camera.config(), self.hardware);
                 cameras.iter().map(cost).collect()
@@ -107,14 +113,15 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok(costs.into_iter().zip(cameras).collect())
     }
 
-    fn ask(&mut self, camera: &Camera) -> Result<Agreed, ExploreError> {
+    /// What the network says of a camera, in full if there is no `least` that is to be reached.
+    fn ask(&mut self, camera: &Camera, least: Option<f64>) -> Result<Agreed, ExploreError> {
         let key = camera.config().to_toml();
-        if let Some(agreed) = self.asked.get(&key) {
+        let known = self.asked.0.get(&key).filter(|agreed| least.is_some() || !agreed.at_most);
+        if let Some(agreed) = known {
             return Ok(*agreed);
         }
-        let least = Some(self.jury.goal.min_agreement);
-        let agreed = self.jury.ask(camera, Half::First, least, self.asked.len())?;
-        self.asked.insert(key, agreed);
+        let agreed = self.jury.ask(camera, Half::First, least, self.asked.count())?;
+        self.asked.0.insert(key, agreed);
         Ok(agreed)
     }
 
@@ -122,19 +129,11 @@ impl<'s, 'a> Descent<'s, 'a> {
     fn look(&mut self, config: &CameraConfig, agreed: Agreed) -> Result<bool, ExploreError> {
         let mut holds = false;
         for mut look in self.search.look(std::slice::from_ref(config))? {
-            look.agree(agreed, self.jury.goal.min_agreement);
+            look.held.push(Held::expected_agreement(agreed.expected, self.jury.goal.min_agreement));
             holds = look.holds();
             self.search.replace(look);
         }
         Ok(holds)
-    }
-}
-
-impl Look {
-    /// Takes what a network says.
-    fn agree(&mut self, agreed: Agreed, least: f64) {
-        self.held.retain(|held| held.name != "min-agreement");
-        self.held.push(Held::agreement(agreed.share, least));
     }
 }
 
@@ -173,80 +172,94 @@ fn ways_to_show(config: &CameraConfig) -> Vec<CameraConfig> {
 
 /// Cameras that differ in one thing.
 fn neighbors(config: &CameraConfig) -> Vec<CameraConfig> {
-    let mut found = ways_to_show(config);
-    let mut other = |change: &dyn Fn(&mut CameraConfig)| {
+    let bits = config.frame.pixel_bits;
+    let with = |change: &dyn Fn(&mut CameraConfig)| {
         let mut other = config.clone();
         change(&mut other);
-        found.push(other);
+        other
     };
-    for octave in OCTAVES {
-        let octaves = f64::from(octave);
-        let scaled = scaled_by(config, octaves, octaves);
-        let (spatial, temporal) =
-            (scaled_by(config, octaves, 0.0), scaled_by(config, 0.0, octaves));
-        other(&|config| *config = scaled.clone());
-        other(&|config| *config = spatial.clone());
-        other(&|config| *config = temporal.clone());
+    let mut found = ways_to_show(config);
+    for octaves in OCTAVES.map(f64::from) {
+        let ways = [(octaves, octaves), (octaves, 0.0), (0.0, octaves)];
+        found.extend(ways.map(|(spatial, temporal)| scaled_by(config, spatial, temporal)));
     }
-    let bits = config.frame.pixel_bits;
-    for kind in FeatureKind::ALL {
-        let mut alone = config.clone();
-        alone.spatial = vec![SpatialConfig::new(*kind).with_defaults(bits)];
-        for octave in [0, 1, 2] {
-            let scaled = scaled_by(&alone, f64::from(octave), 0.0);
-            other(&|config| *config = scaled.clone());
-        }
+    for &kind in FeatureKind::ALL {
+        let alone = vec![SpatialConfig::new(kind).with_defaults(bits)];
+        let alone = with(&|config| config.spatial.clone_from(&alone));
+        found.extend([0.0, 1.0, 2.0].map(|octaves| scaled_by(&alone, octaves, 0.0)));
     }
-    for side in SIDES {
-        other(&|config| config.region.size = side);
-    }
-    for &filter in Filter::ALL {
-        other(&|config| config.denoise.filter = filter);
-    }
-    for &reference in Reference::ALL {
-        other(&|config| config.temporal.reference = reference);
-    }
-    for count in [1, 2, 3, 5, 8, 12] {
-        other(&|config| config.temporal.min_count = count);
-    }
+    found.extend(SIDES.map(|side| with(&|config| config.region.size = side)));
+    found.extend(Filter::ALL.iter().map(|&filter| with(&|config| config.denoise.filter = filter)));
+    let references = Reference::ALL.iter();
+    found.extend(references.map(|&one| with(&|config| config.temporal.reference = one)));
+    found.extend(COUNTS.map(|count| with(&|config| config.temporal.min_count = count)));
     if config.validate().is_ok_and(|camera| camera.periphery().is_some()) {
-        for level in LEVELS {
-            other(&|config| {
-                config.periphery.level =
-                    Some(if bits < 8 { level >> (8 - bits) } else { level << (bits - 8) });
-            });
-        }
+        let levels = LEVELS.map(|level| level_at(level, bits));
+        found.extend(levels.map(|level| with(&|config| config.periphery.level = level)));
     }
-    for fewer in 1..=FEWER_BITS.min(bits - 1) {
-        other(&|config| *config = config.at_depth(bits - fewer));
-    }
+    found.extend((1..=FEWER_BITS.min(bits - 1)).map(|fewer| config.at_depth(bits - fewer)));
     found
 }
 
-/// What one change of the chosen camera would do that is cheaper or not, in the order of the keys.
-pub(super) fn steps(asked: &BTreeMap<String, Agreed>, chosen: &CameraConfig) -> Vec<String> {
-    let own = settings(&chosen.to_toml());
-    let step = |(text, agreed): (&String, &Agreed)| {
-        let other = settings(text);
-        let mut changed = other.iter().filter(|line| !own.contains(line));
-        let lost = own.iter().filter(|line| !other.contains(line)).count();
-        let line = changed.next().filter(|_| lost <= 1 && changed.next().is_none())?;
-        let bound = if agreed.at_most { "at most " } else { "" };
-        Some(format!("{line}: agreement {bound}{:.1} %", 100.0 * agreed.share))
-    };
-    asked.iter().filter_map(step).collect()
+/// A level of 8 bits by which means may differ, at another depth.
+fn level_at(level: u32, bits: u32) -> Option<u32> {
+    let periphery = PeripheryConfig { level: Some(level), ..PeripheryConfig::default() };
+    CameraConfig { periphery, ..CameraConfig::default() }.at_depth(bits).periphery.level
 }
 
-/// The settings of a configuration, each with the name of its table.
+/// What the network said of cameras, by their configurations.
+#[derive(Debug, Default)]
+pub(super) struct Asked(BTreeMap<String, Agreed>);
+
+impl Asked {
+    /// Of how many.
+    pub(super) fn count(&self) -> usize {
+        self.0.len()
+    }
+
+    /// What it said of one that was asked in full.
+    pub(super) fn of(&self, config: &CameraConfig) -> Agreed {
+        self.0[&config.to_toml()]
+    }
+
+    /// What one change of the chosen camera would do that is cheaper or not, in the order of the keys.
+    pub(super) fn steps(&self, chosen: &CameraConfig) -> Vec<String> {
+        let own = settings(&chosen.to_toml());
+        let step = |(text, agreed): (&String, &Agreed)| {
+            let other = settings(text);
+            let mut changed = other.iter().filter(|setting| !own.contains(setting));
+            let lost = own.iter().filter(|setting| !other.contains(setting)).count();
+            let setting = changed.next().filter(|_| lost <= 1 && changed.next().is_none())?;
+            let bound = if agreed.at_most { "at most " } else { "" };
+            let share = 100.0 * agreed.share;
+            let expected = 100.0 * agreed.expected;
+            let elsewhere = (!agreed.at_most).then(|| format!(", {expected:.1} % elsewhere"));
+            let elsewhere = elsewhere.unwrap_or_default();
+            Some(format!("{setting}: agreement {bound}{share:.1} %{elsewhere}"))
+        };
+        self.0.iter().filter_map(step).collect()
+    }
+}
+
+/// The settings of a configuration, each with the names of its tables.
 fn settings(toml: &str) -> Vec<String> {
-    let mut table = String::new();
+    let table: toml::Table = toml.parse().expect("a configuration is written as TOML");
     let mut found = Vec::new();
-    for line in toml.lines() {
-        match line.strip_prefix('[') {
-            Some(name) => table = name.trim_matches(['[', ']']).to_owned(),
-            None if line.contains('=') => found.push(format!("{table}.{line}")),
-            None => {}
-        }
-    }
+    gather("", &toml::Value::Table(table), &mut found);
     found
+}
+
+fn gather(name: &str, value: &toml::Value, found: &mut Vec<String>) {
+    match value {
+        toml::Value::Table(table) => {
+            for (key, value) in table {
+                let name = if name.is_empty() { key.clone() } else { format!("{name}.{key}") };
+                gather(&name, value, found);
+            }
+        }
+        toml::Value::Array(entries) => {
+            entries.iter().for_each(|entry| gather(name, entry, found));
+        }
+        value => found.push(format!("{name} = {value}")),
+    }
 }

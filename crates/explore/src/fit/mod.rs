@@ -16,6 +16,7 @@
 //!    they are fast enough, and which are folded again ([`plan`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
 
+mod agreed;
 mod build;
 mod constraints;
 mod descent;
@@ -23,12 +24,12 @@ mod held_out;
 mod looks;
 mod network;
 mod plan;
+mod receiver;
 mod report;
 mod rough;
 mod target;
 mod why;
 
-use std::collections::BTreeMap;
 use std::path::PathBuf;
 
 use foveate_design::{Config, HardwareConfig};
@@ -38,13 +39,14 @@ use crate::cost::Synthesizer;
 use crate::footage::Footage;
 use crate::{ExploreError, Hooks};
 use build::build;
-use descent::Descent;
+use descent::{Asked, Descent};
 use held_out::{Halves, halves};
 use looks::Search;
 use network::Jury;
 
+pub use agreed::Agreed;
 pub use constraints::{Constraints, Held};
-pub use network::{Agreed, Cheapest, FittedNetwork, NetworkGoal};
+pub use network::{Cheapest, FittedNetwork, NetworkGoal};
 pub use report::{Design, Fit, Target};
 
 /// What is to be fitted.
@@ -98,20 +100,19 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let mut search = Search::new(request.constraints, &footage, &lengths, &task)?;
     let jury = request.network.map(|goal| Jury::new(goal, &footage, &lengths, search.task()));
     let jury = jury.transpose()?;
-    let mut asked = BTreeMap::new();
-    match &jury {
-        None => search.run()?,
-        Some(jury) => {
-            let mut descent = Descent::new(&mut search, jury, &request.task.hardware);
-            descent.run()?;
-            asked = descent.asked;
+    let asked = match &jury {
+        None => {
+            search.run()?;
+            Asked::default()
         }
-    }
+        Some(jury) => Descent::new(&mut search, jury, &request.task.hardware).run()?,
+    };
     let built = build(&search, request, memory, hooks)?;
     let chosen = built.chosen();
-    let steps = (asked.len(), descent::steps(&asked, &chosen.look.config));
+    let camera = &chosen.look.config;
+    let steps = (asked.count(), asked.steps(camera));
     let second = search.second_half(&chosen.look)?;
-    let network = jury.map(|jury| jury.report(&chosen.look)).transpose()?;
+    let network = jury.map(|jury| jury.report(camera, asked.of(camera))).transpose()?;
     Ok(report::fit(request, &search, steps, &built, target, (second, network), &lengths))
 }
 

@@ -9,16 +9,15 @@ use std::path::Path;
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
-use foveate_footage::Kind;
-use foveate_frame::Raster;
-use foveate_inference::{Agreement, Found, Testimony, Viewing, Witness};
+use foveate_inference::{Agreement, Testimony, Viewing, Witness};
 use rayon::prelude::*;
 use serde::Serialize;
 
+use super::agreed::Agreed;
 use super::held_out::Halves;
-use super::looks::Look;
+use super::receiver::Receiver;
+use crate::depths::Depths;
 use crate::footage::Footage;
-use crate::measure::{at_depth, at_depths};
 use crate::row::real;
 use crate::{ExploreError, Progress};
 
@@ -45,20 +44,6 @@ pub enum Cheapest {
     Bytes,
     /// Area.
     Area,
-}
-
-/// How much of what the network says of whole frames it says behind a camera.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Agreed {
-    /// Frames that it looked at.
-    pub frames: u64,
-    /// The agreement, 0..=1.
-    pub share: f64,
-    /// Whether the agreement is at most this: the rest was not looked at.
-    #[serde(skip)]
-    pub at_most: bool,
-    /// Detections, if they are read.
-    pub detections: Option<Found>,
 }
 
 /// What a network says of the design, beside what it says of whole frames.
@@ -156,14 +141,10 @@ impl<'a> Jury<'a> {
             for _ in 0..half {
                 self.footage.go_on(Progress::Asking { cameras: asked })?;
                 let Some(current) = source.next_frame()? else { break };
-                let is_set = source.kind() == Kind::Set;
-                let depths = at_depths(&current.frame, cameras.iter().map(|one| one.pixel_bits()))?;
+                let depths = cameras.iter().map(|camera| camera.pixel_bits());
+                let (shown, kind) = (Depths::of(&current.frame, depths)?, source.kind());
                 engines.par_iter_mut().zip(&mut values).try_for_each(|(engine, values)| {
-                    if is_set {
-                        engine.reset();
-                    }
-                    let bits = engine.camera().pixel_bits();
-                    engine.step_raster(depths.get(&bits).unwrap_or(&current.frame))?;
+                    shown.show(engine, kind)?;
                     *values += engine.camera().values_of(&engine.outcome().actions);
                     Ok::<_, ExploreError>(())
                 })?;
@@ -177,20 +158,22 @@ impl<'a> Jury<'a> {
         Ok(cameras.iter().zip(&values).map(bytes).collect())
     }
 
-    /// What the network says of the camera that was chosen, on both halves.
-    pub(super) fn report(&self, look: &Look) -> Result<FittedNetwork, ExploreError> {
-        let camera = look.config.validate()?;
-        let ask = |half| self.ask(&camera, half, None, 0);
+    /// What the network says of the camera that was chosen, on both halves; what it said of it on the first half is known.
+    pub(super) fn report(
+        &self,
+        chosen: &CameraConfig,
+        fitted: Agreed,
+    ) -> Result<FittedNetwork, ExploreError> {
+        let camera = chosen.validate()?;
         let of_pixels = f64::from(camera.width()) * f64::from(camera.height());
-        let whole = of_pixels * f64::from(self.footage.bits()) / 8.0;
         Ok(FittedNetwork {
             network: self.goal.path.display().to_string(),
             detector: self.goal.viewing.detector.as_ref().map(ToString::to_string),
             min_agreement: self.goal.min_agreement,
             cheapest: self.goal.cheapest,
-            fitted: ask(Half::First)?,
-            held_out: ask(Half::Second)?,
-            bytes_per_whole_frame: whole,
+            fitted,
+            held_out: self.ask(&camera, Half::Second, None, 0)?,
+            bytes_per_whole_frame: of_pixels * f64::from(self.footage.bits()) / 8.0,
         })
     }
 
@@ -203,38 +186,24 @@ impl<'a> Jury<'a> {
         asked: usize,
     ) -> Result<Agreed, ExploreError> {
         let samples = &self.samples[half as usize];
-        let (mut sum, mut frames) = (Agreement::default(), 0);
+        // What can be at best: frames that were not looked at agree as well as they can.
+        let mut frames: Vec<Agreement> =
+            samples.iter().flatten().map(|sample| sample.best.clone()).collect();
+        let mut looked = 0;
         for (clip, own) in samples.iter().enumerate() {
-            let Some(last) = own.last().map(|sample| sample.number) else { continue };
             let mut looking = self.witness.look_at(camera);
-            let mut engine = Engine::new(camera);
-            let mut source = self.footage.open(&self.footage.subjects[clip])?;
-            for number in 0..=last {
-                self.footage.go_on(Progress::Asking { cameras: asked })?;
-                let Some(current) = source.next_frame()? else { break };
-                if source.kind() == Kind::Set {
-                    engine.reset();
+            let mut receiver = Receiver::new(self.footage, clip, camera)?;
+            for sample in own {
+                let Some(screen) = receiver.screen(sample.number, asked)? else { break };
+                frames[looked] = self.witness.compare(&sample.whole, &looking.look(screen));
+                looked += 1;
+                let share = frames.iter().sum::<Agreement>().share();
+                if least.is_some_and(|least| share < least) {
+                    return Ok(Agreed::at_most(share, looked as u64));
                 }
-                let deep: Option<Raster> = at_depth(&current.frame, camera.pixel_bits())?;
-                engine.step_raster(deep.as_ref().unwrap_or(&current.frame))?;
-                if let Some(sample) = own.iter().find(|sample| sample.number == number) {
-                    let seen = looking.look(engine.rendered());
-                    sum.add(&self.witness.compare(&sample.whole, &seen));
-                    frames += 1;
-                    let rest = samples[clip + 1..].iter().flatten();
-                    let rest = own.iter().filter(|other| other.number > number).chain(rest);
-                    let mut at_most = sum.clone();
-                    rest.for_each(|sample| at_most.add(&sample.best));
-                    if least.is_some_and(|least| at_most.share() < least) {
-                        let (share, detections) = (at_most.share(), None);
-                        return Ok(Agreed { frames, share, at_most: true, detections });
-                    }
-                }
-                source.give_back(current);
             }
         }
-        let (share, detections) = (sum.share(), sum.found());
-        Ok(Agreed { frames, share, at_most: false, detections })
+        Ok(Agreed::over(&frames[..looked]))
     }
 }
 

@@ -228,6 +228,11 @@ impl Held {
         };
         let clock = self.clock_mhz.map(|mhz| format!(" at {} MHz", hundredths(mhz)));
         let clock = clock.unwrap_or_default();
+        let what = if self.is_expected {
+            format!("{what} to expect of other frames")
+        } else {
+            what.to_owned()
+        };
         format!("{what} {}{clock} ({side} {})", number(self.value), number(self.limit))
     }
 }

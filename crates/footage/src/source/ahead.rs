@@ -5,13 +5,14 @@
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread;
 
-use super::{Source, SourceFrame};
+use super::{Origin, Source, SourceFrame};
 use crate::FootageError;
 
 /// Frames that wait; beside them one is read and one is worked on.
 const AHEAD: usize = 3;
 
-type Read = Result<SourceFrame, FootageError>;
+/// A frame, and where it was in its input.
+type Read = Result<(SourceFrame, Option<Origin>), FootageError>;
 
 /// The frames of a source that is read ahead.
 pub struct Frames {
@@ -20,11 +21,11 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The next frame, or `None` after the last.
+    /// The next frame and where it was in its input, as of [`Source::origin`], or `None` after the last.
     ///
     /// # Errors
     /// When the source cannot be read further.
-    pub fn next(&self) -> Result<Option<SourceFrame>, FootageError> {
+    pub fn next(&self) -> Result<Option<(SourceFrame, Option<Origin>)>, FootageError> {
         self.frames.recv().ok().transpose()
     }
 
@@ -56,6 +57,7 @@ pub fn read_ahead<T, E: From<FootageError>>(
 fn read(source: &mut dyn Source, sender: &SyncSender<Read>, returned: &Receiver<SourceFrame>) {
     while let Some(next) = source.next_frame().transpose() {
         let last = next.is_err();
+        let next = next.map(|frame| (frame, source.origin()));
         // Nobody listens any more once the work is done.
         if sender.send(next).is_err() || last {
             return;

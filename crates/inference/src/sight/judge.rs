@@ -1,27 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The network on whole frames, beside the one behind the camera.
 
-use std::time::Instant;
-
 use super::agreement::{Pairs, SAME_OBJECT, Sums};
 use super::detection::Detection;
-use super::detector::Detector;
-use super::findings::{Findings, Reader};
+use super::findings::Findings;
 use super::precision::Curve;
 use super::shots::Shots;
 use super::summary::{Received, Sight, Truth, psnr};
-use crate::InferenceError;
 use crate::camera::{Original, Seen};
-use crate::framing::Lens;
+use crate::witness::{Looking, Witness};
 use foveate_design::Camera;
-use foveate_network::{Executor, Mask, Mode, Network};
+use foveate_frame::Plane;
+use foveate_network::Executor;
 
 /// The network on whole frames, and how much of what it says is said behind the camera, too.
 pub(crate) struct Judge<'a> {
-    network: &'a Network,
-    whole: Executor<'a>,
-    full: Mask,
-    reader: Reader,
+    witness: &'a Witness,
+    /// At whole frames.
+    looking: Looking<'a>,
     sums: Sums,
     received: Received,
     /// Against ground truth, of whole frames and of what the receiver sees.
@@ -63,32 +59,17 @@ pub(crate) struct DetectionRow {
 
 impl<'a> Judge<'a> {
     /// `with_truth` says whether there are ground-truth objects.
-    ///
-    /// # Errors
-    /// When the outputs of the network have another format than the detector's.
-    pub(crate) fn new(
-        network: &'a Network,
-        camera: &Camera,
-        lens: Option<&Lens>,
-        detector: Option<&Detector>,
-        with_truth: bool,
-    ) -> Result<Self, InferenceError> {
-        let input = network.input();
-        let frame = (camera.width(), camera.height());
-        let reader = Reader::new(network, frame, lens, detector.cloned())
-            .map_err(|problem| InferenceError::Choice { problem })?;
-        Ok(Self {
-            network,
-            whole: Executor::new(network, Mode::Dense),
-            full: Mask::full(input.height(), input.width()),
-            reader,
+    pub(crate) fn new(witness: &'a Witness, camera: &Camera, with_truth: bool) -> Self {
+        Self {
+            witness,
+            looking: witness.look_at(camera),
             sums: Sums::default(),
             received: Received::new(camera),
             truth: with_truth.then(Default::default),
             shots: Shots::new(camera),
             rows: Vec::new(),
             seconds: 0.0,
-        })
+        }
     }
 
     /// Runs the network on a whole frame, and compares what it says with what `other` says of what the receiver sees. Only a counted frame is in the sums.
@@ -100,12 +81,9 @@ impl<'a> Judge<'a> {
         is_counted: bool,
     ) -> Option<SightFrame> {
         let original = seen.original?;
-        let start = Instant::now();
-        self.whole.step(original.values, &self.full);
-        let seconds = start.elapsed().as_secs_f64();
-        let whole = self.reader.read(self.network, &self.whole);
-        let found = self.reader.read(self.network, other);
-        let pairs = self.pairs(&whole, &found);
+        let seconds = self.looking.run(Plane::Words(original.frame)).as_secs_f64();
+        let (whole, found) = (self.looking.findings(), self.witness.findings(other));
+        let pairs = self.witness.pairs(&whole, &found);
         let sums = Sums::of(&whole, &found, pairs.as_ref());
         let squared_error = squared_error(original.frame, seen.screen);
         let frame = SightFrame {
@@ -127,14 +105,8 @@ impl<'a> Judge<'a> {
         Some(frame)
     }
 
-    fn pairs(&self, whole: &Findings, seen: &Findings) -> Option<Pairs> {
-        let detector = self.reader.detector.as_ref()?;
-        let (whole, seen) = (whole.detections.as_ref()?, seen.detections.as_ref()?);
-        Some(Pairs::of(detector, whole, seen))
-    }
-
     fn add_truth(&mut self, original: Original<'_>, whole: &Findings, seen: &Findings) {
-        let Some(detector) = &self.reader.detector else { return };
+        let Some(detector) = self.witness.detector() else { return };
         let Some((curves, objects)) = self.truth.as_mut().zip(original.objects) else { return };
         for (curve, findings) in curves.iter_mut().zip([whole, seen]) {
             let found = findings.detections.as_deref().unwrap_or_default();
@@ -162,13 +134,13 @@ impl<'a> Judge<'a> {
 
     /// What was found, if detections were read.
     pub(crate) fn detected(self) -> Option<Detected> {
-        let Self { reader, shots, rows, .. } = self;
-        reader.detector.is_some().then_some(Detected { shots, rows })
+        let Self { witness, shots, rows, .. } = self;
+        witness.detector().is_some().then_some(Detected { shots, rows })
     }
 
     /// All of it.
     pub(crate) fn sight(&self) -> Sight {
-        let detector = self.reader.detector.as_ref();
+        let detector = self.witness.detector();
         let score = detector.map_or(0.0, |detector| detector.score);
         let truth = self.truth.as_ref().map(|[whole, seen]| Truth {
             objects: whole.objects(),

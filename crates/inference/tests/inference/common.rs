@@ -8,8 +8,8 @@ use std::path::{Path, PathBuf};
 use foveate_design::Config;
 use foveate_footage::{Hooks, InputOptions, Silent};
 use foveate_inference::{
-    Computed, Framing, Inference, InferenceError, Mapping, Options, Record, Summary, Whole,
-    read_accelerator,
+    Computed, Detector, Framing, Inference, InferenceError, Mapping, Options, Record, Summary,
+    Viewing, read_accelerator,
 };
 use foveate_network::Mode;
 use parquet::file::reader::{FileReader, SerializedFileReader};
@@ -25,7 +25,10 @@ pub(crate) struct Run<'a> {
     pub(crate) accelerator: Option<&'a str>,
     pub(crate) reference: bool,
     pub(crate) framing: Framing,
-    pub(crate) sight: Option<Whole>,
+    pub(crate) sight: bool,
+    pub(crate) detector: Option<Detector>,
+    /// Ground truth.
+    pub(crate) boxes: &'a [PathBuf],
     /// Another network than the denoiser.
     pub(crate) network: Option<&'a Path>,
     /// More of the camera's configuration.
@@ -41,7 +44,9 @@ impl Default for Run<'_> {
             accelerator: None,
             reference: false,
             framing: Framing::Same,
-            sight: None,
+            sight: false,
+            detector: None,
+            boxes: &[],
             network: None,
             camera: "",
         }
@@ -65,19 +70,23 @@ impl Run<'_> {
         let inputs: Vec<PathBuf> = self.inputs.iter().map(PathBuf::from).collect();
         let options = Options {
             computed: self.computed,
-            mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
             accelerator: self.accelerator.map(|name| read_accelerator(name).unwrap()),
             reference: self.reference,
-            sight: self.sight.clone(),
+            sight: self.sight,
             record: Record { arrays: true, pictures: false },
             command: Vec::new(),
             overwrite: true,
         };
+        let viewing = Viewing {
+            framing: self.framing,
+            mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
+            detector: self.detector.clone(),
+        };
         Inference::new(
             &config,
             self.network.unwrap_or(Path::new(DENOISER)),
-            self.framing,
-            &inputs,
+            viewing,
+            (&inputs, self.boxes),
             &input,
         )?
         .run(&folder.join("out"), &options, hooks)

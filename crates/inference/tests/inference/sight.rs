@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use crate::common::{Run, number, rows};
 use foveate_inference::{
-    Computed, Detector, Framing, InferenceError, Sight, Summary, Viewing, Whole, Witness,
+    Agreement, Computed, Detector, Framing, InferenceError, Sight, Summary, Viewing, Witness,
     parse_detector, parse_framing,
 };
 use foveate_network::Mode;
@@ -80,9 +80,9 @@ fn squares() -> Detector {
 
 fn run(folder: &Path, camera: &str, boxes: &[PathBuf]) -> Result<Summary, InferenceError> {
     let network = bright_squares(folder);
-    let whole = Whole { detector: Some(squares()), boxes: boxes.to_vec() };
-    Run { network: Some(&network), sight: Some(whole), camera, frames: 6, ..Run::default() }
-        .write(folder)
+    let (network, detector) = (Some(network.as_path()), Some(squares()));
+    let run = Run { network, detector, boxes, camera, ..Run::default() };
+    Run { sight: true, frames: 6, ..run }.write(folder)
 }
 
 fn sight(folder: &Path, camera: &str) -> Sight {
@@ -160,10 +160,10 @@ fn a_witness_says_what_a_run_says() {
         [&bright, &half].map(|pixels| looking.look(foveate_frame::Plane::Bytes(pixels)));
     let same = witness.compare(&whole, &whole);
     assert_eq!((same.share(), same.found().unwrap().whole), (1.0, 12));
-    let mut sum = witness.compare(&whole, &other);
-    assert_eq!((sum.share(), sum.found().unwrap().kept), (0.5, 6));
-    sum.add(&same);
-    assert_eq!(sum.share(), 0.75);
+    let less = witness.compare(&whole, &other);
+    assert_eq!((less.share(), less.found().unwrap().kept), (0.5, 6));
+    let both: Agreement = [&less, &same].into_iter().sum();
+    assert_eq!(both.share(), 0.75);
     assert!(
         Witness::read(&network, (32, 48), &viewing).unwrap_err().to_string().contains("letterbox")
     );
@@ -201,7 +201,7 @@ fn scaled_frames_are_exact() {
 fn whole_frames_agree_with_themselves() {
     let dir = tempfile::tempdir().unwrap();
     let camera = "[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\nmin_score = 0\n[temporal]\nlevel = 0\nmin_count = 0\n";
-    let run = Run { sight: Some(Whole::default()), camera, ..Run::default() };
+    let run = Run { sight: true, camera, ..Run::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     assert_eq!((sight.agreement, sight.relative_rms, sight.picture_psnr), (1.0, 0.0, None));
     assert!((sight.sent_share - 1.0 - 12.0 / 3072.0).abs() < 1e-9, "{}", sight.sent_share);
