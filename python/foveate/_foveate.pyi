@@ -36,6 +36,7 @@ class Design:
         decision: _Section = ...,
         temporal: _Section = ...,
         render: _Section = ...,
+        periphery: _Section = ...,
         hardware: _Section = ...,
     ) -> Design: ...
     @property
@@ -112,6 +113,7 @@ class Camera:
         decision: _Section = ...,
         temporal: _Section = ...,
         render: _Section = ...,
+        periphery: _Section = ...,
         hardware: _Section = ...,
     ) -> Camera: ...
     @property

@@ -26,7 +26,7 @@ use crate::tools;
 ///     configuration. Without it the paper's design.
 /// threads : int, default 1
 ///     Threads of a step, up to 256; 0 takes one per processor. The bits do not depend on it.
-/// frame, region, denoise, decision, temporal, render, hardware : dict, optional
+/// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
 ///     Keys to change, as in the file: `region={"size": 16}`.
 /// spatial : str, dict or list of these, optional
 ///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.

@@ -16,7 +16,7 @@ use crate::tools;
 /// config : str, path, dict, Design or Camera, optional
 ///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or something that has a
 ///     configuration. Without it the paper's design.
-/// frame, region, denoise, decision, temporal, render, hardware : dict, optional
+/// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
 ///     Keys to change, as in the file: `region={"size": 16}`.
 /// spatial : str, dict or list of these, optional
 ///     The features: `"mad"`, `{"feature": "edge", "level": 50}`, or a list.

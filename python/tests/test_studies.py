@@ -146,13 +146,15 @@ def test_ctrl_c_ends_in_one_line(sets: Path, tmp_path: Path, monkeypatch: pytest
     assert capsys.readouterr().err.startswith("interrupted: the runs below ")
 
 
-def test_images_are_those_of_the_command_bit_for_bit(tmp_path: Path, command: Any) -> None:
+@pytest.mark.parametrize(("size", "means"), [(7, 0), (8, 2)])
+def test_images_are_those_of_the_command_bit_for_bit(size: int, means: int, tmp_path: Path, command: Any) -> None:
     source = tmp_path / "t10k-images-idx3-ubyte"
     # Every image twice: the second one must not be a frame without changes.
     write_idx(source, np.repeat(half(50, 4)[0], 2, axis=0))
-    keys = ["--set", "spatial=[{feature='edge', level=100, min_score=3}]", "--set", "denoise.filter='none'", "--set", "region.size=7"]
+    keys = ["--set", "spatial=[{feature='edge', level=100, min_score=3}]", "--set", "denoise.filter='none'", "--set", f"region.size={size}"]
+    keys += ["--set", "render.irrelevant='mean'", "--set", f"periphery.blocks={means}"] if means else []
     command("dataset", source, "-o", tmp_path / "out", *keys)
-    ours = seen(read_idx(source), Regions(3, 7, filter="none"))
+    ours = seen(read_idx(source), Regions(3, size, filter="none", means=means))
     assert np.array_equal(ours.images, read_idx(tmp_path / "out" / source.name))
     theirs = np.load(tmp_path / "out" / "active.npy")
     assert ours.active == pytest.approx(theirs.mean()) and 0 < ours.active < 1

@@ -3,36 +3,45 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from foveate import ACTIONS
 from foveate._foveate import Camera
 from foveate.studies.data import StudyError
 
 __all__ = ["Regions", "Seen", "name_of", "seen"]
 
+SUMMARIZE = ACTIONS.index("summarize")
+
 
 @dataclass(frozen=True, order=True)
 class Regions:
-    """A camera: the preset ``paper``, whose feature is ``edge``, with these choices."""
+    """A camera: the preset ``paper``, whose feature is ``edge``, with these choices.
+
+    Irrelevant regions send the means of ``means`` x ``means`` blocks, of 0 nothing.
+    """
 
     min_score: int = 5
     size: int = 8
     neighborhood: str = "isolated"
     filter: str = "median3x3"
+    means: int = 0
 
     @property
     def name(self) -> str:
         """Names all choices, for files and tables; those of the preset are left out."""
         return f"n{self.size}-edge{self.min_score}" + ("-shared" if self.neighborhood == "shared" else "") + (
-            "-unfiltered" if self.filter == "none" else "")
+            "-unfiltered" if self.filter == "none" else "") + (f"-means{self.means}" if self.means else "")
 
     def camera(self) -> Camera:
         """The camera that it names."""
+        periphery: dict[str, Any] = {"render": {"irrelevant": "mean"}, "periphery": {"blocks": self.means}} if self.means else {}
         try:
             return Camera("paper", region={"size": self.size, "neighborhood": self.neighborhood}, denoise={"filter": self.filter},
-                          spatial={"feature": "edge", "level": 100, "min_score": self.min_score})
+                          spatial={"feature": "edge", "level": 100, "min_score": self.min_score}, **periphery)
         except ValueError as problem:
             raise StudyError(f"camera {self.name}: {problem}") from None
 
@@ -52,8 +61,8 @@ class Seen:
     active : float
         The share of regions that were sent.
     sent : float
-        Bytes that were sent, as a share of the bytes of the originals: pixels of active regions without padding, and two bits
-        for every region, as in ``summary.json`` of ``foveate simulate``.
+        Bytes that were sent, as a share of the bytes of the originals: pixels of active regions without padding, means, and two
+        bits for every region, as in ``summary.json`` of ``foveate simulate``.
     """
 
     images: NDArray[np.uint8]
@@ -68,15 +77,18 @@ def seen(images: NDArray[np.uint8], regions: Regions | None) -> Seen:
     camera = regions.camera()
     rendered = np.empty_like(images)
     counts: NDArray[np.int64] | None = None
+    summaries = 0
     for image, place in zip(images, rendered):
         camera.reset()
         outcome = camera.step(image)
         place[...] = outcome.rendered
         counts = outcome.active.astype(np.int64) if counts is None else counts + outcome.active
+        summaries += int((outcome.action == SUMMARIZE).sum())
     assert counts is not None, "a part of a set has an image"
     pixels = int((counts * _pixels(counts.shape, images.shape[1:], regions.size)).sum())
     tags = -(-2 * counts.size * len(images) // 8)
-    return Seen(rendered, float(counts.sum() / (counts.size * len(images))), (pixels + tags) / images.size)
+    sent = pixels + regions.means ** 2 * summaries + tags
+    return Seen(rendered, float(counts.sum() / (counts.size * len(images))), sent / images.size)
 
 
 def _pixels(grid: tuple[int, ...], frame: tuple[int, ...], size: int) -> NDArray[np.int64]:

@@ -16,8 +16,8 @@ from foveate.studies.runs import write_whole
 
 __all__ = ["accuracy", "savings"]
 
-#: Okabe and Ito, as in every chart of the project: blue, vermilion, reddish purple, black, bluish green, orange, sky blue.
-_COLOURS = ("#0072b2", "#d55e00", "#cc79a7", "#000000", "#009e73", "#e69f00", "#56b4e9")
+#: Okabe and Ito, as in every chart of the project: blue, vermilion, reddish purple, black, bluish green, orange, sky blue; then grey and brown.
+_COLOURS = ("#0072b2", "#d55e00", "#cc79a7", "#000000", "#009e73", "#e69f00", "#56b4e9", "#8a8f94", "#7a4a1e")
 _TITLES = {"mnist": "MNIST", "fashion-mnist": "FashionMNIST", "pictures": "pictures"}
 
 
@@ -57,7 +57,7 @@ def savings(summary: Mapping[str, Any], folder: Path) -> None:
         for place, (key, label) in enumerate((("sent_share", "bytes sent, % of the originals"), ("macs_share", "MACs needed, % of a whole image"))):
             one = axes[number][place]
             one.axhline(0, color="#a0a4a9", linewidth=1)
-            for (kind, rows), colour, mark in zip(kinds.items(), cycle(_COLOURS), cycle("osD^vPX")):
+            for (kind, rows), colour, mark in zip(kinds.items(), cycle(_COLOURS), cycle("osD^vPX<>")):
                 points = [(100 * row[key], 100 * row["original_difference"]) for row in rows]
                 one.plot(*np.transpose(points), color=colour, marker=mark, markersize=4, linewidth=1, label=kind)
                 learned = [(100 * row[key], 100 * row["regions_difference"]) for row in rows if row["regions_difference"] is not None]

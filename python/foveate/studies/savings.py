@@ -42,6 +42,8 @@ class Plan:
         kinds = {f"N = {size}": [Regions(score, size) for score in self.thresholds] for size in self.sizes}
         kinds["N = 8, windows of neighbors"] = [Regions(score, neighborhood="shared") for score in self.thresholds]
         kinds["N = 8, no median"] = [Regions(score, filter="none") for score in self.thresholds]
+        for blocks in (1, 2, 4):
+            kinds[f"N = 8, no median, {blocks}x{blocks} means"] = [Regions(score, filter="none", means=blocks) for score in self.thresholds]
         return kinds
 
 
@@ -66,7 +68,7 @@ def _row(bench: Bench, name: str, kind: str, camera: Regions, macs: float, every
     known = _values(bench, Run(name, None, camera, 0))
     return {
         "set": name, "kind": kind, "camera": camera.name, "region": camera.size, "min_score": camera.min_score,
-        "neighborhood": camera.neighborhood, "filter": camera.filter,
+        "neighborhood": camera.neighborhood, "filter": camera.filter, "means": camera.means,
         "active_share": known["active_share"], "sent_share": known["sent_share"], "macs_share": macs,
         "original_difference": _difference(bench, name, None, camera, every),
         "regions_difference": _difference(bench, name, camera, camera, learned),
