@@ -59,8 +59,8 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     sequences
 }
 
-/// Means that meet the level or miss it by one, and some that are lost.
-fn means() -> [Sequence; 4] {
+/// Means that meet the level or miss it by one, some that are lost, and some that are shown on while their region is held.
+fn means() -> [Sequence; 5] {
     let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
     let configured = ThresholdAim::Design;
     [
@@ -71,6 +71,7 @@ fn means() -> [Sequence; 4] {
         },
         aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
         mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
+        aimed(ThresholdAim::Held, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
     ]
 }
 
