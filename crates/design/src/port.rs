@@ -236,6 +236,23 @@ pub(crate) fn sync_output(design: &Design) -> Option<Port> {
     design.syncs().then(port)
 }
 
+/// What is decided of a region, the same for every organization; `whose` is what the region is called where its means
+/// are spoken of.
+pub(crate) fn decided_ports(design: &Design, whose: &str) -> Vec<Port> {
+    let mut list = Vec::new();
+    let mut add = |role, doc: &str| {
+        let doc = format!("{doc}; 0 unless decision_valid_o");
+        list.push(Port::single(Direction::Output, role, 1, &doc));
+    };
+    add(PortRole::Srs, "spatial relevance");
+    add(PortRole::Trs, "temporal relevance");
+    add(PortRole::Active, "SRS and TRS");
+    if design.periphery().is_some() {
+        add(PortRole::Summary, &format!("{whose} means will leave"));
+    }
+    list
+}
+
 /// The threshold inputs, the same for every organization: none where thresholds are constants.
 pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
     let mut list = Vec::new();

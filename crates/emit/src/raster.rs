@@ -6,7 +6,7 @@ use crate::camera::{blanks, last_sent};
 use crate::kinds::kinds;
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
-use crate::thresholds::{Constant, constants, signal, summary};
+use crate::thresholds::{Constant, constants, signal, summary, summary_level};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
@@ -312,12 +312,10 @@ fn store(design: RasterDesign<'_>) -> u32 {
 /// What is connected to the inputs of the core for the levels of pixels.
 fn levels(design: RasterDesign<'_>) -> Vec<(String, String)> {
     let temporal = signal(&design, PortRole::TemporalLevel);
-    let summary = match design.periphery() {
-        Some(_) => signal(&design, PortRole::SummaryLevel),
-        None => format!("{}'d0", design.pixel_bits()),
-    };
-    let mut list =
-        vec![("temporal_level_i".to_owned(), temporal), ("summary_level_i".to_owned(), summary)];
+    let mut list = vec![
+        ("temporal_level_i".to_owned(), temporal),
+        ("summary_level_i".to_owned(), summary_level(&design)),
+    ];
     for &kind in FeatureKind::ALL {
         if let Some(width) = level_bits(design, kind) {
             let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));

@@ -6,7 +6,7 @@ use crate::camera::{blanks, last_sent};
 use crate::kinds::kinds;
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
-use crate::thresholds::{Constant, constants, signal, summary};
+use crate::thresholds::{Constant, constants, signal, summary, summary_level};
 use crate::{SourceFile, Top, banner};
 use askama::Template;
 use foveate_design::{
@@ -157,10 +157,7 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> Serial {
             None => format!("{}'d0", design.pixel_bits()),
         },
         minima: minima(design),
-        summary_level: match design.periphery() {
-            Some(_) => signal(&design, PortRole::SummaryLevel),
-            None => format!("{}'d0", design.pixel_bits()),
-        },
+        summary_level: summary_level(&design),
         summarizes: design.periphery().is_some(),
         sync: Sync::with_ready(&design, beats(design)),
         valid: sync::valid(&design),

@@ -38,6 +38,14 @@ pub(crate) fn signal(design: &Design, role: PortRole) -> String {
     }
 }
 
+/// The same of the summary level, which the array and the core have whether irrelevant regions send summaries or not.
+pub(crate) fn summary_level(design: &Design) -> String {
+    match design.periphery() {
+        Some(_) => signal(design, PortRole::SummaryLevel),
+        None => format!("{}'d0", design.pixel_bits()),
+    }
+}
+
 fn constant_name(role: PortRole) -> String {
     let upper = |kind: FeatureKind| kind.name().to_uppercase();
     match role {

@@ -72,10 +72,15 @@ impl Distance {
     /// Peak signal-to-noise ratio in decibels, with the range of the right values as the peak; nothing if there is no difference.
     pub(crate) fn psnr(&self) -> Option<f64> {
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
-        let mean = self.difference / self.values as f64;
-        (self.difference != 0.0)
-            .then(|| 10.0 * ((self.highest - self.lowest).powi(2) / mean).log10())
+        let mean = self.difference / self.values.max(1) as f64;
+        psnr((self.highest - self.lowest).powi(2), mean)
     }
+}
+
+/// Peak signal-to-noise ratio in decibels from the squares of the peak and of the error, both as means or both as sums over the same values;
+/// nothing if there is no error.
+pub(crate) fn psnr(peak: f64, error: f64) -> Option<f64> {
+    (error != 0.0).then(|| 10.0 * (peak / error).log10())
 }
 
 /// How much the outputs of a whole computation vary from frame to frame of a clip. That clips differ from each other is no variation.

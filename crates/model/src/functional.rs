@@ -4,7 +4,7 @@
 use foveate_camera::{Camera, Payload};
 
 use crate::ModelError;
-use crate::decision::{action, combined};
+use crate::decision::combined;
 use crate::denoise::denoise_into;
 use crate::feature::score;
 use crate::number::index;
@@ -179,14 +179,11 @@ impl FunctionalCamera {
         let Self { camera, references, summaries, screen, outcome } = self;
         let at = index(region);
         let means = &outcome.means[at];
-        let is_due = || {
-            let periphery = camera.periphery().expect("only then it is asked");
-            summaries[at].is_due(means, periphery.level)
-        };
-        let action = action(camera.irrelevant(), outcome.srs[at], outcome.trs[at], is_due);
+        let level = camera.periphery().map_or(0, |periphery| periphery.level);
+        let (srs, trs) = (outcome.srs[at], outcome.trs[at]);
+        let action = summaries[at].decide(camera.irrelevant(), srs, trs, means, level);
         outcome.actions[at] = action;
         screen.show(camera, region, action, (outcome.payload(camera), means));
-        summaries[at].follow(action, means);
         references.update(camera, &outcome.denoised, region, action);
     }
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The summaries of irrelevant regions: the means of their blocks, and when they are sent.
 
-use foveate_camera::{Action, Camera, Periphery};
+use foveate_camera::{Action, Camera, Irrelevant, Periphery};
 
+use crate::decision::action;
 use crate::number::index;
 use crate::region::Area;
 use foveate_frame::Frame;
@@ -43,9 +44,35 @@ pub(crate) struct Summary {
 }
 
 impl Summary {
+    /// What becomes of a region with these two bits and means.
+    pub(crate) fn action(
+        &self,
+        irrelevant: Irrelevant,
+        srs: bool,
+        trs: bool,
+        means: &[u16],
+        level: u32,
+    ) -> Action {
+        action(irrelevant, srs, trs, || self.is_due(means, level))
+    }
+
+    /// Decides what becomes of it, and remembers what the screen shows behind that.
+    pub(crate) fn decide(
+        &mut self,
+        irrelevant: Irrelevant,
+        srs: bool,
+        trs: bool,
+        means: &[u16],
+        level: u32,
+    ) -> Action {
+        let action = self.action(irrelevant, srs, trs, means, level);
+        self.follow(action, means);
+        action
+    }
+
     /// Whether these means of an irrelevant region are to be sent: the screen shows something else, or a mean that differs by
     /// more than the level.
-    pub(crate) fn is_due(&self, means: &[u16], level: u32) -> bool {
+    fn is_due(&self, means: &[u16], level: u32) -> bool {
         self.shown.as_ref().is_none_or(|shown| {
             let mut pairs = shown.iter().zip(means);
             pairs.any(|(shown, &mean)| u32::from(shown.abs_diff(mean)) > level)
@@ -63,7 +90,7 @@ impl Summary {
     }
 
     /// What the screen shows behind an action.
-    pub(crate) fn follow(&mut self, action: Action, means: &[u16]) {
+    fn follow(&mut self, action: Action, means: &[u16]) {
         match action {
             Action::Forward => self.shown = None,
             Action::Summarize => self.shown = Some(means.to_vec()),

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scores and decision of one region in one frame.
 
-use foveate_camera::{Action, Camera, FeatureKind};
+use foveate_camera::{Camera, FeatureKind};
 
-use crate::decision::{action, combined};
+use crate::decision::combined;
 use crate::number::index;
 use crate::{RegionScorer, Thresholds};
 
@@ -46,10 +46,5 @@ impl Verdict {
             None => self.temporal_count.into(),
             Some(feature) => self.scores[index(feature)],
         }
-    }
-
-    /// What becomes of the region; `is_summary_due` is asked only where irrelevant regions send their means.
-    pub(crate) fn action(&self, camera: &Camera, is_summary_due: impl FnOnce() -> bool) -> Action {
-        action(camera.irrelevant(), self.srs, self.trs, is_summary_due)
     }
 }

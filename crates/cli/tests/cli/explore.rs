@@ -104,6 +104,22 @@ fn mistakes_are_one_line() {
     for bad in ["--max-flips=101%", "--target-active=x", "--min-fps=0", "--min-psnr=-1"] {
         assert_eq!(run_in(dir.path(), &["fit", "scene:street", bad]).code, 2, "{bad}");
     }
+    let of_a_network = [
+        ("--framing", "letterbox"),
+        ("--mean", "0.5"),
+        ("--scale", "1/255"),
+        ("--detect", "yolox"),
+        ("--min-agreement", "90%"),
+        ("--cheapest", "area"),
+        ("--look-at", "5"),
+    ];
+    for (option, value) in of_a_network {
+        let alone = run_in(dir.path(), &["fit", "scene:street", option, value]);
+        assert_eq!(alone.code, 2, "{option}: {}", alone.stdout);
+        for part in ["required arguments were not provided", "--network <MODEL>", option] {
+            assert!(alone.stderr.contains(part), "{option}: {}", alone.stderr);
+        }
+    }
 }
 
 #[test]

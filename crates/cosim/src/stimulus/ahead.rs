@@ -19,6 +19,9 @@ pub(super) enum ThresholdAim {
     Largest,
     /// The least that is not nothing: what is not flat is relevant, what changes has changed.
     Least,
+    /// Levels of the design; by turns no score is enough and every one is, and never have enough pixels changed: a region is
+    /// irrelevant, is held, and is irrelevant again.
+    Held,
     /// All change at every clock; minima are exact where a decision is made. For hardware that takes thresholds at every
     /// clock.
     Restless,
@@ -99,6 +102,13 @@ impl Aimer {
             Some(turn) => self.ranges.aim_largest_levels(turn, thresholds),
             None => self.ranges.aim_levels(now, before, thresholds, random),
         }
+    }
+
+    /// Levels of the design, and minima that no region meets or, every other turn, all regions; too few pixels have changed.
+    pub(super) fn held(&self, turn: u32) -> Thresholds {
+        let mut thresholds = Thresholds::of(&self.design);
+        self.ranges.aim_at_held(turn, &mut thresholds);
+        thresholds
     }
 
     /// Minima for scores that are decided now.

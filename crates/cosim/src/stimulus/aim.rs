@@ -132,6 +132,13 @@ impl Ranges {
         }
     }
 
+    /// Minima of scores that none meets or, every other turn, all; more changes than a region has pixels.
+    pub(crate) fn aim_at_held(&self, turn: u32, thresholds: &mut Thresholds) {
+        thresholds.min_score =
+            if turn.is_multiple_of(2) { self.min_score } else { [0; FeatureKind::COUNT] };
+        thresholds.temporal_min_count = self.temporal_min_count;
+    }
+
     /// The summary level for means whose widest difference is this one: on it, so that they stay, or below it. Without one
     /// the largest there is, or any: what is sent then is sent for another reason.
     pub(crate) fn aim_summary_level(

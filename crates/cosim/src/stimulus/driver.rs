@@ -260,12 +260,14 @@ impl<'a> Driver<'a> {
     }
 
     fn choose_thresholds(&mut self, frame: &Frame) {
-        let largest = (self.aim == ThresholdAim::Largest).then_some(self.turn);
+        let turn = self.turn;
+        let largest = (self.aim == ThresholdAim::Largest).then_some(turn);
         self.turn += 1;
         self.is_under_way = true;
         match self.aim {
             ThresholdAim::Design => self.thresholds = self.configured,
             ThresholdAim::Least => self.thresholds = Aimer::least(),
+            ThresholdAim::Held => self.thresholds = self.aimer.held(turn),
             ThresholdAim::Restless => {}
             ThresholdAim::Exact | ThresholdAim::Largest => self.aim_at(frame, largest),
         }
@@ -412,9 +414,10 @@ impl<'a> Driver<'a> {
         match self.aim {
             ThresholdAim::Design => false,
             ThresholdAim::Restless => true,
-            ThresholdAim::Exact | ThresholdAim::Largest | ThresholdAim::Least => {
-                self.scout.is_none() && !self.is_under_way
-            }
+            ThresholdAim::Exact
+            | ThresholdAim::Largest
+            | ThresholdAim::Least
+            | ThresholdAim::Held => self.scout.is_none() && !self.is_under_way,
         }
     }
 }

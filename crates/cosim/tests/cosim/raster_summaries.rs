@@ -3,10 +3,10 @@
 
 use std::collections::BTreeMap;
 
-use crate::common::vectors::{clocks, value};
+use crate::common::vectors::{clocks, pairs_of_decisions, value};
 use crate::common::{agrees, directed, in_parallel, simulators};
 use foveate_cosim::{Level, Simulator};
-use foveate_design::{Config, Design, PortRole};
+use foveate_design::{Config, Design, PortRole, Thresholds};
 
 fn design(keys: &[&str]) -> Design {
     let own = ["hardware.organization='raster'", "render.irrelevant='mean'"];
@@ -128,5 +128,23 @@ fn summaries_are_sent_and_stay_whatever_was_before() {
         let waits = design.timing().departure().kept_rows.is_none();
         assert_eq!(count(Before::LostSummary, true) > 5, !waits, "{told}");
         assert_eq!(count(Before::LostSummary, false), 0, "{told}");
+    }
+}
+
+/// A summary is shown on while its region is held, relevant and unchanged: irrelevant again, the region sends nothing, or means that
+/// differ. Thresholds that are built in cannot be aimed at that.
+#[test]
+fn summaries_stay_while_their_regions_are_held() {
+    let plain = ["frame={width=16,height=15}", "region.size=4", "denoise.filter='none'"];
+    for design in designs().into_iter().chain([design(&plain)]) {
+        match design.thresholds() {
+            Thresholds::Constant => continue,
+            Thresholds::Runtime => {}
+        }
+        let recording = directed(Level::Full, 1).record(&design, &mut |_, _| {}).unwrap();
+        let pairs = pairs_of_decisions(&recording);
+        for pair in [("sent", "held"), ("kept", "held"), ("held", "kept"), ("held", "sent")] {
+            assert!(pairs.contains(&pair), "{pair:?}: {pairs:?}\n{}", design.config().to_toml());
+        }
     }
 }

@@ -4,7 +4,7 @@
 
 use crate::common;
 use crate::common::serial::config;
-use crate::common::vectors::{clocks, value};
+use crate::common::vectors::{clocks, pairs_of_decisions, value};
 use crate::common::{design, directed, feature};
 use foveate_cosim::{Layout, Level, Recording, Stimulus};
 use foveate_design::{
@@ -12,7 +12,7 @@ use foveate_design::{
     SerialTiming,
 };
 use foveate_frame::Frame;
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 const GRID: (u32, u32) = (3, 2);
 const LEVEL: Level = Level::Rcm { columns: GRID.0, rows: GRID.1 };
@@ -333,29 +333,6 @@ fn frames_of_the_caller_are_streamed_lane_by_lane() {
     assert_eq!(pixels[16..20], [16, 20, 24, 28]);
     assert_eq!(pixels[64..68], [32, 36, 40, 44], "the second lane");
     assert_eq!(pixels.len(), 2 * 2 * 32);
-}
-
-/// What the decisions of each region are, each with the one before it.
-fn pairs_of_decisions(recording: &Recording) -> BTreeSet<(&'static str, &'static str)> {
-    let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let (mut before, mut found) = (BTreeMap::new(), BTreeSet::new());
-    for (input, output) in clocks(recording) {
-        if value(inputs, PortRole::Reset, &input) == 1 {
-            before.clear();
-        }
-        let is = |role| value(outputs, role, &output) == 1;
-        if is(PortRole::DecisionValid) {
-            let now = match (is(PortRole::Active), is(PortRole::Srs), is(PortRole::Summary)) {
-                (true, _, _) => "active",
-                (false, true, _) => "held",
-                (false, false, true) => "sent",
-                (false, false, false) => "kept",
-            };
-            let region = value(outputs, PortRole::Region, &output);
-            found.insert((before.insert(region, now).unwrap_or("reset"), now));
-        }
-    }
-    found
 }
 
 /// Summaries that are sent and that are not, after decisions of every kind, by one feed or the other.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Whether the vectors hit what they are meant to hit; no tool is needed for that.
 
-use crate::common::vectors::{clocks, field};
+use crate::common::vectors::{clocks, field, pairs_of_decisions};
 use crate::common::{design, directed};
 use foveate_cosim::{Level, Recording, Stimulus, vectors_hex};
 use foveate_design::{Config, Design, FeatureKind, PortRole};
@@ -49,29 +49,6 @@ fn decisions_are_made_on_below_and_above_their_thresholds() {
         }
         assert!([-1, 0, 1].iter().all(|near| found.contains(near)), "{minimum:?}: {found:?}");
     }
-}
-
-/// What the decisions of a sequence are, each with the one before it.
-fn pairs_of_decisions(recording: &Recording) -> BTreeSet<(&'static str, &'static str)> {
-    let (inputs, outputs) = (recording.inputs(), recording.outputs());
-    let (mut before, mut found) = ("reset", BTreeSet::new());
-    for (input, output) in clocks(recording) {
-        if field(inputs, PortRole::Reset).get(&input, 0) == 1 {
-            before = "reset";
-        }
-        let is = |role| field(outputs, role).get(&output, 0) == 1;
-        if is(PortRole::DecisionValid) {
-            let now = match (is(PortRole::Active), is(PortRole::Srs), is(PortRole::Summary)) {
-                (true, _, _) => "active",
-                (false, true, _) => "held",
-                (false, false, true) => "sent",
-                (false, false, false) => "kept",
-            };
-            found.insert((before, now));
-            before = now;
-        }
-    }
-    found
 }
 
 /// Summaries that are sent and that are not, after decisions of every kind; where thresholds are built in, those that

@@ -2,7 +2,7 @@
 //! The interface of a pipelined RPU and of the RCM of such.
 
 use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
-use crate::port::{sync_input, sync_output, threshold_ports};
+use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
 use crate::{Design, Direction, Port, PortRole};
 
 /// The interface of one RPU.
@@ -47,15 +47,7 @@ pub(crate) fn rpu(design: &Design) -> Interface {
 
 fn decided(design: &Design) -> Vec<Port> {
     let output = |role, width, doc| Port::single(Direction::Output, role, width, doc);
-    let mut list = vec![
-        output(PortRole::Srs, 1, "spatial relevance; 0 unless decision_valid_o"),
-        output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
-        output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
-    ];
-    if design.periphery().is_some() {
-        let doc = "the region's means will leave; 0 unless decision_valid_o";
-        list.push(output(PortRole::Summary, 1, doc));
-    }
+    let mut list = decided_ports(design, "the region's");
     for feature in design.features() {
         let doc = "score; final with decision_valid_o";
         list.push(output(PortRole::Score(feature.kind()), feature.score_bits(), doc));

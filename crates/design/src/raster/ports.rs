@@ -2,7 +2,7 @@
 //! The interface of a raster core: which streams there are depends on where the frame store is, and on whether pixels leave.
 
 use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
-use crate::port::{sync_input, sync_output, threshold_ports};
+use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
 use crate::{Design, Direction, Port, PortRole, RasterDesign, Store};
 
 /// Bits of `lost_count_o`, which stays at its largest value.
@@ -96,16 +96,8 @@ fn stored(word: u32) -> Stream {
 fn decided(design: &Design) -> Vec<Port> {
     let with = |role, width, doc| Port::with(PortRole::DecisionValid, role, width, doc);
     let doc = "the region that is decided; only with decision_valid_o";
-    let mut list = vec![
-        with(PortRole::Region, design.region_bits(), doc),
-        output(PortRole::Srs, 1, "spatial relevance; 0 unless decision_valid_o"),
-        output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
-        output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
-    ];
-    if design.periphery().is_some() {
-        let doc = "its means will leave; 0 unless decision_valid_o";
-        list.push(output(PortRole::Summary, 1, doc));
-    }
+    let mut list = vec![with(PortRole::Region, design.region_bits(), doc)];
+    list.extend(decided_ports(design, "its"));
     for feature in design.features() {
         let doc = "score; only with decision_valid_o";
         list.push(with(PortRole::Score(feature.kind()), feature.score_bits(), doc));

@@ -2,7 +2,7 @@
 //! The interface of a serial array.
 
 use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
-use crate::port::{sync_input, sync_output, threshold_ports};
+use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
 use crate::{Direction, Feed, Port, PortRole, SerialDesign};
 
 /// The interface of the array.
@@ -38,20 +38,11 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> Interface {
             score(PortRole::AnyScore, design.any_score_bits(), "it; only with score_valid_o"),
         ],
     );
-    let mut decided = vec![
-        output(PortRole::Srs, 1, "spatial relevance; 0 unless decision_valid_o"),
-        output(PortRole::Trs, 1, "temporal relevance; 0 unless decision_valid_o"),
-        output(PortRole::Active, 1, "SRS and TRS; 0 unless decision_valid_o"),
-    ];
-    if design.periphery().is_some() {
-        let doc = "the region's means will leave; 0 unless decision_valid_o";
-        decided.push(output(PortRole::Summary, 1, doc));
-    }
     let decisions = Stream::out_of_core(
         StreamRole::Decisions,
         "the decision of the region of the score",
         output(PortRole::DecisionValid, 1, "the decision for region_o; comes with its last score"),
-        decided,
+        decided_ports(&design, "the region's"),
     );
     let (beat, leaves) = beats(design);
     let forwarded = Stream::out_of_core(

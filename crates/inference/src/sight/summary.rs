@@ -2,6 +2,7 @@
 //! What a network loses behind the camera, and what the camera sends for it.
 
 use super::agreement::{ClassKept, DetectionsKept};
+use crate::closeness;
 use foveate_design::Camera;
 use serde::Serialize;
 
@@ -99,5 +100,5 @@ impl Received {
 
 /// Peak signal-to-noise ratio in decibels; nothing without a difference.
 pub(super) fn psnr(squared_error: f64, pixels: f64, max: f64) -> Option<f64> {
-    (squared_error > 0.0).then(|| 10.0 * (max * max * pixels / squared_error).log10())
+    closeness::psnr(max * max * pixels, squared_error)
 }

@@ -5,9 +5,8 @@ use foveate_design::Action;
 
 use super::decide::Decision;
 use super::plan::RpuPlan;
-use crate::decision::action;
 use crate::number::index;
-use crate::periphery::{Summary, block_means};
+use crate::periphery::{Summary, block_means, last_of_block};
 
 /// Means and what is known of them.
 #[derive(Clone, Debug, Default)]
@@ -32,8 +31,8 @@ impl TailSummary {
 
     /// What becomes of the region whose decision is made in this clock.
     pub(super) fn action(&self, plan: &RpuPlan, decision: Decision, level: u32) -> Action {
-        let is_due = || self.summary.is_due(&self.decided(plan), level);
-        action(plan.irrelevant, decision.srs, decision.trs, is_due)
+        let Decision { srs, trs } = decision;
+        self.summary.action(plan.irrelevant, srs, trs, &self.decided(plan), level)
     }
 
     /// The means of the frame that is decided in this clock, in which the frame that has come in is whole.
@@ -50,8 +49,8 @@ impl TailSummary {
     pub(super) fn finish(&mut self, plan: &RpuPlan, decision: Option<Decision>, level: u32) {
         self.sent = None;
         if let Some(decision) = decision {
-            let (action, means) = (self.action(plan, decision, level), self.decided(plan));
-            self.summary.follow(action, &means);
+            let (Decision { srs, trs }, means) = (decision, self.decided(plan));
+            let action = self.summary.decide(plan.irrelevant, srs, trs, &means, level);
             self.sent = (action == Action::Summarize).then_some(means);
         }
         self.previous = self.means(plan);
@@ -61,9 +60,8 @@ impl TailSummary {
     /// The mean that leaves at a tail step: that of the block whose last pixel steps.
     pub(super) fn leaving(&self, plan: &RpuPlan, position: usize) -> Option<u16> {
         let (sent, periphery) = (self.sent.as_ref()?, plan.periphery?);
-        let (x, y) = (position % plan.side, position / plan.side);
-        let (blocks, side) = (index(periphery.blocks), index(periphery.block_side));
-        let is_last = x % side == side - 1 && y % side == side - 1;
-        is_last.then(|| sent[y / side * blocks + x / side])
+        let mut blocks = (0..).zip(sent);
+        let is_whole = |&(block, _): &(u32, _)| index(last_of_block(&periphery, block)) == position;
+        blocks.find(is_whole).map(|(_, &mean)| mean)
     }
 }

@@ -91,9 +91,9 @@ impl Regions {
     /// A region is decided: what becomes of it, and what is remembered of it.
     pub(super) fn decide(&mut self, judged: Judged) -> Decided {
         let summary = &mut self.summaries[index(judged.region)];
-        let is_due = || summary.is_due(&judged.means, judged.summary_level);
-        let action = judged.verdict.action(&self.camera, is_due);
-        summary.follow(action, &judged.means);
+        let Judged { verdict, means, summary_level, .. } = &judged;
+        let (irrelevant, level) = (self.camera.irrelevant(), *summary_level);
+        let action = summary.decide(irrelevant, verdict.srs, verdict.trs, means, level);
         let referenced = &mut self.referenced[index(judged.region)];
         match (self.camera.temporal().reference, action) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Hold) => {}

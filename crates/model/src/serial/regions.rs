@@ -115,10 +115,9 @@ impl Regions {
         self.scorer.take(stream, border);
         let verdict = Verdict::of(&self.camera, &self.scorer, self.reference(region), thresholds);
         let means = self.scorer.means();
-        let shown = &mut self.summaries[region];
-        let is_due = || shown.is_due(&means, thresholds.summary_level);
-        let action = verdict.action(&self.camera, is_due);
-        shown.follow(action, &means);
+        let (irrelevant, level) = (self.camera.irrelevant(), thresholds.summary_level);
+        let summary = &mut self.summaries[region];
+        let action = summary.decide(irrelevant, verdict.srs, verdict.trs, &means, level);
         let payload = self.scorer.payload().collect();
         self.judged[region] = Judged { verdict, action, payload, means };
         let own = region * self.pixels..(region + 1) * self.pixels;

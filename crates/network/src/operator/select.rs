@@ -88,12 +88,14 @@ impl Operator for Select {
 
     fn compute(&self, job: Job<'_>) {
         let (inputs, form) = (job.inputs, job.form);
-        let steps: Vec<_> = inputs.iter().map(|input| form.steps_of(input.form())).collect();
+        let steps = |at: usize| form.steps_of(inputs[at].form());
+        let (conditions, of_conditions) = (inputs[0].values::<u8>(), steps(0));
+        let [chosen, other] = [1, 2].map(|at| (inputs[at].values::<f32>(), steps(at)));
         job.fill::<f32>(|run, to| {
             for (place, to) in run.zip(to) {
-                let is = inputs[0].values::<u8>()[form.offset(place, &steps[0])] != 0;
-                let from = if is { 1 } else { 2 };
-                *to = inputs[from].values::<f32>()[form.offset(place, &steps[from])];
+                let is = conditions[form.offset(place, &of_conditions)] != 0;
+                let (values, steps) = if is { &chosen } else { &other };
+                *to = values[form.offset(place, steps)];
             }
         });
     }

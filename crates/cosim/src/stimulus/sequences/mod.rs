@@ -58,12 +58,17 @@ pub(super) enum End {
 impl Sequence {
     /// Frames whose regions show different motifs, thresholds that hit them exactly; then everything leaves.
     const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Self {
+        Self::aimed(ThresholdAim::Exact, name, motifs)
+    }
+
+    /// The same with thresholds that are chosen in another way.
+    const fn aimed(aim: ThresholdAim, name: &'static str, motifs: &'static [Motif]) -> Self {
         Self {
             name,
             motifs,
             mixed: true,
             end: End::Drained,
-            aim: ThresholdAim::Exact,
+            aim,
             stalls: false,
             lapse: Lapse::None,
         }
@@ -71,7 +76,7 @@ impl Sequence {
 
     /// Frames with as many relevant regions as can be, and a reset.
     const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Self {
-        Self { end, aim: ThresholdAim::Least, ..Self::mixed(name, motifs) }
+        Self { end, ..Self::aimed(ThresholdAim::Least, name, motifs) }
     }
 }
 

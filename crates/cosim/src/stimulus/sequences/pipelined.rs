@@ -9,11 +9,10 @@ use foveate_design::PipelinedDesign;
 
 /// Every sequence, the most telling first.
 pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
-    let mixed = Sequence::mixed;
+    let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
     let flushing = End::Flushing(settling_clocks(design));
     // At once, while most is under way.
     let loading = End::Loading(0);
-    let aimed = |aim, name, motifs| Sequence { aim, ..mixed(name, motifs) };
     let cut = |end, sequence| Sequence { end, ..sequence };
     let configured = ThresholdAim::Design;
     let mut list = vec![

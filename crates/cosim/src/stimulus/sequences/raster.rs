@@ -10,7 +10,8 @@ use foveate_design::{RasterDesign, RasterTiming, Store};
 /// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
 /// that what they leave behind meets another kind of frame each time.
 pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
-    let (mixed, cut, loading) = (Sequence::mixed, Sequence::cut, End::Loading(2));
+    let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
+    let loading = End::Loading(2);
     let timing = RasterTiming::of(design);
     let flushing = End::Flushing(timing.edges_to_ready());
     let leaving = End::Leaving(2 * u64::from(timing.region_words));
@@ -27,26 +28,26 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
         Sequence { stalls: true, ..cut("reset at a loss", &[Noise, Binary, Max], End::Losing) },
         mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
         cut("reset while pixels leave", &[Noise], leaving),
-        Sequence {
-            aim: ThresholdAim::Design,
-            ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same])
-        },
+        aimed(ThresholdAim::Design, "configured", &[Smooth, Bump, Ramp, Flat, Same]),
         cut("reset after one frame", &[TwoPoint], flushing),
+        aimed(ThresholdAim::Least, "blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel]),
         Sequence {
-            aim: ThresholdAim::Least,
-            ..mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel])
-        },
-        Sequence {
-            aim: ThresholdAim::Least,
             stalls: true,
-            ..mixed("blanked and lost", &[Noise, Zero, Noise, Same, Zero, Noise, Same])
+            ..aimed(
+                ThresholdAim::Least,
+                "blanked and lost",
+                &[Noise, Zero, Noise, Same, Zero, Noise, Same],
+            )
         },
         mixed("halves", &[HalfMean, TwoPoint, HalfMean]),
         mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
         Sequence {
             mixed: false,
-            aim: ThresholdAim::Largest,
-            ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
+            ..aimed(
+                ThresholdAim::Largest,
+                "largest",
+                &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
+            )
         },
     ];
     if design.periphery().is_some() {
@@ -58,31 +59,26 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     sequences
 }
 
-/// Means that meet the level or miss it by one, and some that are lost.
-fn means() -> [Sequence; 4] {
-    let mixed = Sequence::mixed;
+/// Means that meet the level or miss it by one, some that are lost, and some that are shown on while their region is held.
+fn means() -> [Sequence; 5] {
+    let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
     let configured = ThresholdAim::Design;
     [
+        aimed(configured, "means", &[Flat, MeanStep, MeanStep, MeanStep, MeanStep, MeanStep]),
         Sequence {
-            aim: configured,
-            ..mixed("means", &[Flat, MeanStep, MeanStep, MeanStep, MeanStep, MeanStep])
-        },
-        Sequence {
-            aim: configured,
             stalls: true,
-            ..mixed("means lost", &[Flat, MeanStep, Same, Step, Same, MeanStep, Flat])
+            ..aimed(configured, "means lost", &[Flat, MeanStep, Same, Step, Same, MeanStep, Flat])
         },
-        Sequence {
-            aim: configured,
-            ..mixed("means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep])
-        },
+        aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
         mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
+        aimed(ThresholdAim::Held, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
     ]
 }
 
 /// What a core must survive whose frame store is outside.
 fn failing(flushing: End) -> [Sequence; 7] {
-    let (mixed, cut, loading) = (Sequence::mixed, Sequence::cut, End::Loading(2));
+    let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
+    let loading = End::Loading(2);
     [
         Sequence {
             lapse: Lapse::Late,
@@ -94,8 +90,7 @@ fn failing(flushing: End) -> [Sequence; 7] {
         },
         Sequence {
             lapse: Lapse::Gone,
-            aim: ThresholdAim::Least,
-            ..mixed("lost references", &[Noise, Same, Same, Noise])
+            ..aimed(ThresholdAim::Least, "lost references", &[Noise, Same, Same, Noise])
         },
         cut("reset while references come", &[Noise, Same, Same], loading),
         Sequence {
@@ -105,8 +100,7 @@ fn failing(flushing: End) -> [Sequence; 7] {
         Sequence {
             lapse: Lapse::Wrong,
             mixed: false,
-            aim: ThresholdAim::Design,
-            ..mixed("wrong references of extremes", &[Max, Max, Zero, Zero])
+            ..aimed(ThresholdAim::Design, "wrong references of extremes", &[Max, Max, Zero, Zero])
         },
         cut("reset after wrong references", &[Smooth, Same], flushing),
     ]

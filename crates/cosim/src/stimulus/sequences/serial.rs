@@ -9,7 +9,8 @@ use foveate_design::{Phase, SerialDesign, SerialTiming};
 /// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
 /// that what they leave behind meets another kind of frame each time.
 pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
-    let (mixed, cut, loading) = (Sequence::mixed, Sequence::cut, End::Loading(2));
+    let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
+    let loading = End::Loading(2);
     let timing = SerialTiming::of(design);
     let before = |&&(phase, _): &&(Phase, u64)| phase != Phase::RotateCount;
     let steps: u64 = timing.phases().iter().take_while(before).map(|&(_, steps)| steps).sum();
@@ -29,10 +30,7 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
         cut("reset at the start", &[Binary], End::Begun),
         mixed("changes", &[Smooth, Bump, LightStep, Same, Bump]),
         cut("reset in a rotation", &[Noise, Binary], rotating),
-        Sequence {
-            aim: ThresholdAim::Design,
-            ..mixed("configured", &[Smooth, Bump, Ramp, Flat, Same])
-        },
+        aimed(ThresholdAim::Design, "configured", &[Smooth, Bump, Ramp, Flat, Same]),
         cut("reset while unloading", &[Noise], unloading),
         cut("blanked", &[Noise, Same, Zero, Zero, Noise, Same, MovingPixel], End::Drained),
         cut("reset at work", &[TwoPoint, Max], working),
@@ -41,8 +39,11 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
         mixed("fades", &[Smooth, Flicker, Fade, Fade, MovingPixel]),
         Sequence {
             mixed: false,
-            aim: ThresholdAim::Largest,
-            ..mixed("largest", &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant])
+            ..aimed(
+                ThresholdAim::Largest,
+                "largest",
+                &[Quadrant, Quadrant, Quadrant, Quadrant, Quadrant],
+            )
         },
     ];
     if design.periphery().is_some() {
@@ -56,10 +57,11 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
                 ),
                 cut("reset while means leave", &[Flat, MeanStep], unloading),
                 cut("reset while means pass", &[MeanStep, Flat], passing),
-                Sequence {
-                    aim: ThresholdAim::Design,
-                    ..mixed("means kept", &[Flat, MeanStep, MeanStep, Step, MeanStep, MeanStep])
-                },
+                aimed(
+                    ThresholdAim::Design,
+                    "means kept",
+                    &[Flat, MeanStep, MeanStep, Step, MeanStep, MeanStep],
+                ),
             ],
         );
     }

@@ -3,6 +3,7 @@
 
 use foveate_cosim::{Field, Layout, Recording};
 use foveate_design::PortRole;
+use std::collections::{BTreeMap, BTreeSet};
 
 pub(crate) fn field(layout: &Layout, role: PortRole) -> &Field {
     layout.fields().iter().find(|field| field.port.role == role).unwrap()
@@ -22,4 +23,28 @@ pub(crate) fn clocks(recording: &Recording) -> Vec<(Vec<u8>, Vec<u8>)> {
 /// The value of a port with one lane; 0 where there is no such port.
 pub(crate) fn value(layout: &Layout, role: PortRole, record: &[u8]) -> u64 {
     layout.fields().iter().find(|field| field.port.role == role).map_or(0, |f| f.get(record, 0))
+}
+
+/// What the decisions of each region are, each with the one before it or the reset; of an array of which all regions are decided
+/// at once, those of the first.
+pub(crate) fn pairs_of_decisions(recording: &Recording) -> BTreeSet<(&'static str, &'static str)> {
+    let (inputs, outputs) = (recording.inputs(), recording.outputs());
+    let (mut before, mut found) = (BTreeMap::new(), BTreeSet::new());
+    for (input, output) in clocks(recording) {
+        if value(inputs, PortRole::Reset, &input) == 1 {
+            before.clear();
+        }
+        let is = |role| value(outputs, role, &output) == 1;
+        if is(PortRole::DecisionValid) {
+            let now = match (is(PortRole::Active), is(PortRole::Srs), is(PortRole::Summary)) {
+                (true, _, _) => "active",
+                (false, true, _) => "held",
+                (false, false, true) => "sent",
+                (false, false, false) => "kept",
+            };
+            let region = value(outputs, PortRole::Region, &output);
+            found.insert((before.insert(region, now).unwrap_or("reset"), now));
+        }
+    }
+    found
 }

@@ -109,6 +109,7 @@ pub(crate) const RASTER: &[Fault] = &[
     fault("index", RasterMeansDeep, "raster_summary", ".read_address_i(sent_place)", ".read_address_i(given_place)"),
 
     fault("operator", RasterMeans, "raster_decision", "(!decided_shown || decided_differs)", "decided_differs"),
+    fault("operator", RasterMeans, "raster_decision", "!srs || (decided_shown && !trs)", "!srs"),
     fault("operator", RasterMeansDeep, "raster_decision", "!srs || (decided_shown && !trs)", "!srs"),
     fault("operator", RasterMeans, "raster_decision", "!srs || (decided_shown && !trs)", "!srs || decided_shown"),
     fault("reset", RasterMeans, "raster_decision", "will_be_sent_o && !rst_i", "will_be_sent_o"),
