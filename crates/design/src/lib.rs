@@ -32,8 +32,8 @@ pub use foveate_camera::{
     Action, Camera, CameraConfig, Combine, ConfigError, DECISION_BITS, Decimal, DecisionConfig,
     DenoiseConfig, FeatureKind, Filter, FrameConfig, Irrelevant, Mean, Measure, Neighborhood,
     Payload, Periphery, PeripheryConfig, Reciprocal, Reference, RegionConfig, RenderConfig,
-    SpatialConfig, SpatialFeature, Temporal, TemporalConfig, Variance, Written, bits_for,
-    index_bits, mad_score_max,
+    SUMMARY_BLOCKS, SpatialConfig, SpatialFeature, Temporal, TemporalConfig, Variance, Written,
+    bits_for, index_bits, mad_score_max,
 };
 pub use hardware::Hardware;
 pub use interface::{BeatRegion, Interface, Stream, StreamRole};

@@ -2,7 +2,8 @@
 //! The designs that the cases run on.
 
 use foveate_design::{
-    Config, Decimal, Design, FeatureKind, Filter, Neighborhood, Payload, Reference, SpatialConfig,
+    Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
+    SUMMARY_BLOCKS, SpatialConfig,
 };
 
 /// A configuration for frames of `size` with regions of side `side` and pixels of `bits`, thresholds low
@@ -62,6 +63,27 @@ pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
                 }
             }
         }
+    }
+    designs
+}
+
+/// The same where irrelevant regions show the means of blocks, with thresholds between which random frames lie.
+pub(crate) fn with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+    let mut designs = Vec::new();
+    for (turn, one) in matrix(size, side, bits).iter().enumerate() {
+        let mut config = one.config();
+        config.camera.render.irrelevant = Irrelevant::Mean;
+        config.camera.periphery.blocks = Some(SUMMARY_BLOCKS[turn % SUMMARY_BLOCKS.len()]);
+        config.camera.periphery.level = Some((1 << bits) >> (turn % 7 + 1));
+        for spatial in &mut config.camera.spatial {
+            spatial.min_score = match spatial.feature {
+                FeatureKind::Edge | FeatureKind::Corner => {
+                    Some(Decimal::whole(u64::from(side * side / 2)))
+                }
+                FeatureKind::Mad | FeatureKind::Variance => Some(Decimal::whole(1 << (bits - 2))),
+            };
+        }
+        designs.push(design(&config));
     }
     designs
 }

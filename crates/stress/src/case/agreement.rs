@@ -5,7 +5,7 @@ use foveate_design::Design;
 use foveate_scenes::{Scene, SceneSize};
 use rayon::prelude::*;
 
-use crate::designs::matrix;
+use crate::designs::{matrix, with_means};
 use crate::pixels::Random;
 use crate::trio::{AgreementTally, compare};
 use crate::{CaseRow, Depth};
@@ -82,6 +82,20 @@ pub(crate) fn unrest(depth: Depth) -> Vec<CaseRow> {
     let designs = matrix((24, 16), 8, 8);
     let tally = all(&designs, |design| compare(design, random((24, 16), 8, frames), true));
     vec![row("models agree: gaps and resets", format!("{} designs", designs.len()), tally)]
+}
+
+/// Irrelevant regions that show the means of blocks, on frames that end within a region.
+pub(crate) fn means(depth: Depth) -> Vec<CaseRow> {
+    let frames = depth.pick(18, 200);
+    [(8, 8), (4, 12), (20, 8)]
+        .map(|(side, bits)| {
+            let designs = with_means((27, 18), side, bits);
+            let tally =
+                all(&designs, |design| compare(design, random((27, 18), bits, frames), true));
+            let designs = format!("N {side}, P {bits}, {} designs", designs.len());
+            row("models agree: means", designs, tally)
+        })
+        .into()
 }
 
 /// Random frames of which every second repeats half of the one before.

@@ -7,6 +7,7 @@ mod division;
 mod maxima;
 mod means;
 mod references;
+mod summaries;
 mod thresholds;
 mod wraps;
 
@@ -21,15 +22,18 @@ pub(crate) const ALL: &[Case] = &[
     maxima::counts,
     division::reciprocals,
     means::halves,
+    summaries::halves,
     cancellation::variance,
     thresholds::on_below_above,
     references::slow_fade,
     references::flicker,
     references::blanked,
     references::invariant_on_scenes,
+    summaries::fade,
     agreement::scenes,
     agreement::sizes,
     agreement::depths,
     agreement::unrest,
+    agreement::means,
     wraps::long_runs,
 ];

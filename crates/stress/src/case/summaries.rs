@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Means of blocks that irrelevant regions show: rounded right, and never far from the scene.
+
+use foveate_design::{Config, FeatureKind, Filter, Irrelevant, SUMMARY_BLOCKS};
+use foveate_frame::Frame;
+use foveate_model::FunctionalCamera;
+
+use crate::designs::{config, design};
+use crate::pixels::{Random, frame};
+use crate::{CaseRow, Depth};
+
+/// Regions of pixels that differ by one level are irrelevant, and show the means of blocks.
+fn with_means(size: (u32, u32), side: u32, bits: u32, blocks: u32, level: u32) -> Config {
+    let mut config = config(size, side, bits, &[FeatureKind::Edge]);
+    config.camera.denoise.filter = Filter::None;
+    config.camera.render.irrelevant = Irrelevant::Mean;
+    config.camera.periphery.blocks = Some(blocks);
+    config.camera.periphery.level = Some(level);
+    config
+}
+
+/// For every sum around a half, at both ends of the range of pixels, the screen shows the mean rounded up at one half: in exact rational arithmetic,
+/// `floor((2 sum + n) / (2 n))` of the n pixels of a block.
+pub(crate) fn halves(_: Depth) -> Vec<CaseRow> {
+    let sides = [(2, 1), (3, 1), (6, 2), (8, 4), (20, 4), (64, 1)];
+    let depths = [8, 16];
+    sides.iter().flat_map(|&sides| depths.map(|bits| around_halves(sides, bits))).collect()
+}
+
+fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
+    let design = design(&with_means((side, side), side, bits, blocks, 0));
+    let (block, max) = (side / blocks, (1 << bits) - 1);
+    let n = block * block;
+    let (mut wrong, mut tried, mut worst) = (0, 0, 0);
+    for base in [0, 1, max / 2, max - 1] {
+        for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
+            // In every block `above` pixels are one level higher: its mean is base + above / n.
+            let place = |x, y| (y % block) * block + x % block;
+            let region = frame((side, side), bits, |x, y| base + u32::from(place(x, y) < above));
+            let mean = base + u32::from(2 * above >= n);
+            let mut camera = FunctionalCamera::new(&design);
+            let outcome = camera.step(&region).expect("the region is a frame of the design");
+            for &shown in outcome.rendered.pixels() {
+                let error = u32::from(shown).abs_diff(mean);
+                (wrong, tried) = (wrong + u64::from(error > 0), tried + 1);
+                worst = worst.max(error);
+            }
+        }
+    }
+    let designs = format!("N {side}, P {bits}, {blocks}x{blocks} means");
+    CaseRow::none("means of blocks on one half", designs, "pixels wrong", (wrong, tried), worst)
+}
+
+/// One level per frame, up and down, and jumps: what a block shows is within the level of its mean, in every frame.
+pub(crate) fn fade(depth: Depth) -> Vec<CaseRow> {
+    let frames = depth.pick(600, 10_000);
+    let slow = |t: u32| if (t / 250).is_multiple_of(2) { t % 250 } else { 250 - t % 250 };
+    let mut jumps = Random::new(5);
+    let jumps: Vec<u32> =
+        (0..frames).map(|_| u32::try_from(jumps.below(256)).expect("a pixel has 8 bits")).collect();
+    let lights: [(&'static str, Vec<u32>); 2] =
+        [("one level per frame", (0..frames).map(slow).collect()), ("jumps", jumps)];
+    let mut rows = Vec::new();
+    for (name, lights) in lights {
+        for &blocks in SUMMARY_BLOCKS {
+            for level in [0, 4, 254] {
+                rows.push(followed(name, &lights, blocks, level));
+            }
+        }
+    }
+    rows
+}
+
+/// How far the screen is from a flat scene.
+fn followed(name: &str, lights: &[u32], blocks: u32, level: u32) -> CaseRow {
+    const SIZE: (u32, u32) = (13, 11);
+    let mut camera = FunctionalCamera::new(&design(&with_means(SIZE, 8, 8, blocks, level)));
+    let (mut wrong, mut tried, mut worst) = (0, 0, 0);
+    for &light in lights {
+        let flat: Frame = frame(SIZE, 8, |_, _| light);
+        let outcome = camera.step(&flat).expect("it is a frame of the design");
+        for &shown in outcome.rendered.pixels() {
+            let error = u32::from(shown).abs_diff(light);
+            (wrong, tried) = (wrong + u64::from(error > level), tried + 1);
+            worst = worst.max(error);
+        }
+    }
+    let frames = lights.len();
+    let designs = format!("{name}, {blocks}x{blocks} means, level {level}, {frames} frames");
+    CaseRow::none("means follow the scene", designs, "pixels off by more", (wrong, tried), worst)
+}
