@@ -17,16 +17,18 @@ import subprocess
 import sys
 import tempfile
 
-# How each network is shown frames, and how its outputs are read.
+# How each network is shown frames, and how its detections are read.
 NETWORKS = {
-    "yolox_nano.onnx": ["--framing", "letterbox", "--scale", "1/255", "--detect", "yolox"],
-    "FastestDet.onnx": ["--framing", "stretch", "--detect", "fastestdet"],
-    "yunet_n_320_320.onnx": ["--framing", "letterbox", "--scale", "1/255", "--detect", "yunet"],
-    "RFB-320.onnx": ["--framing", "stretch", "--mean", "0.498039", "--scale", "128/255", "--detect", "ssd"],
-    "SqueezeNet_fp16.onnx": ["--framing", "stretch", "--mean", "0.407843,0.458824,0.486275", "--scale", "1/255"],
-    "deeplab_nchw.onnx": ["--framing", "stretch", "--mean", "0.5", "--scale", "0.5"],
-    "prisma_nchw.onnx": ["--framing", "stretch"],
+    "yolox_nano.onnx": (["--framing", "letterbox", "--scale", "1/255"], "yolox"),
+    "FastestDet.onnx": (["--framing", "stretch"], "fastestdet"),
+    "yunet_n_320_320.onnx": (["--framing", "letterbox", "--scale", "1/255"], "yunet"),
+    "RFB-320.onnx": (["--framing", "stretch", "--mean", "0.498039", "--scale", "128/255"], "ssd"),
+    "SqueezeNet_fp16.onnx": (["--framing", "stretch", "--mean", "0.407843,0.458824,0.486275", "--scale", "1/255"], None),
+    "deeplab_nchw.onnx": (["--framing", "stretch", "--mean", "0.5", "--scale", "0.5"], None),
+    "prisma_nchw.onnx": (["--framing", "stretch"], None),
 }
+# Which objects of COCO a file of pedestrians has.
+PEDESTRIANS = "classes=0,height=80"
 
 
 def means(blocks, *more):
@@ -39,10 +41,12 @@ CAMERAS = {
     "hold": ["--preset", "steady"],
     "mean 1": means(1),
     "fovea (mean 2)": means(2),
+    "fovea; median": means(2, "--set", 'denoise.filter="median3x3"'),
     "mean 4": means(4),
-    "mean 4; no median; temporal.level 4": means(4, "--set", 'denoise.filter="none"', "--set", "temporal.level=4"),
-    "mean 4; level 2; min_score 2; temporal.level 4":
-        means(4, "--set", "periphery.level=2", "--set", "spatial.0.min_score=2", "--set", "temporal.level=4"),
+    "mean 4; level 2; temporal.level 4": means(4, "--set", "periphery.level=2", "--set", "temporal.level=4"),
+    "fovea; level 8": means(2, "--set", "periphery.level=8"),
+    "fovea; level 16": means(2, "--set", "periphery.level=16"),
+    "fovea; level 32": means(2, "--set", "periphery.level=32"),
 }
 COLUMNS = ["network", "clip", "camera", "frames", "sent_percent", "psnr_db", "macs_percent", "agreement_percent", "found", "kept_percent",
            "precision_percent", "objects", "ap50_whole", "ap50_seen"]
@@ -50,13 +54,12 @@ COLUMNS = ["network", "clip", "camera", "frames", "sent_percent", "psnr_db", "ma
 
 def run(network, clip, camera, frames):
     """The summary of a run."""
-    path, options = network
-    boxes = ["--boxes", "gt.txt", "--detect", "yolox,classes=0,height=80"] if os.path.isdir(clip) and "yolox" in path else []
-    if boxes:
-        options = [option for option in options if option not in ("--detect", "yolox")]
+    path, (options, detector) = network
+    boxes = ["--boxes", "gt.txt"] if os.path.isdir(clip) and detector == "yolox" else []
+    detect = ["--detect", f"{detector},{PEDESTRIANS}" if boxes else detector] if detector else []
     with tempfile.TemporaryDirectory() as folder:
         command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"), "--json", "--quiet",
-                   "--whole-frames", "--max-frames", str(frames), *options, *boxes, *camera]
+                   "--whole-frames", "--max-frames", str(frames), *options, *detect, *boxes, *camera]
         done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise SystemExit(f"sight: {' '.join(command)}: {done.stderr.strip()}")

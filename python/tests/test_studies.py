@@ -251,7 +251,8 @@ def test_savings_beside_accuracy(done: Path, sets: Path) -> None:
     words = ["savings", "-o", str(done), "--data", str(sets), "--sets", "mnist", *SMALL, "--seeds", "1", "--learned", "1"]
     assert main([*words, "--sizes", "8", "14", "--thresholds", "1", "--images", "4"]) == 0
     rows = json.loads((done / "savings.json").read_text())["rows"]
-    assert [row["camera"] for row in rows] == ["n8-edge1", "n14-edge1", "n8-edge1-shared", "n8-edge1-unfiltered"]
+    means = [f"n8-edge1-unfiltered-means{blocks}" for blocks in (1, 2, 4)]
+    assert [row["camera"] for row in rows] == ["n8-edge1", "n14-edge1", "n8-edge1-shared", "n8-edge1-unfiltered", *means]
     for row in rows:
         assert 0 < row["macs_share"] <= 1 and row["regions_difference"] is not None
     assert (done / "savings.svg").read_text().startswith("<?xml")

@@ -44,8 +44,8 @@ pub const PRESETS: &[Preset] = &[
     },
     Preset {
         name: "fovea",
-        summary: "pixels where it matters and the means of 2x2 blocks elsewhere: nothing stays black",
-        toml: "[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"mean\"\n",
+        summary: "pixels where it matters and the means of 2x2 blocks elsewhere, without denoising",
+        toml: "[denoise]\nfilter = \"none\"\n\n[temporal]\nreference = \"last-sent\"\n\n[render]\nirrelevant = \"mean\"\n",
     },
     Preset {
         name: "seamless",

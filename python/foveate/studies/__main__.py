@@ -45,16 +45,16 @@ def _parser() -> argparse.ArgumentParser:
         one.add_argument("--rate", type=float, default=0.001, help="rate of Adam at the start; it falls to 0 (default 0.001)")
         one.add_argument("--validation", type=int, default=5000, help="images at the end of the training images, to choose thresholds (default 5000)")
         one.add_argument("--limit", type=float, default=1.0, help="share of every part of the sets, 0 to 1")
+        one.add_argument("--model", default="lenet5", help="lenet5, resnet18, resnet50 or vgg16")
+        one.add_argument("--size", type=int, help="scale images to this width and height")
+        one.add_argument("--weights", type=Path, help="state_dict of torchvision's network to start from")
+        one.add_argument("--device", default="cpu", help="cpu or cuda")
         one.add_argument("--jobs", type=int, default=1, help="runs side by side, each on one thread; Ctrl-C lets those that have begun end")
     accuracy.add_argument("--thresholds", type=int, nargs="+", default=list(range(1, 11)), help="min_score of edge (default 1 to 10)")
     accuracy.add_argument("--seeds", type=int, default=10, help="seeds of the originals and of the chosen threshold (default 10)")
     accuracy.add_argument("--figure-seeds", type=int, default=3, help="seeds of every threshold (default 3)")
     accuracy.add_argument("--margin", type=float, default=0.2,
                           help="points of validation accuracy that the chosen threshold may lose (default 0.2)")
-    accuracy.add_argument("--model", default="lenet5", help="lenet5, resnet18, resnet50 or vgg16")
-    accuracy.add_argument("--size", type=int, help="scale images to this width and height")
-    accuracy.add_argument("--weights", type=Path, help="state_dict of torchvision's network to start from")
-    accuracy.add_argument("--device", default="cpu", help="cpu or cuda")
     savings.add_argument("--sizes", type=int, nargs="+", default=[4, 7, 8, 14], help="sizes of regions")
     savings.add_argument("--thresholds", type=int, nargs="+", default=[1, 2, 5, 10], help="min_score of edge")
     savings.add_argument("--seeds", type=int, default=3, help="networks that learn from originals and are tested on every camera (default 3)")
@@ -85,7 +85,7 @@ def _equipped(options: argparse.Namespace) -> None:
         "torch": True,
         "matplotlib": True,
         "onnx": options.study == "savings",
-        "torchvision": getattr(options, "model", "lenet5") != "lenet5",
+        "torchvision": options.model != "lenet5",
         "PIL": "pictures" in options.sets,
     }
     need("foveate.studies", [name for name, is_needed in packages.items() if is_needed], "studies")
@@ -96,12 +96,10 @@ def _run(options: argparse.Namespace) -> int:
     from foveate.studies.runs import Bench, Settings
     from foveate.studies.training import check_device
 
-    check_device(getattr(options, "device", "cpu"))
-    chosen = {name: getattr(options, name, None) for name in ("model", "size", "device")}
-    weights = getattr(options, "weights", None)
+    check_device(options.device)
     settings = Settings(
-        epochs=options.epochs, batch=options.batch, rate=options.rate, validation=options.validation, limit=options.limit,
-        weights=None if weights is None else str(weights), **{name: value for name, value in chosen.items() if value is not None})
+        model=options.model, size=options.size, device=options.device, epochs=options.epochs, batch=options.batch, rate=options.rate,
+        validation=options.validation, limit=options.limit, weights=None if options.weights is None else str(options.weights))
     bench = Bench(options.output, options.data, settings, alone=len(options.sets) == 1)
     return _accuracy(bench, options) if options.study == "accuracy" else _savings(bench, options)
 
