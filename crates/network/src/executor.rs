@@ -122,9 +122,8 @@ impl<'a> Executor<'a> {
         );
         let start = Instant::now();
         self.accept(picture, changed);
-        for node in 0..self.work.len() {
-            self.run(node, changed);
-        }
+        // In the pool, where an operator need not wait until a thread has taken over its work.
+        rayon::scope(|_| (0..self.work.len()).for_each(|node| self.run(node, changed)));
         self.has_begun = true;
         self.overhead = start.elapsed().saturating_sub(self.computing.iter().sum());
         &self.work

@@ -63,7 +63,7 @@ pub(super) struct Gathered<T = f32> {
     strand: usize,
     /// Where the inputs of each chunk begin, for a tap that begins at 0.
     pub(super) places: Vec<usize>,
-    /// Where the inputs of each tap begin.
+    /// Where the inputs of each tap of each row of the window begin.
     pub(super) taps: Vec<usize>,
     /// Values of a row of the window.
     pub(super) pitch: usize,
@@ -80,7 +80,7 @@ impl<T: Copy + Default> Gathered<T> {
             stretches: Vec::with_capacity(chunks),
             strand: 0,
             places: vec![0; chunks],
-            taps: vec![0; columns.kernel],
+            taps: vec![0; rows * columns.kernel],
             pitch: 0,
             rows: vec![T::default(); rows * room],
             layout,
@@ -108,9 +108,15 @@ impl<T: Copy + Default> Gathered<T> {
             *place = end - more - CHUNK;
             next = Some(Chunk { x: chunk.x + CHUNK, y: chunk.y });
         }
-        self.strand = end;
-        self.pitch = end * strands.len();
-        self.taps.iter_mut().zip(taps).for_each(|(to, (strand, at))| *to = strand * end + at);
+        // Mostly there are as many inputs as before.
+        if self.strand != end {
+            (self.strand, self.pitch) = (end, end * strands.len());
+            for (row, own) in self.taps.chunks_mut(taps.len()).enumerate() {
+                for (to, (strand, at)) in own.iter_mut().zip(taps) {
+                    *to = row * self.pitch + strand * end + at;
+                }
+            }
+        }
     }
 
     /// Gathers some rows of the window, which count from the first row of the first channel.
@@ -136,29 +142,52 @@ impl<T: Copy> Picture<'_, T> {
         to: &mut [T],
         pitch: usize,
     ) {
-        let Window { stride, before, .. } = self.columns;
-        // The columns count from the first one of the padding.
-        let first = stretch.first.x * stride + strand;
-        let from = before.saturating_sub(first).div_ceil(stride).min(stretch.length);
-        let end = (before + self.width).saturating_sub(first).div_ceil(stride);
-        let inside = from..end.clamp(from, stretch.length);
-        let column = (first + from * stride).saturating_sub(before).min(self.width);
+        let first = stretch.first.x * self.columns.stride + strand;
+        let strand = Strand::new(self.columns, first, stretch.length, self.width);
         let kernel = self.rows.kernel;
         let (mut channel, mut tap) = (rows.start / kernel, rows.start % kernel);
         for to in to.chunks_mut(pitch).take(rows.len()) {
-            let to = &mut to[..stretch.length];
             let y = self.rows.input(stretch.first.y, tap, self.height);
-            if y.is_none() || inside.len() < stretch.length {
-                to.fill(self.padding);
-            }
-            if let Some(y) = y {
-                let row = (channel * self.height + y) * self.width;
-                take(&self.values[row + column..row + self.width], stride, &mut to[inside.clone()]);
-            }
+            let row = y.map(|y| channel * self.height + y);
+            let row = row.map(|row| &self.values[row * self.width..][..self.width]);
+            strand.gather(row, self.padding, &mut to[..stretch.length]);
             tap += 1;
             if tap == kernel {
                 (channel, tap) = (channel + 1, 0);
             }
+        }
+    }
+}
+
+/// Inputs of a row that are a stride apart.
+pub(super) struct Strand {
+    /// Those that exist.
+    inside: Range<usize>,
+    /// The column of the first of them.
+    column: usize,
+    stride: usize,
+}
+
+impl Strand {
+    /// So many inputs from column `first` on, which counts from the first one of the padding.
+    #[inline(always)]
+    pub(super) fn new(columns: Window, first: usize, length: usize, width: usize) -> Self {
+        let Window { stride, before, .. } = columns;
+        let from = before.saturating_sub(first).div_ceil(stride).min(length);
+        let end = (before + width).saturating_sub(first).div_ceil(stride);
+        let inside = from..end.clamp(from, length);
+        let column = (first + from * stride).saturating_sub(before).min(width);
+        Self { inside, column, stride }
+    }
+
+    /// Copies them from a row, which may not exist.
+    #[inline(always)]
+    pub(super) fn gather<T: Copy>(&self, row: Option<&[T]>, padding: T, to: &mut [T]) {
+        if row.is_none() || self.inside.len() < to.len() {
+            to.fill(padding);
+        }
+        if let Some(row) = row {
+            take(&row[self.column..], self.stride, &mut to[self.inside.clone()]);
         }
     }
 }
@@ -169,8 +198,15 @@ fn take<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
     match stride {
         1 => copy(&from[..to.len()], to),
         2 => {
-            let from = &from[..(2 * to.len()).saturating_sub(1)];
-            to.iter_mut().enumerate().for_each(|(at, to)| *to = from[2 * at]);
+            // Blocks of a known size become vector instructions.
+            let (whole, rest) = to.as_chunks_mut::<CHUNK>();
+            let (wide, _) = from.as_chunks::<{ 2 * CHUNK }>();
+            let done = whole.len().min(wide.len());
+            for (to, from) in whole.iter_mut().zip(wide) {
+                *to = std::array::from_fn(|at| from[2 * at]);
+            }
+            let rest = whole[done..].as_flattened_mut().iter_mut().chain(rest);
+            rest.zip(from[2 * CHUNK * done..].iter().step_by(2)).for_each(|(to, &from)| *to = from);
         }
         stride => to.iter_mut().zip(from.iter().step_by(stride)).for_each(|(to, &from)| *to = from),
     }
@@ -178,9 +214,10 @@ fn take<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
 
 /// Copies with two accesses that may overlap as long as that is enough: most stretches are short.
 #[inline(always)]
-fn copy<T: Copy>(from: &[T], to: &mut [T]) {
+pub(super) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     match to.len() {
-        length if length < CHUNK => to.copy_from_slice(from),
+        length if length < CHUNK / 2 => to.iter_mut().zip(from).for_each(|(to, &from)| *to = from),
+        length if length < CHUNK => copy_ends::<_, { CHUNK / 2 }>(from, to),
         length if length <= 2 * CHUNK => copy_ends::<_, CHUNK>(from, to),
         length if length <= 4 * CHUNK => copy_ends::<_, { 2 * CHUNK }>(from, to),
         _ => {

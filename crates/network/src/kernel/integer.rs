@@ -64,7 +64,7 @@ impl ByteWeights {
     }
 }
 
-/// Computes the channels of `outputs` at the chunks, which are in their rows. The picture's padding is its zero point. `finish` makes an output
+/// Computes the channels of `outputs` at the chunks, which they hold. The picture's padding is its zero point. `finish` makes an output
 /// of a channel and its sum.
 pub(crate) fn convolve_bytes<X: Byte, Y: Number>(
     level: Level,
@@ -95,7 +95,7 @@ impl<X: Byte, Y: Number, F: Fn(usize, i32) -> Y> Work<'_, X, Y, F> {
     /// The products, which take most of the time, know neither the kind of the inputs nor that of the outputs: they are compiled once.
     fn run<const LANES: usize, const FUSED: bool>(self) {
         let Self { level, picture, weights, chunks, outputs, finish } = self;
-        let Outputs { mut planes, top, blocks, width } = outputs;
+        let Outputs { mut planes, first: start, blocks, width } = outputs;
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
         let (first, stride) = (first.start, last.end - first.start);
         let taps = picture.columns.kernel;
@@ -131,8 +131,9 @@ impl<X: Byte, Y: Number, F: Fn(usize, i32) -> Y> Work<'_, X, Y, F> {
             for (sums, chunks) in sums.chunks(stride).zip(chunks.chunks(LANES / CHUNK)) {
                 for ((channel, sums), plane) in (first..).zip(sums).zip(&mut planes) {
                     for (sums, chunk) in sums.chunks(CHUNK).zip(chunks) {
-                        let row = &mut plane[(chunk.y - top) * width..][chunk.x..width];
-                        for (output, &sum) in row.iter_mut().zip(sums) {
+                        let places = chunk.places(width);
+                        let to = &mut plane[places.start - start..places.end - start];
+                        for (output, &sum) in to.iter_mut().zip(sums) {
                             *output = finish(channel, sum);
                         }
                     }
@@ -222,15 +223,12 @@ impl<X: Byte> Task for DepthwiseBytes<'_, X> {
         for (chunk, sums) in chunks.iter().zip(sums) {
             gathered.choose(std::slice::from_ref(chunk));
             gathered.gather(&picture, &rows);
-            let Gathered { rows, pitch, taps, .. } = &gathered;
             sums.fill(0);
-            for (weights, row) in weights.chunks(taps.len()).zip(rows.chunks(*pitch)) {
-                for (&weight, &tap) in weights.iter().zip(taps) {
-                    let weight = i32::from(weight) - i32::from(weights_zero);
-                    for (sum, &input) in sums.iter_mut().zip(&row[tap..]) {
-                        let input: i32 = input.into();
-                        *sum = sum.wrapping_add(weight * (input - zero));
-                    }
+            for (&weight, &tap) in weights.iter().zip(&gathered.taps) {
+                let weight = i32::from(weight) - i32::from(weights_zero);
+                for (sum, &input) in sums.iter_mut().zip(&gathered.rows[tap..]) {
+                    let input: i32 = input.into();
+                    *sum = sum.wrapping_add(weight * (input - zero));
                 }
             }
         }

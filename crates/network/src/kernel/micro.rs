@@ -23,26 +23,24 @@ pub(super) fn multiply<
     sums: &mut [[f32; LANES]; CHANNELS],
 ) {
     let mut own = *sums;
-    let Gathered { taps, rows, pitch, .. } = gathered;
-    for (weights, row) in weights.chunks(taps.len()).zip(rows.chunks(*pitch)) {
-        for (weights, &tap) in weights.iter().zip(taps) {
-            let mut inputs = [0.0; LANES];
-            if IS_ROW {
-                inputs.copy_from_slice(&row[places[0] + tap..][..LANES]);
-            } else {
-                for (inputs, place) in inputs.chunks_mut(CHUNK).zip(places) {
-                    inputs.copy_from_slice(&row[place + tap..][..CHUNK]);
-                }
+    let Gathered { taps, rows, .. } = gathered;
+    for (weights, &tap) in weights.iter().zip(taps) {
+        let mut inputs = [0.0; LANES];
+        if IS_ROW {
+            inputs.copy_from_slice(&rows[places[0] + tap..][..LANES]);
+        } else {
+            for (inputs, place) in inputs.chunks_mut(CHUNK).zip(places) {
+                inputs.copy_from_slice(&rows[place + tap..][..CHUNK]);
             }
-            for channel in 0..CHANNELS {
-                for lane in 0..LANES {
-                    let sum = &mut own[channel][lane];
-                    *sum = if FUSED {
-                        weights[channel].mul_add(inputs[lane], *sum)
-                    } else {
-                        weights[channel] * inputs[lane] + *sum
-                    };
-                }
+        }
+        for channel in 0..CHANNELS {
+            for lane in 0..LANES {
+                let sum = &mut own[channel][lane];
+                *sum = if FUSED {
+                    weights[channel].mul_add(inputs[lane], *sum)
+                } else {
+                    weights[channel] * inputs[lane] + *sum
+                };
             }
         }
     }

@@ -2,6 +2,7 @@
 //! The inner loops of convolutions. Every output is summed in one fixed order, whoever computes it and whatever is computed beside it, so
 //! that a part of a tensor has the same bits as in the whole.
 
+mod areas;
 mod blocking;
 mod chunks;
 mod depthwise;
@@ -12,9 +13,10 @@ mod panels;
 mod parts;
 mod weights;
 
+pub(crate) use areas::areas;
 pub(crate) use blocking::Blocking;
-pub(crate) use chunks::{CHUNK, Chunk, chunks};
-pub(crate) use depthwise::Depthwise;
+pub(crate) use chunks::{CHUNK, Chunk, chunks, chunks_in_a_row};
+pub(crate) use depthwise::{Depthwise, Layout, Planes};
 pub(crate) use gather::Picture;
 pub(crate) use integer::{ByteWeights, DepthwiseBytes, EXACT, convolve_bytes};
 pub(crate) use panels::{Outputs, convolve, scheduled};

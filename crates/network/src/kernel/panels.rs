@@ -19,18 +19,19 @@ pub(crate) fn scheduled(chunks: usize, blocking: Blocking) -> usize {
     (chunks * CHUNK).next_multiple_of(blocking.lanes)
 }
 
-/// Some rows of some channels of the outputs.
+/// Neighboring positions of some channels of the outputs.
 pub(crate) struct Outputs<'a, T = f32> {
-    /// These rows of each channel, of `width` positions.
+    /// These positions of each channel.
     pub(crate) planes: Vec<&'a mut [T]>,
-    /// The first row.
-    pub(crate) top: usize,
+    /// The first of these positions.
+    pub(crate) first: usize,
     /// The blocks of these channels.
     pub(crate) blocks: &'a [Range<usize>],
+    /// Positions of a row.
     pub(crate) width: usize,
 }
 
-/// Computes the channels of `outputs` at the chunks, which are in their rows. `finish` is applied to every output.
+/// Computes the channels of `outputs` at the chunks, which they hold. `finish` is applied to every output.
 pub(crate) fn convolve(
     level: Level,
     picture: &Picture<'_>,
@@ -61,40 +62,58 @@ struct Of<'a, F, const LANES: usize, const FUSED: bool>(Work<'a, F>);
 impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F, LANES, FUSED> {
     #[inline(always)]
     fn run(self) {
-        let Work { picture, weights, chunks, outputs, finish } = self.0;
-        let Outputs { mut planes, top, blocks, width } = outputs;
+        let Work { picture, weights, chunks, mut outputs, finish } = self.0;
+        let blocks = outputs.blocks;
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
-        let (first, stride) = (first.start, last.end - first.start);
+        let (first, channels) = (first.start, last.end - first.start);
         let taps = picture.columns.kernel;
-        let rows = weights.depth() / taps;
-        let at_once = rows.min((DEPTH / taps).max(1));
+        let all = weights.depth() / taps;
+        let at_once = all.min((DEPTH / taps).max(1));
         let mut gathered = Gathered::new(picture.columns, GROUP * LANES / CHUNK, at_once);
+        // Sums that are complete at once need no room of their own.
+        let is_once = at_once == all;
+        let largest = blocks.iter().map(Range::len).max().unwrap_or_default();
+        let stride = if is_once { largest } else { channels };
         let mut sums = vec![[0.0; LANES]; stride * GROUP];
         for group in chunks.chunks(GROUP * LANES / CHUNK) {
-            let panels = group.len().div_ceil(LANES / CHUNK);
-            for panel in sums.chunks_mut(stride).take(panels) {
-                for (channel, sum) in (first..).zip(panel) {
-                    *sum = [weights.bias(channel); LANES];
-                }
-            }
             gathered.choose(group);
-            for from in (0..rows).step_by(at_once) {
-                let rows = from..rows.min(from + at_once);
+            for from in (0..all).step_by(at_once) {
+                let rows = from..all.min(from + at_once);
                 gathered.gather(picture, &rows);
                 for block in blocks {
                     let products = weights.of(block, &(rows.start * taps..rows.end * taps));
-                    for (panel, sums) in sums.chunks_mut(stride).take(panels).enumerate() {
-                        let sums = &mut sums[block.start - first..][..block.len()];
+                    let place = if is_once { 0 } else { block.start - first };
+                    let panels = sums.chunks_mut(stride).zip(group.chunks(LANES / CHUNK));
+                    for (panel, (sums, chunks)) in panels.enumerate() {
+                        let sums = &mut sums[place..][..block.len()];
+                        if from == 0 {
+                            begin(sums, weights, block.start);
+                        }
                         add_block::<LANES, FUSED>(products, &gathered, panel, sums);
+                        if rows.end == all {
+                            end(sums, &finish);
+                            outputs.scatter(sums, block.start - first, chunks);
+                        }
                     }
                 }
             }
-            for (sums, chunks) in sums.chunks(stride).zip(group.chunks(LANES / CHUNK)) {
-                for (sums, plane) in sums.iter().zip(&mut planes) {
-                    scatter(sums, chunks, (plane, top, width), &finish);
-                }
-            }
         }
+    }
+}
+
+/// Every sum begins with the bias of its channel.
+#[inline(always)]
+fn begin<const LANES: usize>(sums: &mut [[f32; LANES]], weights: &Weights, first: usize) {
+    for (sums, channel) in sums.iter_mut().zip(first..) {
+        *sums = [weights.bias(channel); LANES];
+    }
+}
+
+/// Makes outputs of sums: of all lanes, in vector instructions, though not each may have a position.
+#[inline(always)]
+fn end<const LANES: usize>(sums: &mut [[f32; LANES]], finish: impl Fn(f32) -> f32) {
+    for sum in sums.as_flattened_mut() {
+        *sum = finish(*sum);
     }
 }
 
@@ -132,27 +151,31 @@ fn add<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
     }
 }
 
-/// Writes the outputs of a channel to their positions.
-#[inline(always)]
-fn scatter<const LANES: usize>(
-    sums: &[f32; LANES],
-    chunks: &[Chunk],
-    (plane, top, width): (&mut [f32], usize, usize),
-    finish: impl Fn(f32) -> f32,
-) {
-    let place = |chunk: &Chunk| (chunk.y - top) * width + chunk.x;
-    let is_row = chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK == place(&pair[1]));
-    if is_row && chunks.len() * CHUNK == LANES && width >= CHUNK {
-        let to: &mut [f32; LANES] =
-            plane[place(&chunks[0])..].first_chunk_mut().expect("chunks are inside");
-        to.iter_mut().zip(sums).for_each(|(output, &sum)| *output = finish(sum));
-        return;
-    }
-    for (sums, chunk) in sums.chunks(CHUNK).zip(chunks) {
-        let y = chunk.y - top;
-        let row = &mut plane[y * width + chunk.x..(y + 1) * width];
-        for (output, &sum) in row.iter_mut().zip(sums) {
-            *output = finish(sum);
+impl Outputs<'_> {
+    /// Writes the outputs of some channels to their positions.
+    #[inline(always)]
+    fn scatter<const LANES: usize>(
+        &mut self,
+        outputs: &[[f32; LANES]],
+        first: usize,
+        chunks: &[Chunk],
+    ) {
+        let place = |chunk: &Chunk| chunk.places(self.width).start - self.first;
+        let is_row = chunks.windows(2).all(|pair| place(&pair[0]) + CHUNK == place(&pair[1]));
+        let is_whole = is_row && chunks.len() * CHUNK == LANES && self.width >= CHUNK;
+        for (outputs, plane) in outputs.iter().zip(&mut self.planes[first..]) {
+            if is_whole {
+                let to = plane[place(&chunks[0])..].first_chunk_mut();
+                *to.expect("chunks are inside") = *outputs;
+                continue;
+            }
+            for (outputs, chunk) in outputs.as_chunks::<CHUNK>().0.iter().zip(chunks) {
+                let to = &mut plane[place(chunk)..];
+                match to.first_chunk_mut() {
+                    Some(to) if self.width >= CHUNK => *to = *outputs,
+                    _ => to[..self.width].copy_from_slice(&outputs[..self.width]),
+                }
+            }
         }
     }
 }

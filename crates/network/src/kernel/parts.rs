@@ -3,35 +3,34 @@
 
 use super::chunks::{CHUNK, Chunk};
 use super::panels::Outputs;
-use crate::form::Form;
 use std::ops::Range;
 
 /// Positions that make it worth to share them: with fewer, threads share the channels, so that each has weights of its own.
 const MANY: usize = 1024;
 
-/// The chunks and outputs of every part. `values` are the channels of all blocks one after the other, each of the positions of `form`.
+/// The chunks and outputs of every part. `values` are the channels of all blocks one after the other, each of so many rows and columns.
 pub(crate) fn parts<'a, T>(
     blocks: &'a [Range<usize>],
     chunks: &'a [Chunk],
     values: &'a mut [T],
-    form: &Form,
+    size: [usize; 2],
 ) -> Vec<(&'a [Chunk], Outputs<'a, T>)> {
     let threads = rayon::current_num_threads();
     if threads == 1 || chunks.len() * CHUNK >= MANY * threads {
-        by_rows(blocks, cut(chunks, threads), values, form)
+        by_places(blocks, cut(chunks, threads, size[1]), values, size)
     } else {
-        by_channels(blocks, chunks, values, form, threads)
+        by_channels(blocks, chunks, values, size, threads)
     }
 }
 
-/// Cuts chunks between rows into at most so many parts of about the same length.
-fn cut(chunks: &[Chunk], parts: usize) -> Vec<&[Chunk]> {
+/// Cuts chunks where they share no position into at most so many parts of about the same length.
+fn cut(chunks: &[Chunk], parts: usize, width: usize) -> Vec<&[Chunk]> {
     let mut rest = chunks;
     let mut found = Vec::new();
     for left in (1..=parts).rev() {
         let Some(last) = rest.len().div_ceil(left).checked_sub(1) else { break };
-        let row = rest[last].y;
-        let end = rest.partition_point(|chunk| chunk.y <= row);
+        let done = rest[last].places(width).end;
+        let end = rest.partition_point(|chunk| chunk.places(width).start < done);
         let (own, others) = rest.split_at(end);
         found.push(own);
         rest = others;
@@ -39,26 +38,25 @@ fn cut(chunks: &[Chunk], parts: usize) -> Vec<&[Chunk]> {
     found
 }
 
-fn by_rows<'a, T>(
+fn by_places<'a, T>(
     blocks: &'a [Range<usize>],
     parts: Vec<&'a [Chunk]>,
     values: &'a mut [T],
-    form: &Form,
+    [height, width]: [usize; 2],
 ) -> Vec<(&'a [Chunk], Outputs<'a, T>)> {
-    let width = form.width();
     let output = |chunks: &'a [Chunk]| {
-        let outputs = Outputs { planes: Vec::new(), top: chunks[0].y, blocks, width };
-        (chunks, outputs)
+        let first = chunks[0].places(width).start;
+        (chunks, Outputs { planes: Vec::new(), first, blocks, width })
     };
     let mut found: Vec<_> = parts.into_iter().map(output).collect();
-    for mut rest in values.chunks_mut(form.places()) {
-        let mut row = 0;
+    for mut rest in values.chunks_mut(height * width) {
+        let mut done = 0;
         for (chunks, outputs) in &mut found {
-            let end = chunks[chunks.len() - 1].y + 1;
-            let (_, own) = rest.split_at_mut((outputs.top - row) * width);
-            let (own, others) = own.split_at_mut((end - outputs.top) * width);
+            let end = chunks[chunks.len() - 1].places(width).end;
+            let (_, own) = rest.split_at_mut(outputs.first - done);
+            let (own, others) = own.split_at_mut(end - outputs.first);
             outputs.planes.push(own);
-            (rest, row) = (others, end);
+            (rest, done) = (others, end);
         }
     }
     found
@@ -68,14 +66,14 @@ fn by_channels<'a, T>(
     blocks: &'a [Range<usize>],
     chunks: &'a [Chunk],
     values: &'a mut [T],
-    form: &Form,
+    [height, width]: [usize; 2],
     threads: usize,
 ) -> Vec<(&'a [Chunk], Outputs<'a, T>)> {
-    let mut planes = values.chunks_mut(form.places());
+    let mut planes = values.chunks_mut(height * width);
     let part = |blocks: &'a [Range<usize>]| {
         let channels: usize = blocks.iter().map(Range::len).sum();
         let planes = planes.by_ref().take(channels).collect();
-        (chunks, Outputs { planes, top: 0, blocks, width: form.width() })
+        (chunks, Outputs { planes, first: 0, blocks, width })
     };
     blocks.chunks(blocks.len().div_ceil(threads)).map(part).collect()
 }
@@ -83,13 +81,14 @@ fn by_channels<'a, T>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::form::Form;
     use crate::kernel::{Blocking, chunks};
     use crate::mask::Mask;
     use foveate_lanes::Level;
 
-    /// Every chunk is in one part, whose planes hold its rows: each writes its number over them, and nobody else does.
+    /// Every chunk is in one part, whose planes hold its positions: each writes its number over them, and nobody else does.
     #[test]
-    fn parts_are_all_chunks_and_share_no_row() {
+    fn parts_are_all_chunks_and_share_no_position() {
         let form = Form::features(vec![1, 13, 40, 70]);
         let blocks = Blocking::of(Level::detect()).blocks(13);
         let masks = [
@@ -103,14 +102,14 @@ mod tests {
         {
             let all = chunks(mask);
             let mut values = vec![0.0f32; form.elements()];
-            let parts = by_rows(&blocks, cut(&all, threads), &mut values, &form);
+            let parts = by_places(&blocks, cut(&all, threads, 70), &mut values, [40, 70]);
             assert!(parts.len() <= threads);
             let mut seen = Vec::new();
             for (own, outputs) in parts {
                 assert_eq!(outputs.planes.len(), 13);
                 for plane in outputs.planes {
                     for chunk in own {
-                        for value in &mut plane[(chunk.y - outputs.top) * 70 + chunk.x..][..1] {
+                        for value in &mut plane[chunk.y * 70 + chunk.x - outputs.first..][..1] {
                             *value += 1.0;
                         }
                     }
@@ -126,7 +125,7 @@ mod tests {
                     "{threads}: {x}, {y}"
                 );
             }
-            let parts = by_channels(&blocks, &all, &mut values, &form, threads);
+            let parts = by_channels(&blocks, &all, &mut values, [40, 70], threads);
             let planes: usize = parts.iter().map(|(_, outputs)| outputs.planes.len()).sum();
             assert!(planes == 13 && parts.iter().all(|(own, _)| *own == all));
         }

@@ -160,8 +160,8 @@ fn exp(x: f32) -> f32 {
     let shifted = x * std::f32::consts::LOG2_E + ROUND;
     let n = shifted - ROUND;
     let r = x - n * 0.693_359_4 - n * -2.121_944_4e-4;
-    let series = [1.987_569_1e-4, 1.398_2e-3, 8.333_452e-3, 4.166_579_6e-2, 1.666_666_6e-1, 0.5];
-    let sum = series.iter().fold(0.0, |sum, term| sum * r + term);
+    let series = [1.398_2e-3, 8.333_452e-3, 4.166_579_6e-2, 1.666_666_6e-1, 0.5];
+    let sum = series.iter().fold(1.987_569_1e-4, |sum, term| sum * r + term);
     let power = f32::from_bits(shifted.to_bits().wrapping_add(127) << 23);
     (sum * r * r + r + 1.0) * power
 }

@@ -3,7 +3,10 @@
 
 use super::{Activation, Geometry, Job, Operator, Products, values_of};
 use crate::form::Form;
-use crate::kernel::{self, Blocking, CHUNK, Chunk, Depthwise, Outputs, Picture, Weights, chunks};
+use crate::kernel::{
+    self, Blocking, CHUNK, Chunk, Depthwise, Layout, Outputs, Picture, Planes, Weights, areas,
+    chunks, chunks_in_a_row,
+};
 use crate::mask::Mask;
 use foveate_lanes::Level;
 use rayon::prelude::*;
@@ -55,7 +58,7 @@ impl Operator for Conv {
     }
 
     fn compute(&self, job: Job<'_>) {
-        let chunks = chunks(job.at);
+        let chunks = self.chunks(job.at);
         if chunks.is_empty() {
             return;
         }
@@ -80,7 +83,7 @@ impl Operator for Conv {
     }
 
     fn scheduled(&self, at: &Mask) -> usize {
-        let chunks = chunks(at).len();
+        let chunks = self.chunks(at).len();
         match &self.kernels {
             Kernels::Depthwise { .. } => chunks * CHUNK,
             Kernels::Groups(groups) => kernel::scheduled(chunks, groups[0].blocking()),
@@ -98,10 +101,16 @@ impl Operator for Conv {
 }
 
 impl Conv {
+    /// The chunks of positions.
+    fn chunks(&self, at: &Mask) -> Vec<Chunk> {
+        if self.geometry.is_pointwise() { chunks_in_a_row(at) } else { chunks(at) }
+    }
+
     fn convolve(&self, job: Job<'_>, chunks: &[Chunk], finish: impl Fn(f32) -> f32 + Copy + Sync) {
         let Job { inputs, form, output, .. } = job;
         let output: &mut [f32] = values_of(output, form);
-        let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
+        let [height, width] = self.geometry.size(inputs[0].form());
+        let size = self.geometry.size(form);
         let places = form.places();
         let Geometry { rows, columns, groups, channels, inputs: all } = self.geometry;
         let of_group = all / groups * height * width;
@@ -116,21 +125,16 @@ impl Conv {
         match &self.kernels {
             Kernels::Depthwise { weights, bias } => {
                 let taps = rows.kernel * columns.kernel;
-                let channel = |(channel, outputs)| {
+                let layout = |area| Layout::new(area, rows, columns);
+                let layouts: &Vec<_> = &areas(chunks, size[1]).into_iter().map(layout).collect();
+                let channel = |planes: &mut Planes, (channel, outputs)| {
                     let (weights, bias) = (&weights[channel * taps..][..taps], bias[channel]);
-                    let picture = picture(channel);
-                    Depthwise {
-                        picture,
-                        weights,
-                        bias,
-                        chunks,
-                        outputs,
-                        width: form.width(),
-                        finish,
-                    }
-                    .convolve(self.level);
+                    let (picture, width) = (picture(channel), size[1]);
+                    Depthwise { picture, weights, bias, layouts, outputs, width, finish }
+                        .convolve(self.level, planes);
                 };
-                output.par_chunks_mut(places).enumerate().for_each(channel);
+                let channels = output.par_chunks_mut(places).enumerate();
+                channels.for_each_init(Planes::default, channel);
             }
             Kernels::Groups(kernels) => {
                 let of_group = channels / groups;
@@ -141,7 +145,7 @@ impl Conv {
                         kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
                     };
                     let blocks = weights.blocks();
-                    kernel::parts(blocks, chunks, values, form).into_par_iter().for_each(part);
+                    kernel::parts(blocks, chunks, values, size).into_par_iter().for_each(part);
                 }
             }
         }

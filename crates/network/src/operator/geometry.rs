@@ -59,6 +59,16 @@ impl Geometry {
         self.inputs == self.groups && self.channels == self.groups
     }
 
+    /// Whether each output sees the inputs of its own position alone.
+    pub(crate) fn is_pointwise(&self) -> bool {
+        [self.rows, self.columns] == [Window::SAME; 2]
+    }
+
+    /// Rows and columns of an input or output, as they are computed: for single positions it does not matter where a row ends.
+    pub(crate) fn size(&self, form: &Form) -> [usize; 2] {
+        if self.is_pointwise() { [1, form.places()] } else { [form.height(), form.width()] }
+    }
+
     /// The form of the output.
     pub(crate) fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
         let [channels, height, width] = features(only(inputs)?)?;

@@ -112,7 +112,9 @@ impl IntegerConv {
                     kernel::convolve_bytes(self.level, &picture, weights, chunks, outputs, finish);
                 };
                 let blocks = weights.packed().blocks();
-                kernel::parts(blocks, &chunks, values, form).into_par_iter().for_each(part);
+                kernel::parts(blocks, &chunks, values, [form.height(), form.width()])
+                    .into_par_iter()
+                    .for_each(part);
             }),
         }
     }

@@ -5,7 +5,7 @@ use super::geometry::outputs;
 use super::{Job, Operator, features, moved, only, values_of, wanted};
 use crate::element::{Element, Encoding, typed};
 use crate::form::Form;
-use crate::mask::Window;
+use crate::mask::{Mask, Window};
 use crate::values::Number;
 use rayon::prelude::*;
 
@@ -56,8 +56,15 @@ impl Pool {
                 let inside = |at: &usize| self.columns.input(x + at, tap, width).is_some();
                 let Some(first) = (0..run.len()).find(inside) else { continue };
                 let input = self.columns.input(x + first, tap, width).expect("it exists");
-                let inputs = line[input..].iter().step_by(self.columns.stride);
-                run[first..].iter_mut().zip(inputs).for_each(|(to, &value)| add(to, value));
+                let (run, line) = (run[first..].iter_mut(), &line[input..]);
+                match self.columns.stride {
+                    // Neighbors become vector instructions.
+                    1 => run.zip(line).for_each(|(to, &value)| add(to, value)),
+                    stride => {
+                        let inputs = line.iter().step_by(stride);
+                        run.zip(inputs).for_each(|(to, &value)| add(to, value));
+                    }
+                }
             }
         }
     }
@@ -73,14 +80,30 @@ impl Pool {
         (x..).map(move |at| rows * counted(self.columns, at, width, with_padding))
     }
 
-    /// The largest values of windows, of any kind.
+    /// The largest values of windows, of any kind: those of each row of a window, and then of these. Like a walk through the whole window this
+    /// finds the first of equal values and the last that is no number.
     fn largest<T: Number>(&self, job: Job<'_>) {
-        self.runs(job, |plane, size, place, run: &mut [T]| {
-            run.fill(T::LOWEST);
-            self.each(plane, size, place, run, |most, value: T| {
-                *most = if value.is_more(*most) { value } else { *most };
+        let Job { inputs, form, output, at } = job;
+        let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
+        let in_rows = Self { rows: Window::SAME, ..self.clone() };
+        let of_rows = Self { columns: Window::SAME, ..self.clone() };
+        let seen = at.seen(self.rows, Window::SAME, height, form.width());
+        let pass = |pool: &Self, from: &[T], size, at: &Mask, to: &mut [T]| {
+            for_each_run(at, to, |place, run| {
+                run.fill(T::LOWEST);
+                pool.each(from, size, place, run, |most, value| {
+                    *most = if value.is_more(*most) { value } else { *most };
+                });
             });
-        });
+        };
+        let channel = |rows: &mut Vec<T>, (output, plane): (&mut [T], &[T])| {
+            rows.resize(height * form.width(), T::LOWEST);
+            pass(&in_rows, plane, [height, width], &seen, rows);
+            pass(&of_rows, rows, [height, form.width()], at, output);
+        };
+        let planes = inputs[0].values().par_chunks(height * width);
+        let outputs = values_of(output, form).par_chunks_mut(form.places());
+        outputs.zip(planes).for_each_init(Vec::new, channel);
     }
 
     fn average(&self, job: Job<'_>, with_padding: bool) {
@@ -101,15 +124,20 @@ impl Pool {
     ) {
         let Job { inputs, form, output, at } = job;
         let size = [inputs[0].form().height(), inputs[0].form().width()];
-        let (places, width) = (form.places(), form.width());
         let planes = inputs[0].values::<T>().par_chunks(size[0] * size[1]);
-        values_of(output, form).par_chunks_mut(places).zip(planes).for_each(|(output, plane)| {
-            for y in 0..at.height() {
-                for (x, length) in at.runs(y) {
-                    fill(plane, size, (x, y), &mut output[y * width + x..][..length]);
-                }
-            }
+        let outputs = values_of(output, form).par_chunks_mut(form.places());
+        outputs.zip(planes).for_each(|(output, plane)| {
+            for_each_run(at, output, |place, run| fill(plane, size, place, run));
         });
+    }
+}
+
+/// Calls `fill` with the place and the values of every run of positions of a plane.
+fn for_each_run<T>(at: &Mask, plane: &mut [T], mut fill: impl FnMut((usize, usize), &mut [T])) {
+    for y in 0..at.height() {
+        for (x, length) in at.runs(y) {
+            fill((x, y), &mut plane[y * at.width() + x..][..length]);
+        }
     }
 }
 

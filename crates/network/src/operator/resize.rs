@@ -213,22 +213,28 @@ impl Operator for Resize {
 
 /// The sum of inputs by their shares.
 #[inline(always)]
-fn sum(taps: Taps, of: impl Fn(usize) -> f32) -> f32 {
+fn sum(taps: &Taps, of: impl Fn(usize) -> f32) -> f32 {
     taps.at.iter().zip(taps.shares).map(|(&at, share)| share * of(at)).sum()
 }
 
 impl Resize {
     /// Every output, from the plane of its channel, whose rows are so long, and its taps.
-    fn fill<T: Number>(&self, job: Job<'_>, of: impl Fn(&[T], usize, Taps, Taps) -> T + Sync) {
+    fn fill<T: Number>(&self, job: Job<'_>, of: impl Fn(&[T], usize, &Taps, &Taps) -> T + Sync) {
         let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
         let rows = self.taps(0, height, form.height());
         let columns = self.taps(1, width, form.width());
         job.fill(|run, to| {
-            for (place, to) in run.zip(to) {
-                let (channel, y, x) = form.coordinates(place);
+            let (mut start, mut to) = (run.start, to);
+            while !to.is_empty() {
+                let (channel, y, x) = form.coordinates(start);
                 let plane = &inputs[0].values()[channel * height * width..][..height * width];
-                *to = of(plane, width, rows[y], columns[x]);
+                let (line, rest) = to.split_at_mut(to.len().min(form.width() - x));
+                start += line.len();
+                to = rest;
+                for (to, column) in line.iter_mut().zip(&columns[x..]) {
+                    *to = of(plane, width, &rows[y], column);
+                }
             }
         });
     }

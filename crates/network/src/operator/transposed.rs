@@ -194,7 +194,7 @@ impl TransposedConv {
                 let finish = |x| self.finish.of(x);
                 kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
             };
-            kernel::parts(weights.blocks(), &chunks, &mut planes, &form)
+            kernel::parts(weights.blocks(), &chunks, &mut planes, [height, width])
                 .into_par_iter()
                 .for_each(part);
             let to = &mut values_of::<f32>(job.output, job.form)[group * own * job.form.places()..];

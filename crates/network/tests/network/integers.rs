@@ -309,6 +309,9 @@ fn operators_of_onnxruntime_are_as_it_says() {
     assert_eq!(of(&leaky), [1.0, 2.0, 3.0, -2.0]);
     // 0.73, 0.88, 0.95 and 0.02.
     assert_eq!(of(&with("com.microsoft.QLinearSigmoid", &[])), [0.75, 1.0, 1.0, 0.0]);
+    // 0.09, 0.24, 0.66 and 0.0006.
+    let shares = with("com.microsoft.QLinearSoftmax", &[("opset", Value::Int(13))]);
+    assert_eq!(of(&shares), [0.0, 0.25, 0.75, 0.0]);
     let pairs = |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
         let attributes =
             [("kernel_shape", Value::Ints(vec![1, 2])), ("pads", Value::Ints(vec![0, 1, 0, 0]))];

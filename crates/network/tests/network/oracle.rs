@@ -10,7 +10,7 @@ proptest! {
 
     #[test]
     fn convolution_is_that_of_the_standard(
-        groups in 1..4usize, inner in 1..4usize, outer in 1..20usize, size in (4..14usize, 4..20usize),
+        groups in 1..4usize, inner in 1..4usize, outer in prop_oneof![Just(1), 1..20usize], size in (4..50usize, 4..90usize),
         kernel in (1..4usize, 1..4usize), stride in (1..4usize, 1..4usize), dilation in (1..3usize, 1..3usize), pads in prop::array::uniform4(0..3usize),
     ) {
         let (inputs, outputs) = (groups * inner, groups * outer);
@@ -152,6 +152,39 @@ fn pooling_is_that_of_the_standard() {
     );
     assert_eq!(run("GlobalAveragePool", &[]), [12.0]);
     assert_eq!(run("GlobalMaxPool", &[]), [24.0]);
+}
+
+/// Of an even number of channels one more counts behind than before.
+#[test]
+fn local_responses_are_those_of_the_standard() {
+    const CHANNELS: usize = 7;
+    let (spread, picture) = (noise(31, CHANNELS), noise(32, 20));
+    let (alpha, beta, bias) = (0.5, 0.6, 1.5);
+    for (size, before, behind) in [(1, 0, 0), (3, 1, 1), (4, 1, 2), (5, 2, 2)] {
+        let mut model = Model::new(&[1, 1, 4, 5]);
+        let weights = model.floats(&[7, 1, 1, 1], &spread);
+        let channels = model.node("Conv", &["picture", &weights], &[]);
+        let attributes = [
+            ("size", Value::Int(size)),
+            ("alpha", Value::Float(alpha)),
+            ("beta", Value::Float(beta)),
+            ("bias", Value::Float(bias)),
+        ];
+        let output = model.node("LRN", &[&channels], &attributes);
+        model.output(&output);
+        let network = model.read(5, 4).unwrap();
+        let mut executor = Executor::new(&network, Mode::Dense);
+        executor.step(&picture, &Mask::full(4, 5));
+        for (at, &found) in executor.value(2).reals().iter().enumerate() {
+            let (channel, place) = (at / 20, at % 20);
+            let value = |channel: usize| f64::from(spread[channel]) * f64::from(picture[place]);
+            let seen = channel.saturating_sub(before)..(channel + behind + 1).min(CHANNELS);
+            let squares: f64 = seen.map(|channel| value(channel).powi(2)).sum();
+            let share = f64::from(alpha) / f64::from(i32::try_from(size).unwrap());
+            let wanted = value(channel) / (f64::from(bias) + share * squares).powf(beta.into());
+            assert!((f64::from(found) - wanted).abs() < 1e-6, "{found} for {wanted}, size {size}");
+        }
+    }
 }
 
 /// Rows 1 and 2 and columns 1 and 3 of four rows and five columns; and, of a network without such a slice, the same in two steps.

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Chunks as areas: rows of the same columns, which share the inputs of their windows.
+
+use super::chunks::{CHUNK, Chunk};
+use std::collections::HashMap;
+use std::ops::Range;
+
+/// Positions of an area at most, unless a row has more: inputs and outputs stay in the nearest cache.
+const MANY: usize = 3072;
+
+/// The same columns of some rows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) struct Area {
+    pub(crate) rows: Range<usize>,
+    pub(crate) columns: Range<usize>,
+}
+
+/// The positions of chunks in rows of `width`, each once.
+pub(crate) fn areas(chunks: &[Chunk], width: usize) -> Vec<Area> {
+    let mut found: Vec<Area> = Vec::new();
+    // The last area of these columns.
+    let mut latest = HashMap::<Range<usize>, usize>::new();
+    for (y, columns) in runs(chunks, width) {
+        let last = latest.get(&columns).map(|&last| &mut found[last].rows);
+        match last.filter(|rows| rows.end == y && (rows.len() + 1) * columns.len() <= MANY) {
+            Some(rows) => rows.end += 1,
+            None => {
+                latest.insert(columns.clone(), found.len());
+                found.push(Area { rows: y..y + 1, columns });
+            }
+        }
+    }
+    found
+}
+
+/// The rows of positions that chunks are.
+fn runs(chunks: &[Chunk], width: usize) -> impl Iterator<Item = (usize, Range<usize>)> {
+    let mut rest = chunks.iter().peekable();
+    std::iter::from_fn(move || {
+        let &Chunk { x, y } = rest.next()?;
+        let mut end = x + CHUNK;
+        while let Some(next) = rest.next_if(|next| next.y == y && next.x <= end) {
+            end = next.x + CHUNK;
+        }
+        Some((y, x..end.min(width)))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::chunks;
+    use crate::mask::Mask;
+
+    #[test]
+    fn areas_are_the_positions_of_chunks_each_once() {
+        for width in [3, 9, 70, 4000] {
+            for is in [|_, _| true, |x, y| (x * 7 + y / 5 * 11) % 29 < 2] {
+                let chunks = chunks(&Mask::from_fn(40, width, is));
+                let mut seen = vec![0; 40 * width];
+                for Area { rows, columns } in areas(&chunks, width) {
+                    assert!(rows.len() == 1 || rows.len() * columns.len() <= MANY);
+                    for y in rows {
+                        seen[y * width..][columns.clone()].iter_mut().for_each(|seen| *seen += 1);
+                    }
+                }
+                let mut wanted = vec![0; 40 * width];
+                for chunk in chunks {
+                    wanted[chunk.places(width)].fill(1);
+                }
+                assert_eq!(seen, wanted);
+            }
+        }
+    }
+}
