@@ -17,6 +17,7 @@
 //                  Inputs are applied, and outputs are expected after the rising edge with these inputs
 //                  still applied.
 //   +stop          ends at the first mismatch
+//   +ends=FILE     with a mismatch, ends after as many clocks as the next of these numbers, hexadecimal and growing
 //   +waves=FILE    writes waves of everything: VCD, or FST with `vvp SIMULATION -fst`
 //
 // Prints the first mismatch of each output, then a line that starts with PASS, FAIL or INCOMPLETE (no mismatch,
@@ -59,8 +60,10 @@ module {= bench =};
 
   reg [8*1024-1:0] path;
   integer file;
+  integer ends;
   integer failures;
   reg [63:0] clocks;
+  reg [63:0] last;  // with a mismatch, the run ends after so many clocks
   reg [31:0] run;  // clocks for which the line is good
   reg [{= columns =}:0] changes;  // the first number of the line
   reg is_whole;  // whether every value of the line was there
@@ -84,6 +87,13 @@ module {= bench =};
       {%- for port in outputs %}
       if (changes[{= loop.index0 + inputs.len() =}]) is_whole = $fscanf(file, "%h", {= port.name =}_expected) == 1 && is_whole;
       {%- endfor %}
+    end
+  endtask
+
+  // Where a run ends that has no mismatch yet.
+  task read_end;
+    begin
+      if ($fscanf(ends, "%h", last) != 1) last = {64{1'b1}};
     end
   endtask
 
@@ -130,15 +140,20 @@ module {= bench =};
     file = $fopen(path, "r");
     clocks = 64'd0;
     failures = 0;
+    ends = 0;
+    last = $test$plusargs("stop") ? 64'd0 : {64{1'b1}};
+    if ($value$plusargs("ends=%s", path)) ends = $fopen(path, "r");
+    if (ends != 0) read_end;
     is_whole = 1'b0;
     changes = {= columns + 1 =}'d0;
     if (file != 0) read_line;
-    while (is_whole && |changes && !(failures != 0 && $test$plusargs("stop"))) begin
+    while (is_whole && |changes && !(failures != 0 && clocks >= last)) begin
       apply;
-      while (run != 32'd0 && !(failures != 0 && $test$plusargs("stop"))) begin
+      while (run != 32'd0 && !(failures != 0 && clocks >= last)) begin
         #5 {= clock.name =} = 1'b1;
         #4 compare;
         clocks = clocks + 64'd1;
+        if (ends != 0 && failures == 0 && clocks == last) read_end;
         run = run - 32'd1;
         #1 {= clock.name =} = 1'b0;
       end

@@ -118,6 +118,16 @@ impl Recording {
         start..after.iter().find(starts).map_or(self.clocks, |span| span.first_clock)
     }
 
+    /// Writes the clocks at which sequences end, which a replay bench reads.
+    ///
+    /// # Errors
+    /// When the file cannot be written.
+    pub(crate) fn write_ends(&self, path: &Path) -> Result<(), CosimError> {
+        let starts = self.spans.iter().filter(|span| span.frame == 0).map(|span| span.first_clock);
+        let ends = starts.filter(|&clock| clock > 0).map(|clock| format!("{clock:x}\n"));
+        std::fs::write(path, ends.collect::<String>()).map_err(CosimError::io("write", path))
+    }
+
     /// Shows each of these clocks with its input record and its expected outputs.
     ///
     /// # Errors

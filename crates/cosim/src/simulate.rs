@@ -16,6 +16,8 @@ use std::time::{Duration, Instant};
 
 /// The vectors that a replay bench reads.
 pub(crate) const VECTORS_FILE: &str = "vectors.hex";
+/// Where sequences end, for the same bench.
+const ENDS_FILE: &str = "ends.hex";
 /// Waves, where they are asked for.
 pub(crate) const WAVES_FILE: &str = "waves.fst";
 
@@ -243,7 +245,7 @@ impl Run<'_> {
         recording: &Recording,
     ) -> Result<Vec<Difference>, CosimError> {
         recording.write_hex(&recording.folder().join(VECTORS_FILE), u64::MAX)?;
-        let (output, found) = self.bench(program, recording, !self.trace)?;
+        let (output, found) = self.bench(program, recording)?;
         let passed = format!("PASS {} clocks", recording.clocks());
         let log = output.log();
         let Some(first) = found.first() else {
@@ -254,34 +256,24 @@ impl Run<'_> {
             return Err(self.short(recording, got, &output));
         };
         let end = recording.sequence(first.clock).end;
-        let in_sequence = |found: Vec<Difference>| {
-            found.into_iter().filter(|difference| difference.clock < end).collect()
-        };
-        if self.trace {
-            return Ok(in_sequence(found));
-        }
-        // The run ended at the first mismatch, as most of them are to. What else differs shows again from
-        // the start, up to the end of the sequence.
-        recording.write_hex(&recording.folder().join(VECTORS_FILE), end)?;
-        Ok(in_sequence(self.bench(program, recording, false)?.1))
+        Ok(found.into_iter().filter(|difference| difference.clock < end).collect())
     }
 
     /// The replay bench on the vectors in the folder of the recording, and the first difference of each
-    /// port; with `stop` up to the clock of the first.
+    /// port. Waves show all vectors; without them the bench ends with the sequence of the first difference.
     fn bench(
         &self,
         program: &Path,
         recording: &Recording,
-        stop: bool,
     ) -> Result<(Output, Vec<Difference>), CosimError> {
+        let folder = recording.folder();
         let mut args = vec![format!("+vectors={VECTORS_FILE}")];
         if self.trace {
             args.extend(["-fst".to_owned(), format!("+waves={WAVES_FILE}")]);
+        } else {
+            recording.write_ends(&folder.join(ENDS_FILE))?;
+            args.push(format!("+ends={ENDS_FILE}"));
         }
-        if stop {
-            args.push("+stop".to_owned());
-        }
-        let folder = recording.folder();
         let output = iverilog::run(self.toolchain, program, &args, folder, self.limit)?;
         let found = output.log().lines().filter_map(parse_mismatch).collect();
         Ok((output, found))

@@ -16,6 +16,23 @@ pub trait Task {
     fn run(self);
 }
 
+/// Work over panels of 32-bit values, as many as two vector registers hold. It is inlined like a [`Task`], and compiled for each level with the
+/// panels of that level alone.
+pub trait PanelTask {
+    /// Does the work. `FUSED`: a product is added in the same instruction, which rounds once.
+    fn run<const LANES: usize, const FUSED: bool>(self);
+}
+
+/// A [`PanelTask`] whose panels have a size.
+struct Panels<T, const LANES: usize, const FUSED: bool>(T);
+
+impl<T: PanelTask, const LANES: usize, const FUSED: bool> Task for Panels<T, LANES, FUSED> {
+    #[inline(always)]
+    fn run(self) {
+        self.0.run::<LANES, FUSED>();
+    }
+}
+
 /// An instruction set that this processor has.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Level(Set);
@@ -100,6 +117,25 @@ impl Level {
             Set::Avx512 => unsafe { run_avx512(task) },
         }
     }
+
+    /// Values of a panel: 32-bit ones in two vector registers.
+    #[must_use]
+    pub fn panel_lanes(self) -> usize {
+        2 * self.register_bits() / 32
+    }
+
+    /// Runs a task with these instructions, and panels of [`Level::panel_lanes`].
+    pub fn run_panels(self, task: impl PanelTask) {
+        match self.0 {
+            Set::Portable => Panels::<_, 8, false>(task).run(),
+            // SAFETY: as in `run`.
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx2 => unsafe { run_avx2(Panels::<_, 16, true>(task)) },
+            // SAFETY: as in `run`.
+            #[cfg(target_arch = "x86_64")]
+            Set::Avx512 => unsafe { run_avx512(Panels::<_, 32, true>(task)) },
+        }
+    }
 }
 
 #[cfg(target_arch = "x86_64")]
@@ -141,6 +177,15 @@ mod tests {
         }
     }
 
+    struct Lanes<'a>(&'a mut usize);
+
+    impl PanelTask for Lanes<'_> {
+        #[inline(always)]
+        fn run<const LANES: usize, const FUSED: bool>(self) {
+            *self.0 = LANES;
+        }
+    }
+
     #[test]
     fn every_available_level_runs_its_task() {
         let levels = Level::available();
@@ -149,6 +194,11 @@ mod tests {
             level.run(Add(&mut ran));
         }
         assert_eq!(usize::try_from(ran).unwrap(), levels.len());
+        for level in &levels {
+            let mut lanes = 0;
+            level.run_panels(Lanes(&mut lanes));
+            assert_eq!(lanes, level.panel_lanes());
+        }
         assert_eq!((levels[0].name(), levels.last()), ("portable", Some(&Level::detect())));
     }
 }

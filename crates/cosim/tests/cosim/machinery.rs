@@ -44,6 +44,11 @@ fn ports() -> Vec<Port> {
 /// `clocks` clocks with numbers from a simple generator; what comes out is what went in, a clock
 /// later and complemented, and the number of clocks since the reset.
 fn recording(clocks: u64) -> Recording {
+    sequences(clocks, clocks)
+}
+
+/// The same in sequences of so many frames, each of 50 clocks.
+fn sequences(clocks: u64, frames: u64) -> Recording {
     let mut recorder = Recorder::new(&ports()).unwrap();
     let (inputs, outputs) = (recorder.inputs().clone(), recorder.outputs().clone());
     let (mut state, mut count) = (1u64, 0);
@@ -53,7 +58,7 @@ fn recording(clocks: u64) -> Recording {
     };
     for clock in 0..clocks {
         if clock % 50 == 0 {
-            recorder.begin_frame("counting", clock / 50, None);
+            recorder.begin_frame("counting", clock / 50 % frames, None);
         }
         let reset = clock == 0 || random() % 64 == 0;
         let (mut input, mut output) = (inputs.record(), outputs.record());
@@ -132,6 +137,30 @@ fn a_planted_fault_is_found_at_its_clock_and_port() {
         let hex = |text: &str| u8::from_str_radix(text, 16).unwrap();
         assert_eq!(hex(&found.expected) ^ hex(&found.got), 8, "{simulator}");
         assert!(clock > 40, "{simulator}");
+    }
+}
+
+/// What differs in the sequence of the first difference, and nothing of the next.
+#[test]
+fn differences_are_told_until_the_sequence_ends() {
+    let faults = "if (clock == 60) b_o <= 33'd0;
+            if (clock == 110) c_o <= 64'd0;
+            if (clock == 160) d_o <= 200'd0;";
+    let faulty = edited("// here", faults).replace(
+        "reg [11:0] count;",
+        "reg [11:0] count;\n    integer clock = 0;\n    always @(posedge clk_i) clock <= clock + 1;",
+    );
+    for simulator in Simulator::ALL {
+        if require_tools(simulator.tools()) {
+            let found = |frames| -> Vec<(String, u64)> {
+                let outcome = run(simulator, &faulty, &sequences(200, frames), false).unwrap();
+                outcome.differences.into_iter().map(|found| (found.port, found.clock)).collect()
+            };
+            let all = [("b_o".to_owned(), 60), ("c_o".to_owned(), 110), ("d_o".to_owned(), 160)];
+            assert_eq!(found(1), all[..1], "{simulator}");
+            assert_eq!(found(3), all[..2], "{simulator}");
+            assert_eq!(found(4), all, "{simulator}");
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 use super::areas::Area;
 use super::gather::{Picture, Strand, copy};
 use crate::mask::Window;
-use foveate_lanes::{Level, Task};
+use foveate_lanes::{Level, PanelTask};
 
 /// One channel.
 pub(crate) struct Depthwise<'a, F> {
@@ -26,20 +26,16 @@ pub(crate) struct Depthwise<'a, F> {
 impl<F: Fn(f32) -> f32> Depthwise<'_, F> {
     /// Computes the outputs of the layouts.
     pub(crate) fn convolve(self, level: Level, planes: &mut Planes) {
-        match level.register_bits() {
-            512 => level.run(Of::<_, 32, true>(self, planes)),
-            256 => level.run(Of::<_, 16, true>(self, planes)),
-            _ => level.run(Of::<_, 8, false>(self, planes)),
-        }
+        level.run_panels(Tiles(self, planes));
     }
 }
 
-/// The work in tiles of twice so many outputs: those of four registers.
-struct Of<'a, F, const LANES: usize, const FUSED: bool>(Depthwise<'a, F>, &'a mut Planes);
+/// The work in tiles of two panels of outputs: those of four registers.
+struct Tiles<'a, F>(Depthwise<'a, F>, &'a mut Planes);
 
-impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F, LANES, FUSED> {
+impl<F: Fn(f32) -> f32> PanelTask for Tiles<'_, F> {
     #[inline(always)]
-    fn run(self) {
+    fn run<const LANES: usize, const FUSED: bool>(self) {
         let Self(Depthwise { picture, weights, bias, layouts, outputs, width, finish }, planes) =
             self;
         for layout in layouts {

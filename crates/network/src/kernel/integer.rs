@@ -11,7 +11,7 @@ use super::gather::{Gathered, Picture};
 use super::panels::{Outputs, add_block};
 use super::weights::Weights;
 use crate::values::{Byte, Number};
-use foveate_lanes::{Level, Task};
+use foveate_lanes::{Level, PanelTask, Task};
 use std::ops::Range;
 
 /// Products whose sum is exact. A row of the window must not have more.
@@ -74,68 +74,47 @@ pub(crate) fn convolve_bytes<X: Byte, Y: Number>(
     outputs: Outputs<'_, Y>,
     finish: impl Fn(usize, i32) -> Y,
 ) {
-    let work = Work { level, picture, weights, chunks, outputs, finish };
-    match weights.packed.blocking().lanes {
-        32 => work.run::<32, true>(),
-        16 => work.run::<16, true>(),
-        _ => work.run::<8, false>(),
-    }
-}
-
-struct Work<'a, X, Y, F> {
-    level: Level,
-    picture: &'a Picture<'a, X>,
-    weights: &'a ByteWeights,
-    chunks: &'a [Chunk],
-    outputs: Outputs<'a, Y>,
-    finish: F,
-}
-
-impl<X: Byte, Y: Number, F: Fn(usize, i32) -> Y> Work<'_, X, Y, F> {
-    /// The products, which take most of the time, know neither the kind of the inputs nor that of the outputs: they are compiled once.
-    fn run<const LANES: usize, const FUSED: bool>(self) {
-        let Self { level, picture, weights, chunks, outputs, finish } = self;
-        let Outputs { mut planes, first: start, blocks, width } = outputs;
-        let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
-        let (first, stride) = (first.start, last.end - first.start);
-        let taps = picture.columns.kernel;
-        let rows = weights.packed.depth() / taps;
-        let at_once = rows.min(EXACT / taps);
-        let room = (picture.columns, GROUP * LANES / CHUNK, at_once);
-        let mut gathered = Gathered::new(room.0, room.1, room.2);
-        let mut wide = Gathered::new(room.0, room.1, room.2);
-        let mut products = vec![0.0; at_once * taps * LARGEST];
-        let mut sums = vec![[0i32; LANES]; stride * GROUP];
-        for chunks in chunks.chunks(GROUP * LANES / CHUNK) {
-            let panels = chunks.len().div_ceil(LANES / CHUNK);
-            sums.fill([0; LANES]);
-            gathered.choose(chunks);
-            wide.choose(chunks);
-            for from in (0..rows).step_by(at_once) {
-                let rows = from..rows.min(from + at_once);
-                let inputs = rows.start * taps..rows.end * taps;
-                let (gathered, wide) = (&mut gathered, &mut wide);
-                level.run(Gather { picture, rows, gathered, wide });
-                let (products, sums) = (&mut products, &mut sums);
-                level.run(Multiply::<LANES, FUSED> {
-                    weights,
-                    blocks,
-                    inputs,
-                    wide,
-                    panels,
-                    products,
-                    sums,
-                    stride,
-                });
-            }
-            for (sums, chunks) in sums.chunks(stride).zip(chunks.chunks(LANES / CHUNK)) {
-                for ((channel, sums), plane) in (first..).zip(sums).zip(&mut planes) {
-                    for (sums, chunk) in sums.chunks(CHUNK).zip(chunks) {
-                        let places = chunk.places(width);
-                        let to = &mut plane[places.start - start..places.end - start];
-                        for (output, &sum) in to.iter_mut().zip(sums) {
-                            *output = finish(channel, sum);
-                        }
+    let Outputs { mut planes, first: start, blocks, width } = outputs;
+    let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
+    let (first, stride) = (first.start, last.end - first.start);
+    let taps = picture.columns.kernel;
+    let rows = weights.packed.depth() / taps;
+    let at_once = rows.min(EXACT / taps);
+    let lanes = weights.packed.blocking().lanes;
+    let room = (picture.columns, GROUP * lanes / CHUNK, at_once);
+    let mut gathered = Gathered::new(room.0, room.1, room.2);
+    let mut wide = Gathered::new(room.0, room.1, room.2);
+    let mut products = vec![0.0; at_once * taps * LARGEST];
+    let mut sums = vec![0i32; stride * GROUP * lanes];
+    for chunks in chunks.chunks(GROUP * lanes / CHUNK) {
+        let panels = chunks.len().div_ceil(lanes / CHUNK);
+        sums.fill(0);
+        gathered.choose(chunks);
+        wide.choose(chunks);
+        for from in (0..rows).step_by(at_once) {
+            let rows = from..rows.min(from + at_once);
+            let inputs = rows.start * taps..rows.end * taps;
+            let (gathered, wide) = (&mut gathered, &mut wide);
+            level.run(Gather { picture, rows, gathered, wide });
+            let (products, sums) = (&mut products, &mut sums);
+            level.run_panels(Multiply {
+                weights,
+                blocks,
+                inputs,
+                wide,
+                panels,
+                products,
+                sums,
+                stride,
+            });
+        }
+        for (sums, chunks) in sums.chunks(stride * lanes).zip(chunks.chunks(lanes / CHUNK)) {
+            for ((channel, sums), plane) in (first..).zip(sums.chunks(lanes)).zip(&mut planes) {
+                for (sums, chunk) in sums.chunks(CHUNK).zip(chunks) {
+                    let places = chunk.places(width);
+                    let to = &mut plane[places.start - start..places.end - start];
+                    for (output, &sum) in to.iter_mut().zip(sums) {
+                        *output = finish(channel, sum);
                     }
                 }
             }
@@ -165,8 +144,9 @@ impl<X: Byte> Task for Gather<'_, X> {
     }
 }
 
-/// Adds the products of some inputs to the sums of all panels, of which each has `stride` channels.
-struct Multiply<'a, const LANES: usize, const FUSED: bool> {
+/// Adds the products of some inputs to the sums of all panels, of which each has `stride` channels. It takes most of the time, and knows
+/// neither the kind of the inputs nor that of the outputs: it is compiled once.
+struct Multiply<'a> {
     weights: &'a ByteWeights,
     blocks: &'a [Range<usize>],
     inputs: Range<usize>,
@@ -174,14 +154,16 @@ struct Multiply<'a, const LANES: usize, const FUSED: bool> {
     panels: usize,
     /// Room for the weights of a block.
     products: &'a mut [f32],
-    sums: &'a mut [[i32; LANES]],
+    /// A panel for each channel.
+    sums: &'a mut [i32],
     stride: usize,
 }
 
-impl<const LANES: usize, const FUSED: bool> Task for Multiply<'_, LANES, FUSED> {
+impl PanelTask for Multiply<'_> {
     #[inline(always)]
-    fn run(self) {
+    fn run<const LANES: usize, const FUSED: bool>(self) {
         let Self { weights, blocks, inputs, wide, panels, products, sums, stride } = self;
+        let sums = sums.as_chunks_mut::<LANES>().0;
         let first = blocks.first().map_or(0, |block| block.start);
         for block in blocks {
             let products = weights.widen(block, &inputs, products);

@@ -6,7 +6,7 @@ use super::chunks::{CHUNK, Chunk};
 use super::gather::{Gathered, Picture};
 use super::micro::multiply;
 use super::weights::Weights;
-use foveate_lanes::{Level, Task};
+use foveate_lanes::{Level, PanelTask};
 use std::ops::Range;
 
 /// Inputs that are multiplied before the next are gathered: those of a panel stay in the nearest cache.
@@ -40,12 +40,7 @@ pub(crate) fn convolve(
     outputs: Outputs<'_>,
     finish: impl Fn(f32) -> f32,
 ) {
-    let work = Work { picture, weights, chunks, outputs, finish };
-    match weights.blocking().lanes {
-        32 => level.run(Of::<_, 32, true>(work)),
-        16 => level.run(Of::<_, 16, true>(work)),
-        _ => level.run(Of::<_, 8, false>(work)),
-    }
+    level.run_panels(Work { picture, weights, chunks, outputs, finish });
 }
 
 struct Work<'a, F> {
@@ -56,13 +51,11 @@ struct Work<'a, F> {
     finish: F,
 }
 
-/// The work for panels of so many positions.
-struct Of<'a, F, const LANES: usize, const FUSED: bool>(Work<'a, F>);
-
-impl<F: Fn(f32) -> f32, const LANES: usize, const FUSED: bool> Task for Of<'_, F, LANES, FUSED> {
+impl<F: Fn(f32) -> f32> PanelTask for Work<'_, F> {
     #[inline(always)]
-    fn run(self) {
-        let Work { picture, weights, chunks, mut outputs, finish } = self.0;
+    fn run<const LANES: usize, const FUSED: bool>(self) {
+        let Self { picture, weights, chunks, mut outputs, finish } = self;
+        assert_eq!(weights.blocking().lanes, LANES, "weights are packed for the level");
         let blocks = outputs.blocks;
         let (Some(first), Some(last)) = (blocks.first(), blocks.last()) else { return };
         let (first, channels) = (first.start, last.end - first.start);

@@ -187,6 +187,11 @@ impl Job<'_> {
     /// Fills every run of positions of the mask, which may go on in the next row: `fill` gets its range in the output's memory, and the values there. Threads share what lies
     /// outside of the positions, such as channels.
     fn fill<T: Number>(self, fill: impl Fn(Range<usize>, &mut [T]) + Sync) {
+        self.fill_any(&fill);
+    }
+
+    /// The same, compiled once for each type of values.
+    fn fill_any<T: Number>(self, fill: &(dyn Fn(Range<usize>, &mut [T]) + Sync)) {
         let Self { form, output, at, .. } = self;
         let output = values_of(output, form);
         let (inner, ranges) = (form.inner(), at.ranges());
