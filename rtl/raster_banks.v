@@ -88,7 +88,7 @@ module raster_banks #(
                 end
                 raster_memory #(.WIDTH(WIDTH), .WORDS(1 << BANK_BITS), .ADDRESS_BITS(BANK_BITS), .OUTPUT_STAGE(1)) u_words (
                     .clk_i(clk_i), .write_i(own_q), .write_address_i(own_write_q), .data_i(own_word_q),
-                    .read_i(1'b1), .read_address_i(own_read_q), .data_o(bank_words[bank*WIDTH+:WIDTH])
+                    .read_i(1'b1), .read_address_i(own_read_q), .output_i(1'b1), .data_o(bank_words[bank*WIDTH+:WIDTH])
                 );
                 // A register halfway: the blocks of a bank stand far apart.
                 reg [WIDTH-1:0] bank_word_q;

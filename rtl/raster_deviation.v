@@ -85,7 +85,7 @@ module raster_deviation #(
         .WIDTH(LANES * WIDTH), .WORDS(BANKS * SIDE * ROW_WORDS), .ADDRESS_BITS(START_BITS), .OUTPUT_STAGE(DEEP)
     ) u_copy (
         .clk_i(clk_i), .write_i(store_i), .write_address_i(store_place_i), .data_i(word_i), .read_i(read),
-        .read_address_i(place), .data_o(word)
+        .read_address_i(place), .output_i(1'b1), .data_o(word)
     );
 
 endmodule

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // The pixels of active regions leave, from a buffer that holds the last rows of regions. With LAST_SENT what
 // leaves becomes the reference, a clock after it was fetched. With BLOCKS the means of other regions leave, too, from a
-// buffer beside it.
+// buffer beside it. The register of the port is that of the buffer's memory, if nothing else asks what was read.
 `default_nettype none
 
 module raster_forward #(
@@ -69,13 +69,14 @@ module raster_forward #(
     output wire                     done_o,                   // all words of a region are fetched, or it was lost a clock ago (BLOCKS)
     output wire                     done_lost_o,              // it was lost
     output wire [  REGION_BITS-1:0] done_region_o,            // which
-    output wire                     sent_o,                   // a mean was fetched (BLOCKS)
+    output wire                     sent_o,                   // a mean was fetched two clocks ago (BLOCKS)
     output wire [  REGION_BITS-1:0] sent_region_o,            // of which region
     output wire [    MEAN_BITS-1:0] sent_number_o,            // of which block of it
     output wire [WORD_BITS/LANES-1:0] sent_mean_o             // that mean
 );
 
     localparam WORDS = BANKS * SIDE * ROW_WORDS;
+    localparam READ_FOR_ITSELF = !LAST_SENT || RAW;  // what the buffer has read is for the port alone
     localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // all regions in the buffer may wait
     localparam FRAME_PLACE_BITS = LAST_SENT ? PLACE_BITS : 1;
     // The low bits of the number of its frame wait with a region. The row of regions that is decided is at most BANKS behind
@@ -142,19 +143,30 @@ module raster_forward #(
         .ready_i(ready_i), .fetch_o(fetch), .place_o(fetch_place), .mean_o(fetch_mean), .step_o(step), .valid_o(valid_o), .region_o(region_o),
         .position_o(position_o), .begin_o(first_o), .end_o(last_o), .abort_o(abort_o), .frame_o(frame_o), .summary_o(summary_o),
         .lost_o(lost), .lost_region_o(lost_reference_region_o), .lost_extra_o(lost_extra),
-        .held_region_o(lost_region_o), .held_extra_o(held_extra), .held_row_o(held_row), .fetched_region_o(sent_region_o), .first_o(fetch_first),
+        .held_region_o(lost_region_o), .held_extra_o(held_extra), .held_row_o(held_row), .first_o(fetch_first),
         .segment_end_o(fetch_segment_end), .fetch_last_o(fetch_last), .idle_o(idle_o)
     );
 
-    raster_memory #(.WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS)) u_buffer (
+    // Whether a word is fetched comes late in a clock: so one is read at every step.
+    wire [WORD_BITS-1:0] pixel;
+    raster_memory #(
+        .WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS), .OUTPUT_STAGE(READ_FOR_ITSELF)
+    ) u_buffer (
         .clk_i(clk_i), .write_i(store_i), .write_address_i(store_place_i), .data_i(RAW ? raw_i : scored_i),
-        .read_i(fetch), .read_address_i(fetch_place), .data_o(fetched)
+        .read_i(step), .read_address_i(fetch_place), .output_i(step), .data_o(fetched)
     );
+    generate
+        if (READ_FOR_ITSELF) begin : g_port
+            assign pixel = fetched;
+        end else begin : g_register
+            reg [WORD_BITS-1:0] pixel_q;
+            always @(posedge clk_i) if (step) pixel_q <= fetched;
+            assign pixel = pixel_q;
+        end
+    endgenerate
 
-    reg [WORD_BITS-1:0] pixel_q;
     assign lost_frame_o = held_frame;
     always @(posedge clk_i) begin
-        if (step) pixel_q <= fetched;
         lost_valid_o <= lost;
         if (lost) begin
             lost_o <= 1'b1;
@@ -188,7 +200,7 @@ module raster_forward #(
             if (RAW) begin : g_denoised
                 raster_memory #(.WIDTH(WORD_BITS), .WORDS(WORDS), .ADDRESS_BITS(START_BITS)) u_denoised (
                     .clk_i(clk_i), .write_i(store_i), .write_address_i(store_place_i), .data_i(scored_i),
-                    .read_i(fetch), .read_address_i(fetch_place), .data_o(reference_word_o)
+                    .read_i(step), .read_address_i(fetch_place), .output_i(1'b1), .data_o(reference_word_o)
                 );
             end else begin : g_same
                 assign reference_word_o = fetched;
@@ -222,31 +234,37 @@ module raster_forward #(
             // With one block there is no number of a mean.
             wire unused_bits = |mean_row_i || |held_row || stored_at[0] || fetched_at[0] || held_extra[EXTRA_BITS-1];
             localparam LOWEST = BLOCKS == 1 ? MEAN_BITS : 0;
-            reg [WIDTH-1:0] mean_q;
-            reg sent_q;
-            reg [MEAN_BITS-1:0] number_q;
+            // What the memory has read goes on at every clock, to where means are that were sent; so the port keeps it.
+            wire [WIDTH-1:0] mean;
+            reg [WIDTH-1:0] kept_q;
+            reg stepped_q;
+            wire [WIDTH-1:0] shown = stepped_q ? mean : kept_q;
             always @(posedge clk_i) begin
-                if (step) mean_q <= sent_mean_o;
-                if (fetch) number_q <= fetch_mean;
-                sent_q <= fetch;
+                stepped_q <= step;
+                kept_q    <= shown;
             end
-            raster_memory #(.WIDTH(WIDTH), .WORDS(MEANS), .ADDRESS_BITS(AT_BITS)) u_means (
+            raster_memory #(.WIDTH(WIDTH), .WORDS(MEANS), .ADDRESS_BITS(AT_BITS), .OUTPUT_STAGE(1)) u_means (
                 .clk_i(clk_i), .write_i(mean_valid_i), .write_address_i(stored_at[LOWEST+:AT_BITS]), .data_i(mean_i),
-                .read_i(fetch), .read_address_i(fetched_at[LOWEST+:AT_BITS]), .data_o(sent_mean_o)
+                .read_i(step), .read_address_i(fetched_at[LOWEST+:AT_BITS]), .output_i(1'b1), .data_o(mean)
             );
-            assign pixel_o = summary_o ? {LANES{mean_q}} : pixel_q;
+            assign sent_mean_o = mean;
+            bit_delay #(.DEPTH(2)) u_sent (.clk_i(clk_i), .rst_i(rst_i), .bit_i(fetch), .bit_o(sent_o));
+            word_delay #(.WIDTH(REGION_BITS + MEAN_BITS), .DEPTH(2)) u_sent_at (
+                .clk_i(clk_i), .data_i({lost_region_o, fetch_mean}), .data_o({sent_region_o, sent_number_o})
+            );
+            assign pixel_o = summary_o ? {LANES{shown}} : pixel;
             assign entered_extra[EXTRA_BITS-1] = summary_i;
             // A region that was lost is held no more a clock later, and its number is still there.
             assign done_o = fetch_last || lost_valid_o;
             assign done_lost_o = lost_valid_o;
             assign done_region_o = lost_region_o;
-            assign {sent_o, sent_number_o} = {sent_q, number_q};
         end else begin : g_pixels
             wire unused_means = mean_valid_i || |mean_region_i || |mean_row_i || |mean_number_i || |mean_i || |fetch_mean || |held_row
                                 || fetch_last;
-            assign pixel_o = pixel_q;
+            assign pixel_o = pixel;
             assign {done_o, done_lost_o, done_region_o} = {(2 + REGION_BITS) {1'b0}};
             assign sent_o = 1'b0;
+            assign sent_region_o = {REGION_BITS{1'b0}};
             assign sent_number_o = {MEAN_BITS{1'b0}};
             assign sent_mean_o = {(WORD_BITS / LANES) {1'b0}};
         end

@@ -36,7 +36,7 @@ module raster_line #(
 
     raster_memory #(.WIDTH(WORD_BITS), .WORDS(ROW_WORDS), .ADDRESS_BITS(ADDRESS_BITS)) u_words (
         .clk_i(clk_i), .write_i(step_q), .write_address_i(old_place_q), .data_i(word_q),
-        .read_i(step_i), .read_address_i(place), .data_o(word_o)
+        .read_i(step_i), .read_address_i(place), .output_i(1'b1), .data_o(word_o)
     );
 
 endmodule

@@ -50,7 +50,6 @@ module raster_readout #(
     output wire [  REGION_BITS-1:0] held_region_o,   // the region that is held, or that was held or lost last
     output wire [   EXTRA_BITS-1:0] held_extra_o,    // the bits that came with that region
     output wire [              2:0] held_row_o,      // its row of regions, modulo 8
-    output wire [  REGION_BITS-1:0] fetched_region_o,  // region of the word that was fetched
     output wire                     first_o,         // the word that is fetched is the first of its region
     output wire                     segment_end_o,   // ... the last of a row of its region
     output wire                     fetch_last_o,    // the last word of a region is fetched at this edge
@@ -168,7 +167,6 @@ module raster_readout #(
     assign held_extra_o = extra_q;
     assign held_row_o = row_q;
     assign fetch_last_o = fetch_last;
-    assign fetched_region_o = fetched_region_q;
     assign idle_o = !queued && !held_q && !fetched_q && step_o;
 
 endmodule

@@ -35,7 +35,7 @@ module raster_repeat #(
     // The word above is read a word ahead.
     raster_memory #(.WIDTH(WORD_BITS), .WORDS(ROW_WORDS), .ADDRESS_BITS(ADDRESS_BITS)) u_row (
         .clk_i(clk_i), .write_i(step_i), .write_address_i(place_q), .data_i(word_o),
-        .read_i(1'b1), .read_address_i(step_i ? next : place_q), .data_o(above)
+        .read_i(1'b1), .read_address_i(step_i ? next : place_q), .output_i(1'b1), .data_o(above)
     );
 
     assign word_o = repeat_i ? above : word_i;

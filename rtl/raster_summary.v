@@ -156,7 +156,7 @@ module raster_summary #(
     wire [WIDTH-1:0] early_sent, sent;
     raster_memory #(.WIDTH(WIDTH), .WORDS(REGIONS * MEANS), .ADDRESS_BITS(SENT_BITS), .OUTPUT_STAGE(DEEP)) u_sent (
         .clk_i(clk_i), .write_i(sent_i), .write_address_i(given_place), .data_i(sent_mean_i), .read_i(1'b1),
-        .read_address_i(sent_place), .data_o(early_sent)
+        .read_address_i(sent_place), .output_i(1'b1), .data_o(early_sent)
     );
     word_delay #(.WIDTH(WIDTH), .DEPTH(2)) u_early_sent (.clk_i(clk_i), .data_i(early_sent), .data_o(sent));
 
@@ -210,7 +210,7 @@ module raster_summary #(
         .WIDTH(SUM_BITS + MARKS), .WORDS(BLOCKS << COLUMN_BITS), .ADDRESS_BITS(PLACE_BITS), .OUTPUT_STAGE(DEEP)
     ) u_sums (
         .clk_i(clk_i), .write_i(write), .write_address_i(write_place), .data_i(to_wait), .read_i(1'b1),
-        .read_address_i(place), .data_o(waiting)
+        .read_address_i(place), .output_i(1'b1), .data_o(waiting)
     );
 
     // ---- Whether the screen shows a summary: so it was decided, and what was sent was not lost. A region that is decided to
@@ -219,11 +219,11 @@ module raster_summary #(
     wire shown_read, lost_read, shown;
     raster_memory #(.WIDTH(1), .WORDS(REGIONS), .ADDRESS_BITS(REGION_BITS), .OUTPUT_STAGE(DEEP)) u_shown (
         .clk_i(clk_i), .write_i(decided_i), .write_address_i(decided_region_i), .data_i(decided_shown_i), .read_i(1'b1),
-        .read_address_i(region), .data_o(shown_read)
+        .read_address_i(region), .output_i(1'b1), .data_o(shown_read)
     );
     raster_memory #(.WIDTH(1), .WORDS(REGIONS), .ADDRESS_BITS(REGION_BITS), .OUTPUT_STAGE(DEEP)) u_lost (
         .clk_i(clk_i), .write_i(done_i), .write_address_i(done_region_i), .data_i(done_lost_i), .read_i(1'b1),
-        .read_address_i(region), .data_o(lost_read)
+        .read_address_i(region), .output_i(1'b1), .data_o(lost_read)
     );
     wire over;  // the words that are compared are not those of the first frame
     word_delay #(.WIDTH(1), .DEPTH(SUM_CLOCKS)) u_over (.clk_i(clk_i), .data_i(!none_q), .data_o(over));

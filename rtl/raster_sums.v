@@ -57,7 +57,7 @@ module raster_sums #(
         .WIDTH(SUM_BITS), .WORDS(COLUMNS), .ADDRESS_BITS(COLUMN_BITS), .OUTPUT_STAGE(DEEP)
     ) u_rows (
         .clk_i(clk_i), .write_i(written_q), .write_address_i(write_column_q), .data_i(sum_o),
-        .read_i(1'b1), .read_address_i(column_q), .data_o(above)
+        .read_i(1'b1), .read_address_i(column_q), .output_i(1'b1), .data_o(above)
     );
     bit_delay #(.DEPTH(DEEP)) u_ended (.clk_i(clk_i), .rst_i(rst_i), .bit_i(ended_q), .bit_o(ended));
     word_delay #(.WIDTH(SUM_BITS + COLUMN_BITS + 1), .DEPTH(DEEP)) u_row (

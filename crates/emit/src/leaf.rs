@@ -111,7 +111,7 @@ leaves! {
         "raster_blocks", "adder", "magnitude_above", "raster_memory", "word_delay", "bit_delay"
     ],
     "raster_decision" => ["vote", "word_delay", "bit_delay", "raster_valid"],
-    "raster_forward" => ["raster_start", "raster_readout", "raster_memory"],
+    "raster_forward" => ["raster_start", "raster_readout", "raster_memory", "word_delay", "bit_delay"],
     "raster_core" => [
         "raster_control", "raster_pad", "bit_delay", "word_delay", "raster_window", "median_columns",
         "raster_edge", "raster_corner", "raster_store", "raster_external", "raster_change", "raster_counts",

@@ -40,7 +40,7 @@ const TWO_PORTS: &str = "module dut (
     always @(posedge clk_i) known_o <= known_i;
     raster_memory #(.WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(BITS)) u_memory (
         .clk_i(clk_i), .write_i(write_i), .write_address_i(address_i), .data_i(data_i),
-        .read_i(read_i), .read_address_i(read_address_i), .data_o(data_o)
+        .read_i(read_i), .read_address_i(read_address_i), .output_i(1'b1), .data_o(data_o)
     );
 endmodule
 ";

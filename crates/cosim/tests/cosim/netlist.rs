@@ -46,6 +46,11 @@ const RASTER_DEEP: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[tempora
                            [render]\npayload = \"raw\"\n[hardware]\norganization = \"raster\"\n\
                            pipelining = \"deep\"\n";
 
+/// Means of 2x2 blocks wait beside the pixels, and those that were sent in a memory of the whole frame.
+const RASTER_MEANS: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[denoise]\nfilter = \"none\"\n[render]\n\
+                            irrelevant = \"mean\"\n[periphery]\nblocks = 2\n[hardware]\norganization = \"raster\"\n\
+                            pipelining = \"deep\"\n";
+
 fn job(toml: &str, level: Level, regions: (u32, u32), output: &Path) -> Job {
     let design = design(&Config::from_toml(toml).unwrap(), regions);
     let mut job = Job::new(&design, directed(level, 1), output).unwrap();
@@ -77,6 +82,7 @@ fn netlists_agree_with_the_model() {
         (FOLDED_MEANS, Level::Rcm { columns: 5, rows: 1 }, (5, 1)),
         (RASTER, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
         (RASTER_DEEP, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
+        (RASTER_MEANS, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
     ];
     let failures = in_parallel(&jobs, |&(toml, level, regions)| {
         let job = job(toml, level, regions, &output.path().join(level.to_string()));

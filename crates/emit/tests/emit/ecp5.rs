@@ -10,9 +10,19 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
 
-/// Bits of a word, and words: each width of a block, several blocks, words that fill them and do not.
-const SHAPES: &[(u32, u32)] =
-    &[(1, 2), (12, 240), (36, 480), (18, 1024), (16, 1920), (3, 4096), (5, 8192), (8, 16384)];
+/// Bits of a word, and words: each width of a block, several blocks, words that fill them and do not, several banks.
+const SHAPES: &[(u32, u32)] = &[
+    (1, 2),
+    (12, 240),
+    (36, 480),
+    (18, 1024),
+    (16, 1920),
+    (3, 4096),
+    (5, 8192),
+    (8, 16384),
+    (8, 10240),
+    (2, 40000),
+];
 
 fn memory() -> &'static str {
     LEAVES.iter().find(|leaf| leaf.name == "raster_memory").unwrap().contents
@@ -58,6 +68,10 @@ fn blocks_of_the_ecp5_show_what_the_memory_shows() {
         ((12, 240), "14'd3", "14'd1"),
         ((16, 1920), ".CEB(read_i)", ".CEB(1'b1)"),
         ((36, 480), "given_all[block*BITS+:BITS]", "given_all[0+:BITS]"),
+        ((16, 1920), ".OCEB(output_i)", ".OCEB(1'b1)"),
+        ((2, 40000), "write_i && write_address >> PLACE_BITS == bank", "write_i"),
+        ((2, 40000), "if (output_i) bank_q", "bank_q"),
+        ((2, 40000), "if (read_i) read_bank_q", "read_bank_q"),
     ] {
         let shown = compared(shape, from, to);
         assert!(!shown.contains("PASS"), "not found: {to}: {shown}");

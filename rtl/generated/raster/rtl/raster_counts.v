@@ -82,7 +82,7 @@ module raster_counts #(
         .WIDTH(FEATURES * KEPT_BITS), .WORDS(COLUMNS), .ADDRESS_BITS(COLUMN_BITS), .OUTPUT_STAGE(DEEP)
     ) u_rows (
         .clk_i(clk_i), .write_i(write), .write_address_i(write_column), .data_i(kept),
-        .read_i(1'b1), .read_address_i(column_q), .data_o(kept_above)
+        .read_i(1'b1), .read_address_i(column_q), .output_i(1'b1), .data_o(kept_above)
     );
     // Nothing is above a region's first row. Where a row of a region takes several words, its place is known early, and
     // the memory, which may stand far from here, has a clock for the way.

@@ -21,21 +21,20 @@ module raster_queue #(
     reg [BITS-1:0] enter_q, leave_q;
     wire stored = enter_q != leave_q;  // an entry is in the memory
     wire leave;                        // the oldest of the memory leaves it
-    wire [WIDTH-1:0] read;
+    wire read;                         // an entry is read; with leave, the oldest
+    wire move;                         // what was read becomes the oldest entry (DEEP)
     reg oldest_valid_q;
 
-    raster_memory #(.WIDTH(WIDTH), .WORDS(1 << BITS), .ADDRESS_BITS(BITS)) u_entries (
-        .clk_i(clk_i), .write_i(enter_i), .write_address_i(enter_q), .data_i(entry_i), .read_i(!DEEP || leave),
-        .read_address_i(leave_q), .data_o(read)
+    raster_memory #(.WIDTH(WIDTH), .WORDS(1 << BITS), .ADDRESS_BITS(BITS), .OUTPUT_STAGE(DEEP)) u_entries (
+        .clk_i(clk_i), .write_i(enter_i), .write_address_i(enter_q), .data_i(entry_i), .read_i(read),
+        .read_address_i(leave_q), .output_i(move), .data_o(oldest_o)
     );
 
     generate
         if (DEEP) begin : g_deep
             reg read_valid_q;
-            reg [WIDTH-1:0] oldest_q;
-            wire move = read_valid_q && !oldest_valid_q;
+            assign move = read_valid_q && !oldest_valid_q;
             always @(posedge clk_i) begin
-                if (move) oldest_q <= read;
                 read_valid_q   <= leave || (read_valid_q && !move);
                 oldest_valid_q <= move || (oldest_valid_q && !take_i);
                 if (rst_i) begin
@@ -43,8 +42,9 @@ module raster_queue #(
                     oldest_valid_q <= 1'b0;
                 end
             end
+            // Whether there is one comes late in a clock: so one is read while none is kept.
+            assign read = !read_valid_q;
             assign leave = stored && !read_valid_q;
-            assign oldest_o = oldest_q;
             assign waits_o = stored || read_valid_q || oldest_valid_q;
         end else begin : g_plain
             always @(posedge clk_i) begin
@@ -52,7 +52,7 @@ module raster_queue #(
                 if (rst_i) oldest_valid_q <= 1'b0;
             end
             assign leave = take_i;
-            assign oldest_o = read;
+            assign {read, move} = 2'b11;
             assign waits_o = stored;
         end
     endgenerate

@@ -69,7 +69,7 @@ module raster_store #(
                     .STYLE(KIND == 1 ? "ultra" : "block")
                 ) u_words (
                     .clk_i(clk_i), .write_i(write_i), .write_address_i(write_place), .data_i(word_i),
-                    .read_i(1'b1), .read_address_i(read_place), .data_o(reference_o)
+                    .read_i(1'b1), .read_address_i(read_place), .output_i(1'b1), .data_o(reference_o)
                 );
             end
         end

@@ -59,7 +59,7 @@ module raster_window #(
         .WIDTH(2 * WORD_BITS), .WORDS(ROW_WORDS), .ADDRESS_BITS(ADDRESS_BITS), .OUTPUT_STAGE(DEEP)
     ) u_rows (
         .clk_i(clk_i), .write_i(write), .write_address_i(write_place), .data_i({middle, incoming}),
-        .read_i(step_i), .read_address_i(place_q), .data_o({above, middle})
+        .read_i(step_i), .read_address_i(place_q), .output_i(1'b1), .data_o({above, middle})
     );
 
     reg                    step_q;

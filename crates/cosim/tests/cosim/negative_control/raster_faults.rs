@@ -129,7 +129,7 @@ pub(crate) const FAULTS: &[Fault] = &[
 
     fault("operator", Lost, "raster_queue", "oldest_valid_q <= stored && !take_i", "oldest_valid_q <= stored"),
     fault("operator", Sent, "raster_queue", "stored && !read_valid_q", "stored"),
-    fault("operator", Sent, "raster_queue", "if (move) oldest_q <= read;", "oldest_q <= read;"),
+    fault("operator", Sent, "raster_queue", ".output_i(move)", ".output_i(1'b1)"),
     fault("operator", Sent, "raster_queue", "stored || read_valid_q || oldest_valid_q", "stored"),
 
     fault("operator", Moments, "raster_pass", "scaled < mean ? mean - scaled : scaled - mean", "scaled - mean"),
@@ -142,6 +142,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Paper, "raster_readout", "assign step_o = !valid_o || ready_i;", "assign step_o = ready_i;"),
     fault("reset", Paper, "raster_readout", "        if (rst_i) held_q <= 1'b0;\n", ""),
     fault("operator", Paper, "raster_readout", "abort = held_stale && !first_o", "abort = held_stale"),
+    fault("index", Paper, "raster_forward", ".output_i(step)", ".output_i(1'b1)"),
     fault("operator", Paper, "raster_readout", "fetched_last_q || aborted_q || abort;", "fetched_last_q || aborted_q;"),
     fault("operator", Paper, "raster_readout", "abort_o          <= aborted_q || abort;", "abort_o          <= aborted_q;"),
     fault("operator", Sent, "raster_readout", "fetched_last_q || aborted_q || abort;", "aborted_q || abort;"),

@@ -121,7 +121,9 @@ pub(crate) const RASTER: &[Fault] = &[
     fault("index", RasterMeans, "raster_readout", "{means_q, fetched_means_q} <= {fetched_means_q, means}", "{means_q, fetched_means_q} <= {means, means}"),
 
     fault("operator", RasterMeans, "raster_forward", ".enter_i(active_i || (BLOCKS > 0 && summary_i))", ".enter_i(active_i)"),
-    fault("index", RasterMeansDeep, "raster_forward", "summary_o ? {LANES{mean_q}} : pixel_q", "pixel_q"),
+    fault("index", RasterMeansDeep, "raster_forward", "summary_o ? {LANES{shown}} : pixel", "pixel"),
+    fault("index", RasterMeans, "raster_forward", "stepped_q ? mean : kept_q", "mean"),
+    fault("index", RasterMeansDeep, "raster_forward", ".DEPTH(2)) u_sent ", ".DEPTH(1)) u_sent "),
     fault("operator", RasterMeans, "raster_forward", "done_o = fetch_last || lost_valid_o", "done_o = fetch_last"),
     fault("operator", RasterMeans, "raster_forward", "done_o = fetch_last || lost_valid_o", "done_o = lost_valid_o"),
     fault("constant", RasterMeansOne, "raster_forward", "ROW_BITS = BANKS > 2 ? 2 : 1", "ROW_BITS = 1"),

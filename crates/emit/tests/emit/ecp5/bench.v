@@ -7,7 +7,7 @@ module bench;
     parameter WORDS = 240;
     localparam BITS = $clog2(WORDS);
     reg clk = 1'b0;
-    reg write = 1'b0, read = 1'b0;
+    reg write = 1'b0, read = 1'b0, take = 1'b0;
     reg [BITS-1:0] write_address = 0, read_address = 0;
     reg [WIDTH-1:0] word = 0;
     wire [WIDTH-1:0] plain, blocks;
@@ -15,11 +15,11 @@ module bench;
 
     raster_memory #(.WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(BITS), .OUTPUT_STAGE(1)) u_plain (
         .clk_i(clk), .write_i(write), .write_address_i(write_address), .data_i(word), .read_i(read),
-        .read_address_i(read_address), .data_o(plain)
+        .read_address_i(read_address), .output_i(take), .data_o(plain)
     );
     ecp5_memory #(.WIDTH(WIDTH), .WORDS(WORDS), .ADDRESS_BITS(BITS), .OUTPUT_STAGE(1)) u_blocks (
         .clk_i(clk), .write_i(write), .write_address_i(write_address), .data_i(word), .read_i(read),
-        .read_address_i(read_address), .data_o(blocks)
+        .read_address_i(read_address), .output_i(take), .data_o(blocks)
     );
 
     initial begin
@@ -31,6 +31,7 @@ module bench;
             write_address = clocks < WORDS ? clocks : $unsigned($random(seed)) % WORDS;
             word = {$random(seed), $random(seed)};
             read = clocks > WORDS && $random(seed) % 4 != 0;
+            take = $random(seed) % 4 != 0;
             read_address = $unsigned($random(seed)) % WORDS;
             if (read_address == write_address) read_address = (read_address + 1) % WORDS;
             #1 clk = 1'b1;
