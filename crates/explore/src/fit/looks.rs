@@ -6,6 +6,7 @@ use std::collections::BTreeMap;
 use foveate_camera::{
     CameraConfig, ConfigError, Decimal, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
 };
+use foveate_design::is_taken;
 use foveate_fidelity::Figures;
 
 use super::constraints::{Constraints, Held, all_hold, excess};
@@ -175,9 +176,10 @@ impl<'a> Search<'a> {
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Examines cameras on the first halves. Invalid ones are left out.
+    /// Examines cameras on the first halves. Those that are none, or that no organization takes, are left out.
     pub(super) fn look(&mut self, configs: &[CameraConfig]) -> Result<Vec<Look>, ExploreError> {
-        let cameras: Vec<_> = configs.iter().filter_map(|config| config.validate().ok()).collect();
+        let taken = configs.iter().filter(|config| is_taken(config));
+        let cameras: Vec<_> = taken.filter_map(|config| config.validate().ok()).collect();
         let new: BTreeMap<String, _> = cameras
             .iter()
             .map(|camera| (camera.config().to_toml(), camera.clone()))
