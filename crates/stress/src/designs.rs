@@ -46,11 +46,16 @@ fn among_others(kind: FeatureKind) -> &'static [FeatureKind] {
     }
 }
 
+/// Every feature that the organization of the cases takes.
+pub(crate) fn kinds() -> Vec<FeatureKind> {
+    let organization = Organization::default();
+    FeatureKind::ALL.iter().copied().filter(|kind| organization.takes_feature(*kind)).collect()
+}
+
 /// Every neighborhood, filter and payload, every reference that the organization takes, with its features by turns.
 pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+    let kinds = kinds();
     let organization = Organization::default();
-    let kinds = FeatureKind::ALL.iter().copied();
-    let kinds: Vec<_> = kinds.filter(|kind| organization.takes_feature(*kind)).collect();
     let references = Reference::ALL.iter().copied();
     let references: Vec<_> = references.filter(|own| organization.takes_reference(*own)).collect();
     let mut designs = Vec::new();
