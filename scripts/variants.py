@@ -7,8 +7,10 @@
 Where code does something for one variant, the compiler has to name the place when another variant comes. So there is a
 `match` with every variant, or a method of the type. A comparison (`==`, `matches!`), a catch-all arm (`_ =>`), and a view
 of a design (`design.serial()`) whose None stands for all other organizations compile with a new variant and take it for
-any other. So does a question for what only one feature has (`feature.mean().is_some()`). This prints each of them outside
-of tests, and fails if there is one.
+any other. So does a question for what only one feature has (`feature.mean().is_some()`, `find_map(SpatialFeature::mean)`),
+a comparison of names, and a level that stands for a count of hits. A list of every variant
+(`FeatureKind::ALL`) in a file that does not ask which of them an organization takes (`takes`, `is_taken`) tries what is
+refused. This prints each of them outside of tests, and fails if there is one.
 
 Not looked at: folders `tests`, `benches` and `examples`, files tests.rs, what follows `#[cfg(test)]`, and comments.
 """
@@ -27,19 +29,39 @@ COMPARISON = re.compile(rf"[!=]=\s*(?:\w+::)*{NAMES}|{NAMES}(?:\([^)]*\))?\s*[!=
 # A design that must be of that organization says so: `.expect(..)`.
 VIEW = re.compile(r"\.(?:pipelined|serial|raster)\(\)(?!\s*\.\s*(?:unwrap|expect)\()")
 # What one feature has, asked in place of which feature it is.
-PART = re.compile(r"\.(?:mean|variance)\(\)\s*\.\s*is_(?:some|none)\b|\.kind\(\)\s*\.\s*name\(\)\s*[!=]=")
+PART = re.compile(
+    r"\.(?:mean|variance)\(\)\s*\.\s*is_(?:some|none)\b"
+    r"|\bfind_map\(\s*(?:\|\w+\|\s*\w+\.|SpatialFeature::)(?:mean|variance)\b"
+    r"|\b(?:kind|organization|reference|irrelevant)(?:\(\))?\s*\.\s*name\(\)\s*[!=]="
+    r"|\b(?:entry|spatial|feature)\.level\.is_(?:some|none)\(\)"
+)
+# Every variant, whoever takes it.
+EVERY = re.compile(r"\b(?:FeatureKind|Reference|Irrelevant)::ALL\b(?!\s*\.\s*len\b)")
+ASKS = re.compile(r"\btakes(?:_\w+)?\(|\bis_taken\(")
+# Where a list of all is of what there is, not of what is tried.
+LISTS = {
+    "crates/emit/src/raster.rs": "the core has an input for the level of each feature",
+    "crates/emit/src/serial.rs": "the array has an input for the level of each feature",
+    "crates/emit/src/branch.rs": "parts of each feature",
+    "crates/explore/src/table.rs": "a column for each feature",
+    "crates/cli/src/command/estimate/compare.rs": "what is refused is listed with the reason",
+}
 # Where code is about one variant by its purpose.
 OWN_PURPOSE = {"crates/studies/src/study/histogram.rs": "the study is about mad"}
 # A constant such as FeatureKind::ALL is no variant.
 CONSTANT = re.compile(r"::[A-Z][A-Z_]+\b")
 
 
-def code(text):
+def without_comments(text):
     """The text without comments, strings and its tests; as many lines."""
     text = text.split("#[cfg(test)]")[0]
     text = re.sub(r"//.*", "", text)
-    text = re.sub(r'"(?:\\.|[^"\\])*"', lambda found: '""' + "\n" * found[0].count("\n"), text)
-    return CONSTANT.sub("", text)
+    return re.sub(r'"(?:\\.|[^"\\])*"', lambda found: '""' + "\n" * found[0].count("\n"), text)
+
+
+def code(text):
+    """That, without constants of the types."""
+    return CONSTANT.sub("", without_comments(text))
 
 
 def arms(text, start):
@@ -93,6 +115,14 @@ def catch_alls(text):
             yield from (place for pattern, place in patterns if re.fullmatch(r"[a-z_]\w*", pattern))
 
 
+def every(text):
+    """Lines that try every variant in a file that does not ask who takes it."""
+    text = without_comments(text)
+    if ASKS.search(text):
+        return []
+    return [text.count("\n", 0, found.start()) + 1 for found in EVERY.finditer(text)]
+
+
 def open_tests(text):
     """Lines of what would take a new variant for another one."""
     text = code(text)
@@ -108,8 +138,12 @@ def main():
         path = file.relative_to(ROOT).as_posix()
         if TESTS.search(path) or path in OWN_PURPOSE:
             continue
-        for line in open_tests(file.read_text(encoding="utf-8")):
+        text = file.read_text(encoding="utf-8")
+        for line in open_tests(text):
             print(f"{path}:{line}: takes a new variant for one that is known; match every variant, or ask the type")
+            count += 1
+        for line in [] if path in LISTS else every(text):
+            print(f"{path}:{line}: tries a variant that no organization takes; ask `Organization::takes` or `is_taken`")
             count += 1
     if count:
         sys.exit(f"variants: {count} places")

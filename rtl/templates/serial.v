@@ -56,8 +56,9 @@ module {= module =} #(
     ) u_array (
         .clk_i(clk_i), .rst_i(rst_i), .valid_i({= valid =}), .ready_o({= ready =}), .pixel_i(pixel_i),
         .temporal_level_i({= temporal_level =}),
-        .edge_half_i({= edge_half =}),
-        .corner_level_i({= corner_level =}),
+{%- for level in levels %}
+        .{= level.0 =}({= level.1 =}),
+{%- endfor %}
         .minima_i({ {%- for minimum in minima %}{% if !loop.first %}, {% endif %}{= minimum =}{% endfor -%} }),
         .summary_level_i({= summary_level =}),
         .score_valid_o(score_valid_o), .score_index_o(score_index_o), .region_o(region), .score_o(score_o),

@@ -208,7 +208,7 @@ impl Entry<'_> {
     /// The integer threshold; `unit` score units are one unit of the configuration.
     fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, ConfigError> {
         let minimum = self.config.min_score.expect("the defaults are filled in before");
-        let counts = self.config.feature.has_window();
+        let counts = self.config.feature.measure().is_count();
         if counts && minimum.as_whole().is_none() {
             return Err(ConfigError::Type {
                 key: self.key("min_score"),

@@ -27,6 +27,15 @@ impl Measure {
         }
     }
 
+    /// Whether it is a count: a whole number, which no scaling of pixels changes.
+    #[must_use]
+    pub fn is_count(self) -> bool {
+        match self {
+            Self::Pixels => true,
+            Self::Levels | Self::SquaredLevels => false,
+        }
+    }
+
     /// The unit of `min_score`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -153,7 +162,7 @@ mod tests {
             assert_eq!(kind.level_max(255).is_some(), counts, "{kind}");
             assert_eq!(kind.defaults().level.is_some(), counts, "{kind}");
             assert_eq!(kind.trial_levels().is_empty(), !counts, "{kind}");
-            assert_eq!(kind.measure() == Measure::Pixels, counts, "{kind}");
+            assert_eq!(kind.measure().is_count(), counts, "{kind}");
         }
     }
 }

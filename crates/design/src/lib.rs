@@ -37,6 +37,7 @@ pub use foveate_camera::{
 };
 pub use hardware::Hardware;
 pub use interface::{BeatRegion, Interface, Stream, StreamRole};
+pub use organization::is_taken;
 pub use pipelined::{Pipelined, PipelinedTiming};
 pub use port::{Direction, Port, PortRole, Qualifier};
 pub use preset::{PRESETS, Preset};

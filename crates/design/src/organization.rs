@@ -4,10 +4,42 @@
 //!
 //! Each organization answers in a module of its own, as an implementation of [`crate::rules::Rules`].
 
+use crate::pipelined::Pipelined;
+use crate::raster::Raster;
 use crate::rules::{Rules, Unit};
+use crate::serial::Serial;
+use crate::takes::Taken;
 use crate::{Design, Feed, Hardware, HardwareConfig, Interface, Organization, Port, Timing};
+use foveate_camera::{CameraConfig, FeatureKind, Reference};
 
 impl Organization {
+    fn taken(self) -> Taken {
+        match self {
+            Self::Pipelined => Taken::by::<Pipelined>(),
+            Self::Serial => Taken::by::<Serial>(),
+            Self::Raster => Taken::by::<Raster>(),
+        }
+    }
+
+    /// Whether it computes the score of a feature.
+    #[must_use]
+    pub fn takes_feature(self, kind: FeatureKind) -> bool {
+        (self.taken().feature)(kind)
+    }
+
+    /// Whether it keeps such a reference.
+    #[must_use]
+    pub fn takes_reference(self, reference: Reference) -> bool {
+        (self.taken().reference)(reference)
+    }
+
+    /// Whether it takes the features of a camera, its reference and what its irrelevant regions show. Sizes and keys of
+    /// `[hardware]` may still not go together: [`crate::Config::validate`] says so.
+    #[must_use]
+    pub fn takes(self, camera: &CameraConfig) -> bool {
+        self.taken().takes(camera)
+    }
+
     /// What people call a unit of the array, such as "RPU".
     #[must_use]
     pub fn unit_name(self) -> &'static str {
@@ -35,6 +67,13 @@ impl Organization {
             Self::Pipelined | Self::Raster => false,
         }
     }
+}
+
+/// Whether some organization takes a camera. What tries features, references or ways to show irrelevant regions asks this,
+/// so that it does not choose what nobody can build.
+#[must_use]
+pub fn is_taken(camera: &CameraConfig) -> bool {
+    Organization::ALL.iter().any(|organization| organization.takes(camera))
 }
 
 impl Design {

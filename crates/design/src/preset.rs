@@ -86,3 +86,26 @@ impl Preset {
         Config::from_toml(self.toml)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Organization, Reference};
+    use foveate_camera::Irrelevant;
+
+    /// The compiler asks for no preset.
+    #[test]
+    fn every_organization_reference_and_way_to_show_has_a_preset() {
+        let configs: Vec<Config> = PRESETS.iter().map(|preset| preset.config().unwrap()).collect();
+        let some = |holds: &dyn Fn(&Config) -> bool| configs.iter().any(holds);
+        for &own in Organization::ALL {
+            assert!(some(&|config| config.hardware.organization == own), "{own}");
+        }
+        for &own in Reference::ALL {
+            assert!(some(&|config| config.camera.temporal.reference == own), "{own}");
+        }
+        for &own in Irrelevant::ALL {
+            assert!(some(&|config| config.camera.render.irrelevant == own), "{own}");
+        }
+    }
+}

@@ -3,7 +3,7 @@
 //! one is computed by those that say so, and refused by the others.
 
 use crate::{HardwareConfig, Thresholds};
-use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference};
+use foveate_camera::{Camera, CameraConfig, ConfigError, FeatureKind, Irrelevant, Reference};
 
 /// What an organization says of a configuration; it is implemented by what only that organization has.
 pub(crate) trait Takes: Sized {
@@ -19,6 +19,30 @@ pub(crate) trait Takes: Sized {
     fn takes_sync() -> bool;
     /// What only it has, if it takes the rest of what is asked for.
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError>;
+}
+
+/// What an organization says of features, references and what irrelevant regions show.
+pub(crate) struct Taken {
+    pub(crate) feature: fn(FeatureKind) -> bool,
+    pub(crate) reference: fn(Reference) -> bool,
+    irrelevant: fn(Irrelevant) -> bool,
+}
+
+impl Taken {
+    pub(crate) fn by<O: Takes>() -> Self {
+        Self {
+            feature: O::takes_feature,
+            reference: O::takes_reference,
+            irrelevant: O::takes_irrelevant,
+        }
+    }
+
+    /// Whether that is all of a camera.
+    pub(crate) fn takes(&self, camera: &CameraConfig) -> bool {
+        camera.spatial.iter().all(|entry| (self.feature)(entry.feature))
+            && (self.reference)(camera.temporal.reference)
+            && (self.irrelevant)(camera.render.irrelevant)
+    }
 }
 
 /// What is asked for, if the organization takes all of it.
@@ -94,6 +118,25 @@ mod tests {
         let config = Config::from_toml(text).unwrap();
         let camera = config.camera.validate().unwrap();
         taken(&config.hardware, &camera).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn a_camera_is_taken_if_all_of_it_is() {
+        let config = Config::from_toml("[render]\nirrelevant = \"hold\"\n").unwrap().camera;
+        let taken = |config: &CameraConfig| Taken::by::<Narrow>().takes(config);
+        let with = |change: &dyn Fn(&mut CameraConfig)| {
+            let mut other = config.clone();
+            change(&mut other);
+            other
+        };
+        assert!(taken(&config));
+        let mad = with(&|config| config.spatial[0].feature = FeatureKind::Mad);
+        let sent = with(&|config| config.temporal.reference = Reference::LastSent);
+        let zero = with(&|config| config.render.irrelevant = Irrelevant::Zero);
+        for other in [mad, sent, zero] {
+            assert!(!taken(&other), "{}", other.to_toml());
+            assert!(crate::is_taken(&other), "{}", other.to_toml());
+        }
     }
 
     #[test]

@@ -37,11 +37,8 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
         ("raster_core", "raster_window") => median() || window(),
         ("raster_core", "median_columns") => median(),
         ("raster_core", "raster_repeat") => !median() && !window() && is_padded_below(&design),
-        ("raster_core", "raster_edge" | "raster_corner") => scored(),
         ("raster_core", "raster_external") => design.store() == Store::External,
         ("raster_core", "raster_store") => design.store() != Store::External,
-        ("raster_core", "raster_moments" | "raster_deviation") => scored(),
-        ("raster_moments", "raster_variance") => scored(),
         ("raster_core", "raster_ring") => design.forwards() || scored(),
         ("raster_core", "raster_forward") => design.forwards(),
         ("raster_core", "raster_line") => design.forwards() && design.keeps_raw() && window(),
@@ -53,6 +50,7 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
         ("raster_store", "raster_memory") => {
             design.store() != Store::SinglePort && !is_in_banks(design)
         }
+        ("raster_core" | "raster_moments", part) if makes_a_score(part) => scored(),
         _ => true,
     }
 }
@@ -65,6 +63,11 @@ fn parts_of_score(kind: FeatureKind) -> &'static [&'static str] {
         FeatureKind::Mad => &["raster_moments", "raster_ring", "raster_deviation"],
         FeatureKind::Variance => &["raster_moments", "raster_variance"],
     }
+}
+
+/// Whether a part of a raster core is there for the score of some feature.
+fn makes_a_score(part: &str) -> bool {
+    FeatureKind::ALL.iter().any(|&kind| parts_of_score(kind).contains(&part))
 }
 
 /// Whether there is a memory of which regions have a reference.

@@ -4,12 +4,12 @@
 
 use foveate_camera::{Camera, Irrelevant, Reference};
 
-/// `LAST_SENT` of a serial array or a raster core, which know two references. What else follows from the reference asks
-/// it, and not this.
-pub(crate) fn last_sent(camera: &Camera) -> u32 {
+/// `LAST_SENT`, and whether a pipelined RPU has a store of what was sent last: the Verilog knows two references, and the
+/// flag has no third value. What else follows from the reference asks it, and not this.
+pub(crate) fn last_sent(camera: &Camera) -> bool {
     match camera.temporal().reference {
-        Reference::Previous => 0,
-        Reference::LastSent => 1,
+        Reference::Previous => false,
+        Reference::LastSent => true,
     }
 }
 

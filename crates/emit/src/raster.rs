@@ -3,7 +3,7 @@
 
 use crate::branch::Values;
 use crate::camera::{blanks, last_sent};
-use crate::kinds::kinds;
+use crate::kinds::{deviations, kinds};
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary, summary_level};
@@ -194,8 +194,17 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
 /// The features in the order in which the core has their scores: counts, sums, that of a second pass.
 fn features(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
     let mut list: Vec<_> = design.design().features().iter().collect();
-    list.sort_by_key(|feature| (feature.kind().has_second_pass(), !feature.kind().has_window()));
+    list.sort_by_key(|feature| turn(feature.kind()));
     list
+}
+
+/// Which scores of the core come before others: counts, then sums, then that of the second pass.
+fn turn(kind: FeatureKind) -> u32 {
+    match kind {
+        FeatureKind::Edge | FeatureKind::Corner => 0,
+        FeatureKind::Variance => 1,
+        FeatureKind::Mad => 2,
+    }
 }
 
 /// Where each score ends in the bits of all.
@@ -221,7 +230,7 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
         ("ISOLATED", flag(design.neighborhood() == Neighborhood::Isolated)),
         ("MEDIAN", flag(design.filter() == Filter::Median3x3)),
         ("ALL", flag(design.combine() == Combine::All)),
-        ("LAST_SENT", last_sent(&design)),
+        ("LAST_SENT", flag(last_sent(&design))),
         ("BLANKS", flag(blanks(&design))),
         ("RAW", flag(design.keeps_raw())),
         ("FORWARD", flag(design.forwards())),
@@ -243,7 +252,7 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
     for feature in features(design) {
         let new = sums(design, feature).into_iter().filter(|new| !list.contains(new));
         list.extend(new.collect::<Vec<_>>());
-        if let Some(mean) = feature.mean() {
+        if let Some(mean) = deviations(feature) {
             let factor = mean.reciprocal.multiplier();
             wide.push(("FACTOR", format!("{}'d{factor}", bits_for(factor))));
         }

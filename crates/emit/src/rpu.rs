@@ -3,8 +3,8 @@
 
 mod temporal;
 
-use self::temporal::{Candidate, candidates, compared, keeps_second, keeps_sent, unused};
-use crate::camera::blanks;
+use self::temporal::{Candidate, candidates, compared, keeps_second, unused};
+use crate::camera::{blanks, last_sent};
 use crate::text::{PortLine, text_of};
 use crate::thresholds::{Constant, constants, signal, summary};
 use crate::{banner, latency};
@@ -165,7 +165,7 @@ fn view(design: PipelinedDesign<'_>) -> Rpu {
         median_registers: timing.median_registers,
         count: if deep { "count" } else { "tail" },
         second_pass,
-        last_sent: keeps_sent(reference),
+        last_sent: last_sent(&design),
         blanks: u32::from(blanks(&design)),
         windowed,
         sums,

@@ -3,7 +3,7 @@
 
 use crate::branch::Values;
 use crate::camera::{blanks, last_sent};
-use crate::kinds::kinds;
+use crate::kinds::{deviations, kinds};
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
 use crate::thresholds::{Constant, constants, signal, summary, summary_level};
@@ -44,8 +44,8 @@ struct Serial {
     // Thresholds.
     half_level: bool,
     temporal_level: String,
-    edge_half: String,
-    corner_level: String,
+    /// The inputs of the array for the levels of features, and what is connected to them.
+    levels: Vec<(&'static str, String)>,
     /// The last feature first.
     minima: Vec<String>,
     summary_level: String,
@@ -151,11 +151,7 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> Serial {
         region_range: REGION_RANGE,
         half_level: edge.is_some() && runtime,
         temporal_level: signal(&design, PortRole::TemporalLevel),
-        edge_half: edge_half(design),
-        corner_level: match design.feature(FeatureKind::Corner) {
-            Some(_) => signal(&design, PortRole::Level(FeatureKind::Corner)),
-            None => format!("{}'d0", design.pixel_bits()),
-        },
+        levels: FeatureKind::ALL.iter().filter_map(|&kind| level(design, kind)).collect(),
         minima: minima(design),
         summary_level: summary_level(&design),
         summarizes: design.periphery().is_some(),
@@ -194,7 +190,7 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
     let median = design.filter() == Filter::Median3x3;
     let region = design.region_size();
     let base = |kind| memory.area(kind).map_or(0, |area| area.base);
-    let fraction = design.features().iter().find_map(SpatialFeature::mean);
+    let fraction = design.features().iter().find_map(deviations);
     let flag = |condition: bool| u32::from(condition);
     let numbers = [
         ("WIDTH", design.pixel_bits()),
@@ -203,7 +199,7 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ("DENOISED_SIDE", if median { design.denoised_side() } else { region }),
         ("MEDIAN", flag(median)),
         ("SHARED", flag(design.neighborhood() == Neighborhood::Shared)),
-        ("LAST_SENT", last_sent(&design)),
+        ("LAST_SENT", flag(last_sent(&design))),
         ("BLANKS", flag(blanks(&design))),
         ("RAW_PAYLOAD", flag(design.keeps_raw())),
         ("RASTER", flag(design.feed() == Feed::Raster)),
@@ -241,6 +237,20 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
         ]);
     }
     list
+}
+
+/// The input of the array for the level of a feature, which it has also without the feature, and what is connected to it;
+/// none for a feature without a level.
+fn level(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, String)> {
+    match kind {
+        FeatureKind::Edge => Some(("edge_half_i", edge_half(design))),
+        FeatureKind::Corner => {
+            let given = design.feature(kind).map(|_| signal(&design, PortRole::Level(kind)));
+            let level = given.unwrap_or_else(|| format!("{}'d0", design.pixel_bits()));
+            Some(("corner_level_i", level))
+        }
+        FeatureKind::Mad | FeatureKind::Variance => None,
+    }
 }
 
 /// floor(level / 2) of `edge`, in two bits more than a pixel.

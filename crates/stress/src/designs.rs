@@ -2,8 +2,8 @@
 //! The designs that the cases run on.
 
 use foveate_design::{
-    Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
-    SUMMARY_BLOCKS, SpatialConfig,
+    Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
+    Reference, SUMMARY_BLOCKS, SpatialConfig,
 };
 
 /// A configuration for frames of `size` with regions of side `side` and pixels of `bits`, thresholds low
@@ -46,14 +46,24 @@ fn among_others(kind: FeatureKind) -> &'static [FeatureKind] {
     }
 }
 
-/// Every neighborhood, filter, reference and payload, with the features by turns.
+/// Every feature that the organization of the cases takes.
+pub(crate) fn kinds() -> Vec<FeatureKind> {
+    let organization = Organization::default();
+    FeatureKind::ALL.iter().copied().filter(|kind| organization.takes_feature(*kind)).collect()
+}
+
+/// Every neighborhood, filter and payload, every reference that the organization takes, with its features by turns.
 pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
+    let kinds = kinds();
+    let organization = Organization::default();
+    let references = Reference::ALL.iter().copied();
+    let references: Vec<_> = references.filter(|own| organization.takes_reference(*own)).collect();
     let mut designs = Vec::new();
     for &neighborhood in Neighborhood::ALL {
         for &filter in Filter::ALL {
-            for &reference in Reference::ALL {
+            for &reference in &references {
                 for &payload in Payload::ALL {
-                    let turn = FeatureKind::ALL[designs.len() % FeatureKind::COUNT];
+                    let turn = kinds[designs.len() % kinds.len()];
                     let mut config = config(size, side, bits, among_others(turn));
                     config.camera.region.neighborhood = neighborhood;
                     config.camera.denoise.filter = filter;

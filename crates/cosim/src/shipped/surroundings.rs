@@ -3,7 +3,7 @@
 
 use super::script::FRAMES;
 use crate::stimulus::{Queue, ends_region};
-use foveate_design::{Design, Hardware, PortRole, RasterTiming, Store};
+use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 
 /// Regions lost in the middle after which the sink takes nothing any more, so that counters get far and the vectors of a
@@ -64,7 +64,7 @@ impl Outside {
             Hardware::Raster(own) => part.on(own),
             Hardware::Pipelined(_) | Hardware::Serial(_) => return None,
         };
-        (part.store() == Store::External).then(|| Self {
+        part.frames_are_kept_outside().then(|| Self {
             queue: Queue::default(),
             nothing: vec![0; part.pixels_per_clock() as usize],
             taken: 0,

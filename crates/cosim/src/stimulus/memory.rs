@@ -3,7 +3,7 @@
 
 use super::queue::Queue;
 use super::random::Random;
-use foveate_design::{Design, Hardware, PortRole, RasterTiming, Store};
+use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 
 /// A wrong word comes once in so many.
@@ -42,7 +42,7 @@ impl Memory {
             Hardware::Raster(own) => design.on(own),
             Hardware::Pipelined(_) | Hardware::Serial(_) => return None,
         };
-        (design.store() == Store::External).then(|| Self {
+        design.frames_are_kept_outside().then(|| Self {
             queue: Queue::default(),
             lapse: Lapse::None,
             missing: [0; 2],

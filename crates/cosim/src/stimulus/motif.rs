@@ -91,7 +91,8 @@ impl Artist {
     pub(crate) fn new(design: &Design, side: u32, random: Random) -> Self {
         let max = u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits");
         let (side, own) = (side as usize, design.region_size() as usize);
-        let mean = design.features().iter().find_map(|feature| feature.mean());
+        let units = design.features().iter().filter_map(|feature| feature.mean());
+        let fraction_bits = units.map(|mean| mean.fraction_bits).max();
         let levels = design.features().iter().filter_map(|feature| feature.level());
         let mut amounts = vec![1, 2.min(max), max / 2, max];
         for level in levels.chain([design.temporal().level]) {
@@ -116,7 +117,7 @@ impl Artist {
             max,
             count: own * own,
             block: design.periphery().map(|periphery| periphery.block_side as usize),
-            mean_unit: 1 << mean.map_or(0, |mean| mean.fraction_bits),
+            mean_unit: 1 << fraction_bits.unwrap_or(0),
             counts,
             amounts,
             changes,

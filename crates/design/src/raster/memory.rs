@@ -121,10 +121,10 @@ impl Sizes {
         if design.filter() != Filter::None {
             list.push(row("two rows of pixels, for the median", 2 * self.word));
         }
-        if self.hits > 0 {
+        if design.has_feature_window() {
             list.push(row("two rows of pixels, for the features", 2 * self.word));
         }
-        if self.hits > 0 && design.keeps_raw() && design.forwards() {
+        if design.has_feature_window() && design.keeps_raw() && design.forwards() {
             list.push(row("a row of raw pixels", self.word));
         }
         if self.timing.windows == 0 && self.timing.rows > self.timing.taken_rows {

@@ -3,7 +3,7 @@
 
 use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
 use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
-use crate::{Design, Direction, Port, PortRole, RasterDesign, Store};
+use crate::{Design, Direction, Port, PortRole, RasterDesign};
 
 /// Bits of `lost_count_o`, which stays at its largest value.
 const LOST_COUNT_BITS: u32 = 16;
@@ -16,7 +16,7 @@ pub const FRAME_NUMBERS: u32 = 256;
 pub(super) fn interface(design: RasterDesign<'_>) -> Interface {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let mut streams = vec![pixels(&design, word)];
-    if design.store() == Store::External {
+    if design.frames_are_kept_outside() {
         let kept = design.temporal().reference.bits_per_pixel(design.pixel_bits());
         let word = design.pixels_per_clock() * kept;
         streams.extend([references(word), stored(word)]);

@@ -4,7 +4,7 @@
 use super::hardware::least_columns;
 use super::{RasterTiming, ports::interface};
 use crate::rules::{Array, Rules, Unit};
-use crate::{Design, Interface, Organization, RasterDesign, Store, Timing};
+use crate::{Design, Interface, Organization, RasterDesign, Reference, Store, Timing};
 
 /// Regions one below the other of the lone core.
 const LONE_ROWS: u32 = 3;
@@ -20,6 +20,19 @@ impl RasterDesign<'_> {
     #[must_use]
     pub fn store(&self) -> Store {
         self.own().store
+    }
+
+    /// Whether every frame, as it is scored, goes to a store outside of the core, and comes back as the reference of the
+    /// next: a reference that keeps something else has no way there.
+    #[must_use]
+    pub fn frames_are_kept_outside(&self) -> bool {
+        match (self.store(), self.temporal().reference) {
+            (Store::Block | Store::Ultra | Store::SinglePort, _) => false,
+            (Store::External, Reference::Previous) => true,
+            (Store::External, Reference::LastSent) => {
+                unreachable!("such a store is refused with this reference")
+            }
+        }
     }
 }
 

@@ -10,14 +10,6 @@ pub(super) struct Candidate {
     pub(super) hit: &'static str,
 }
 
-/// Whether there is a store of what was sent last.
-pub(super) fn keeps_sent(reference: Reference) -> bool {
-    match reference {
-        Reference::Previous => false,
-        Reference::LastSent => true,
-    }
-}
-
 /// Whether the frame decided last is kept when another has come since: with a second pass, if its scored pixels leave
 /// or become references.
 pub(super) fn keeps_second(design: PipelinedDesign<'_>) -> bool {

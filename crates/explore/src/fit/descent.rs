@@ -12,7 +12,7 @@ use foveate_camera::{
     Camera, CameraConfig, FeatureKind, Filter, Irrelevant, PeripheryConfig, Reference,
     SUMMARY_BLOCKS, SpatialConfig,
 };
-use foveate_design::HardwareConfig;
+use foveate_design::{HardwareConfig, is_taken};
 
 use super::agreed::Agreed;
 use super::build::cheapest_rough;
@@ -95,10 +95,11 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok(None)
     }
 
-    /// What each camera costs. Those that are none are left out.
+    /// What each camera costs. Those that are none, or that no organization takes, are left out.
     fn priced(&self, configs: &[CameraConfig]) -> Result<Vec<(f64, Camera)>, ExploreError> {
         let mut cameras: Vec<Camera> = Vec::new();
-        for camera in configs.iter().filter_map(|config| config.validate().ok()) {
+        let taken = configs.iter().filter(|config| is_taken(config));
+        for camera in taken.filter_map(|config| config.validate().ok()) {
             if !cameras.contains(&camera) {
                 cameras.push(camera);
             }

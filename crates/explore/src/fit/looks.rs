@@ -4,8 +4,10 @@
 use std::collections::BTreeMap;
 
 use foveate_camera::{
-    CameraConfig, ConfigError, Decimal, FeatureKind, Filter, Neighborhood, Reference, SpatialConfig,
+    CameraConfig, ConfigError, Decimal, FeatureKind, Filter, Measure, Neighborhood, Reference,
+    SpatialConfig,
 };
+use foveate_design::is_taken;
 use foveate_fidelity::Figures;
 
 use super::constraints::{Constraints, Held, all_hold, excess};
@@ -175,9 +177,10 @@ impl<'a> Search<'a> {
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Examines cameras on the first halves. Invalid ones are left out.
+    /// Examines cameras on the first halves. Those that are none, or that no organization takes, are left out.
     pub(super) fn look(&mut self, configs: &[CameraConfig]) -> Result<Vec<Look>, ExploreError> {
-        let cameras: Vec<_> = configs.iter().filter_map(|config| config.validate().ok()).collect();
+        let taken = configs.iter().filter(|config| is_taken(config));
+        let cameras: Vec<_> = taken.filter_map(|config| config.validate().ok()).collect();
         let new: BTreeMap<String, _> = cameras
             .iter()
             .map(|camera| (camera.config().to_toml(), camera.clone()))
@@ -251,15 +254,16 @@ fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<Spa
     for entry in features {
         let hits =
             entry.min_score.and_then(Decimal::as_whole).and_then(|hits| hits.try_into().ok());
-        let choices: Vec<SpatialConfig> = match (entry.level, hits) {
-            (Some(_), Some(hits)) => counts(hits, from, to)
+        let hits = hits.filter(|_| entry.feature.measure().is_count());
+        let choices: Vec<SpatialConfig> = match hits {
+            Some(hits) => counts(hits, from, to)
                 .into_iter()
                 .map(|hits| SpatialConfig {
                     min_score: Some(Decimal::whole(hits.into())),
                     ..entry.clone()
                 })
                 .collect(),
-            _ => vec![entry.clone()],
+            None => vec![entry.clone()],
         };
         found = found
             .iter()
@@ -287,6 +291,7 @@ fn ladder(feature: FeatureKind, bits: u32) -> Vec<Vec<SpatialConfig>> {
 
 fn ladder_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
     const LEVELS: [u64; 10] = [1, 2, 3, 4, 6, 8, 12, 16, 24, 32];
+    const HITS: [u64; 4] = [1, 2, 5, 10];
     let entry = |level: Option<u32>, min_score: u64| {
         vec![SpatialConfig {
             level,
@@ -294,11 +299,17 @@ fn ladder_of_8_bits(feature: FeatureKind) -> Vec<Vec<SpatialConfig>> {
             ..SpatialConfig::new(feature)
         }]
     };
-    let levels = feature.trial_levels();
-    if levels.is_empty() {
-        let power = feature.measure().power();
-        return LEVELS.map(|level| entry(None, level.pow(power))).into();
-    }
-    let pairs = levels.iter().flat_map(|&level| [1, 2, 5, 10].map(|hits| (level, hits)));
-    pairs.map(|(level, hits)| entry(Some(level), hits)).collect()
+    let measure = feature.measure();
+    let scores: Vec<u64> = match measure {
+        Measure::Pixels => HITS.into(),
+        Measure::Levels | Measure::SquaredLevels => {
+            LEVELS.map(|level| level.pow(measure.power())).into()
+        }
+    };
+    let levels: Vec<Option<u32>> = match feature.trial_levels() {
+        [] => vec![None],
+        levels => levels.iter().copied().map(Some).collect(),
+    };
+    let of = |level| scores.iter().map(move |&score| entry(level, score));
+    levels.into_iter().flat_map(of).collect()
 }

@@ -83,11 +83,11 @@ pub(super) fn scaled_by(task: &CameraConfig, spatial: f64, temporal: f64) -> Cam
     config.temporal.level = Some(changed(config.temporal.level_at(bits)));
     for entry in &mut config.spatial {
         *entry = entry.with_defaults(bits);
-        let in_levels = entry.level.is_none();
+        let measure = entry.feature.measure();
         entry.level = entry.level.map(level);
-        if in_levels {
+        if !measure.is_count() {
             // Deviations scale with contrast, their squares with its square.
-            let factor = (0..entry.feature.measure().power()).map(|_| factor).product::<f64>();
+            let factor = (0..measure.power()).map(|_| factor).product::<f64>();
             let scale = |score: Decimal| {
                 let score: f64 = score.to_string().parse().expect("a decimal is a number");
                 Decimal::from_f64((score * factor * 1000.0).round() / 1000.0)

@@ -47,7 +47,7 @@ pub fn hits(
     denoised: &Frame,
     region: u32,
 ) -> Option<Vec<bool>> {
-    let level = feature.level()?;
+    let level = feature.level().filter(|_| feature.kind().measure().is_count())?;
     let region = FrameRegion::new(camera, denoised, region);
     Some(region.windows().map(|window| is_hit(feature.kind(), &window, level)).collect())
 }

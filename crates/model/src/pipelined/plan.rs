@@ -3,7 +3,7 @@
 
 use foveate_design::{
     Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery, PipelinedDesign,
-    PipelinedTiming, Reference,
+    PipelinedTiming, Reference, SpatialFeature,
 };
 
 use crate::Thresholds;
@@ -52,7 +52,11 @@ impl RpuPlan {
             *place = Some(feature.kind());
         }
         let timing = PipelinedTiming::of(design);
-        let mean = design.features().iter().find_map(|feature| feature.mean());
+        let deviations = |feature: &SpatialFeature| match feature.kind() {
+            FeatureKind::Edge | FeatureKind::Corner | FeatureKind::Variance => None,
+            FeatureKind::Mad => feature.mean().map(|mean| mean.fraction_bits),
+        };
+        let fraction_bits = design.features().iter().find_map(deviations);
         Self {
             side: index(design.region_size()),
             pixels: index(design.region_pixels()),
@@ -64,7 +68,7 @@ impl RpuPlan {
             median_registers: index(timing.median_registers),
             tail_delay: index(timing.tail_delay),
             features,
-            fraction_bits: mean.map_or(0, |mean| mean.fraction_bits),
+            fraction_bits: fraction_bits.unwrap_or(0),
             second_pass: design.has_second_pass(),
             combine: design.combine(),
             reference: design.temporal().reference,

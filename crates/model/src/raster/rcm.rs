@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The core: what an edge does to each of its parts, and what its outputs show after it.
 
-use foveate_design::{FeatureKind, PortRole, RasterDesign, RasterTiming, Store};
+use foveate_design::{FeatureKind, PortRole, RasterDesign, RasterTiming};
 
 use super::advances::{Advances, Place};
 use super::decisions::{Complete, Decided, Decisions};
@@ -62,7 +62,7 @@ impl RasterRcm {
             picture: IncomingFrame::new(design),
             staleness: Staleness::new(&timing),
             regions: Regions::new(design),
-            outside: (design.store() == Store::External).then(|| Outside::new(design)),
+            outside: design.frames_are_kept_outside().then(|| Outside::new(design)),
             decisions: Decisions::new(timing),
             readout: Readout::new(&timing),
             decided: None,

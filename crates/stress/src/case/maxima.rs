@@ -5,15 +5,17 @@ use foveate_design::{FeatureKind, bits_for};
 use foveate_engine::Engine;
 use foveate_model::FunctionalCamera;
 
-use crate::designs::{config, design};
+use crate::designs::{config, design, kinds};
 use crate::pixels::frame;
 use crate::{CaseRow, Depth};
 
 /// The sums: half of the pixels at the maximum, the others at zero; at the largest region, and at odd ones.
 pub(crate) fn largest_scores(_: Depth) -> Vec<CaseRow> {
     let sizes = [(64, 16), (64, 8), (8, 8), (7, 16), (5, 10), (2, 1)];
-    let sums = [FeatureKind::Variance, FeatureKind::Mad];
-    sizes.into_iter().flat_map(|size| sums.map(|kind| largest_score(kind, size))).collect()
+    let mut sums = kinds();
+    sums.retain(|kind| !kind.measure().is_count());
+    let of = |size| sums.iter().rev().map(move |&kind| largest_score(kind, size));
+    sizes.into_iter().flat_map(of).collect()
 }
 
 fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {

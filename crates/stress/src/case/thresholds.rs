@@ -6,19 +6,16 @@ use foveate_engine::Engine;
 use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 
-use crate::designs::{config, design};
+use crate::designs::{config, design, kinds};
 use crate::pixels::Random;
 use crate::{CaseRow, Depth};
 
 /// A score votes at its own value and not one above; a pixel is a hit one below its magnitude and not at it.
 pub(crate) fn on_below_above(depth: Depth) -> Vec<CaseRow> {
     let rounds = depth.pick(12, 200);
-    vec![
-        scores(FeatureKind::Edge, rounds),
-        scores(FeatureKind::Corner, rounds),
-        levels(rounds),
-        counts(rounds),
-    ]
+    let counted = kinds().into_iter().filter(|kind| kind.measure().is_count());
+    let scored = counted.map(|kind| scores(kind, rounds));
+    scored.chain([levels(rounds), counts(rounds)]).collect()
 }
 
 const SIDE: u32 = 8;

@@ -24,6 +24,7 @@ struct Below {
 
 pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     let config = with_every_feature(watcher.config);
+    let kinds: Vec<FeatureKind> = config.camera.spatial.iter().map(|entry| entry.feature).collect();
     let watched = watcher.watch(&[config], |below: &mut Below, design, seen| {
         below.all += u64::from(design.regions());
         below.by_feature.resize(design.features().len(), 0);
@@ -33,7 +34,7 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
             *sum += low as u64;
         }
     })?;
-    let names = FeatureKind::ALL.iter().map(|kind| kind.name());
+    let names = kinds.iter().map(|kind| kind.name());
     let columns: Vec<_> = COLUMNS.0.into_iter().chain(names).chain(COLUMNS.1).collect();
     let mut table = Table::new(&columns);
     for set in &watched {
@@ -60,20 +61,22 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
         caption: String::new(),
         shape: Shape::Bars {
             groups: watched.iter().map(|set| set.name.clone()).collect(),
-            series: FeatureKind::ALL.iter().enumerate().map(bars).collect(),
+            series: kinds.iter().enumerate().map(bars).collect(),
         },
     };
     findings.chart(chart, &watched);
     Ok(findings)
 }
 
-/// Every feature in the order of the columns, with the thresholds of the configuration or defaults.
+/// Every feature that the organization takes, in the order of the columns, with the thresholds of the configuration or defaults.
 fn with_every_feature(config: &Config) -> Config {
+    let organization = config.hardware.organization;
     let entry = |&kind: &FeatureKind| {
         let own = config.camera.spatial.iter().find(|entry| entry.feature == kind);
         own.cloned().unwrap_or_else(|| SpatialConfig::new(kind))
     };
     let mut all = config.clone();
-    all.camera.spatial = FeatureKind::ALL.iter().map(entry).collect();
+    let taken = FeatureKind::ALL.iter().filter(|kind| organization.takes_feature(**kind));
+    all.camera.spatial = taken.map(entry).collect();
     all
 }

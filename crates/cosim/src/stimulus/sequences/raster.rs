@@ -5,7 +5,7 @@ use super::super::ahead::ThresholdAim;
 use super::super::memory::Lapse;
 use super::super::motif::Motif::*;
 use super::{End, Sequence};
-use foveate_design::{RasterDesign, RasterTiming, Store};
+use foveate_design::{RasterDesign, RasterTiming};
 
 /// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
 /// that what they leave behind meets another kind of frame each time.
@@ -53,7 +53,7 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     if design.periphery().is_some() {
         sequences.extend(means());
     }
-    if design.store() == Store::External {
+    if design.frames_are_kept_outside() {
         sequences.extend(failing(flushing));
     }
     sequences
