@@ -5,6 +5,7 @@ mod analyze;
 mod bench;
 mod check;
 mod dataset;
+mod decode;
 #[cfg(test)]
 mod examples;
 mod explain;
@@ -37,6 +38,7 @@ pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use bench::BenchArgs;
 pub(crate) use check::{CheckArgs, Clock, Rate};
 pub(crate) use dataset::DatasetArgs;
+pub(crate) use decode::DecodeArgs;
 pub(crate) use explain::ExplainArgs;
 pub(crate) use explore::ExploreArgs;
 pub(crate) use fit::FitArgs;
@@ -66,6 +68,7 @@ pub(crate) enum Command {
     Estimate(EstimateArgs),
     Simulate(SimulateArgs),
     Dataset(DatasetArgs),
+    Decode(DecodeArgs),
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
     Explore(ExploreArgs),

@@ -10,7 +10,7 @@ use crate::change;
 use crate::look::{Changes, Look};
 use crate::outcome::{FrameOutcome, split_off};
 use crate::pixels::Pixels;
-use crate::plan::CameraPlan;
+use crate::plan::{CameraPlan, index};
 use crate::policy::{Policy, SAMPLE, Step};
 use crate::scratch::Scratch;
 use crate::screens::Screen;
@@ -91,6 +91,27 @@ impl<T: Lane> Core<T> {
         self.settled.fill(false);
         self.screen.fill(T::default());
         self.policy = Policy::new(self.skip);
+    }
+
+    /// Appends the denoised pixels of a region.
+    pub(crate) fn denoised_region(&self, region: u32, pixels: &mut Vec<u16>) {
+        let (plan, stride) = (&self.plan, self.plan.stride());
+        let (row, column) = (index(region) / plan.columns, index(region) % plan.columns);
+        for y in row * plan.side..(row + 1) * plan.side {
+            let row = &self.denoised[y * stride + column * plan.side..][..plan.side];
+            pixels.extend(row.iter().map(|&pixel| word(pixel)));
+        }
+    }
+
+    /// Appends the means that a region has sent last.
+    pub(crate) fn summary(&self, region: u32, means: &mut Vec<u16>) {
+        let plan = &self.plan;
+        let Some(own) = plan.periphery else { return };
+        let (row, column) = (index(region) / plan.columns, index(region) % plan.columns);
+        let band = &self.means[row * plan.band_means()..][..plan.band_means()];
+        for row in band.chunks_exact(plan.means_in_row()) {
+            means.extend(row[column * own.blocks..][..own.blocks].iter().map(|&mean| word(mean)));
+        }
     }
 
     /// Takes the next frames; `outcome` is that of the last.
@@ -240,6 +261,11 @@ impl<T: Lane> Core<T> {
             self.policy.saved(known.map(|number| frame(number).blocks).sum(), blocks);
         }
     }
+}
+
+/// A pixel as a word, in which each fits.
+fn word<T: Lane>(pixel: T) -> u16 {
+    u16::try_from(pixel.into()).unwrap_or(u16::MAX)
 }
 
 /// All bands, in shares that differ by one at most.

@@ -216,4 +216,26 @@ impl Engine {
             Lanes::Words(core) => Plane::Words(&core.screen),
         }
     }
+
+    /// Appends the denoised pixels of a region in the last frame, with its padding, row by row.
+    ///
+    /// # Panics
+    /// When the camera has no such region.
+    pub fn denoised_region(&self, region: u32, pixels: &mut Vec<u16>) {
+        match &self.lanes {
+            Lanes::Bytes(core) => core.denoised_region(region, pixels),
+            Lanes::Words(core) => core.denoised_region(region, pixels),
+        }
+    }
+
+    /// Appends the means that a region has sent last, row by row of blocks; nothing where regions send none.
+    ///
+    /// # Panics
+    /// When the camera has no such region.
+    pub fn summary(&self, region: u32, means: &mut Vec<u16>) {
+        match &self.lanes {
+            Lanes::Bytes(core) => core.summary(region, means),
+            Lanes::Words(core) => core.summary(region, means),
+        }
+    }
 }

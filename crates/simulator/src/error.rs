@@ -9,6 +9,7 @@ use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_frame::FrameError;
 use foveate_model::ModelError;
+use foveate_packets::PacketError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
@@ -102,6 +103,25 @@ pub enum SimulatorError {
     /// The user stopped the run before its first frame was done.
     #[error("interrupted before the first frame was done; nothing was written")]
     Cancelled,
+    /// The stream cannot be read as one of packets.
+    #[error(transparent)]
+    Packets(#[from] PacketError),
+    /// A stream of packets ends with an error.
+    #[error("cannot read `{stream}`: {source}")]
+    ReadStream {
+        /// What was read.
+        stream: String,
+        /// Why.
+        source: io::Error,
+    },
+    /// An output that a stream of packets cannot give.
+    #[error("a stream of packets gives no {output}: {why}")]
+    NotInStream {
+        /// What was asked for.
+        output: &'static str,
+        /// Why not.
+        why: &'static str,
+    },
     /// The configuration does not fit.
     #[error(transparent)]
     Design(#[from] ConfigError),

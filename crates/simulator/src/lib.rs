@@ -7,18 +7,22 @@
 //! and cancellation go through [`Hooks`].
 
 mod batch;
+mod decode;
 mod error;
 mod explain;
+mod losses;
 mod output;
 mod simulation;
 
 pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
+pub use decode::{Decoded, Recording};
 pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
 pub use foveate_engine::MAX_THREADS;
 pub use foveate_footage::{Hooks, Progress, Silent};
+pub use foveate_packets::Loss;
 pub use output::{
-    Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES,
+    Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES, Packets,
     PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic,
 };
 pub use simulation::Simulation;

@@ -54,7 +54,7 @@ impl Simulation {
         }
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
         let mut recorder =
-            Recorder::create(staging.folder(), &self.design, &self.source.form(), options)?;
+            Recorder::create(staging.folder(), &self.design, &self.source.form(), options, true)?;
         let end = self.record(&mut recorder, hooks);
         let problem = match (end, recorder.frames()) {
             (Ok(End::Cancelled), 0) => return Err(SimulatorError::Cancelled),
@@ -96,7 +96,8 @@ impl Simulation {
                     engine.reset();
                 }
                 engine.step_raster(&current.frame)?;
-                recorder.push(&current, &engine)?;
+                let first = kind == Kind::Set || recorder.frames() == 0;
+                recorder.push(&current, &engine, first)?;
                 frames.give_back(current);
                 hooks.progress(Progress { done: recorder.frames(), total });
             }

@@ -3,12 +3,12 @@
 
 use clap::{Args, ValueEnum};
 use foveate_design::Decimal;
-use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
+use foveate_simulator::{EventTables, Medium, Packets, PixelEvents, RunOptions};
 
-/// What `simulate` writes beside arrays, frames.csv and summary.json.
+/// What `simulate` and `decode` write beside arrays, frames.csv and summary.json.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Outputs")]
-pub(crate) struct OutputArgs {
+pub(crate) struct ViewArgs {
     /// Format of the rendered frames, which the receiver's screen shows: numbered pictures, a lossless
     /// video (FFV1), or a video for any player (H.264); video needs ffmpeg
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Rendered::Png)]
@@ -16,7 +16,7 @@ pub(crate) struct OutputArgs {
     /// The same as --rendered none
     #[arg(long, conflicts_with = "rendered")]
     pub(crate) no_rendered: bool,
-    /// Write the original frames with the decisions in colour
+    /// Write the original frames with the decisions in colour; `decode` knows only the rendered ones, and takes these
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
     pub(crate) overlay: Option<Pictures>,
     /// Write a map of every score
@@ -28,6 +28,18 @@ pub(crate) struct OutputArgs {
     /// Rows of the table to keep
     #[arg(long, value_enum, value_name = "WHICH", requires = "events")]
     pub(crate) only: Option<Only>,
+}
+
+/// What `simulate` alone writes, too.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Outputs")]
+pub(crate) struct OutputArgs {
+    #[command(flatten)]
+    pub(crate) view: ViewArgs,
+    /// Write what the camera sends as a stream of packets, packets.bin, which `foveate decode` reads; with the scores of
+    /// all regions, if asked for
+    #[arg(long, value_enum, value_name = "CONTENT", num_args = 0..=1, require_equals = true, default_missing_value = "plain")]
+    pub(crate) packets: Option<PacketContent>,
     /// Write ordinary (x, y, t, p) events of the same frames; separate several formats with commas
     #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
     pub(crate) pixel_events: Vec<PixelEventFormat>,
@@ -79,7 +91,34 @@ pub(crate) enum PixelEventFormat {
     Csv,
 }
 
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum PacketContent {
+    /// Decisions, pixels and means
+    Plain,
+    /// The scores of all regions, too
+    Scores,
+}
+
 impl OutputArgs {
+    /// What the options ask for.
+    pub(crate) fn options(&self) -> RunOptions {
+        RunOptions {
+            pixel_events: PixelEvents {
+                npz: self.pixel_events.contains(&PixelEventFormat::Npz),
+                csv: self.pixel_events.contains(&PixelEventFormat::Csv),
+                contrast: self.contrast,
+                log: self.log,
+            },
+            packets: self.packets.map(|content| match content {
+                PacketContent::Plain => Packets::Plain,
+                PacketContent::Scores => Packets::WithScores,
+            }),
+            ..self.view.options()
+        }
+    }
+}
+
+impl ViewArgs {
     /// What the options ask for.
     pub(crate) fn options(&self) -> RunOptions {
         let medium = |pictures| match pictures {
@@ -103,14 +142,7 @@ impl OutputArgs {
                 parquet: self.events.contains(&EventFormat::Parquet),
                 only_active: self.only == Some(Only::Active),
             },
-            pixel_events: PixelEvents {
-                npz: self.pixel_events.contains(&PixelEventFormat::Npz),
-                csv: self.pixel_events.contains(&PixelEventFormat::Csv),
-                contrast: self.contrast,
-                log: self.log,
-            },
-            data_set: false,
-            overwrite: false,
+            ..RunOptions::default()
         }
     }
 }

@@ -56,6 +56,7 @@ impl Command {
             Self::Infer(args) => Some(&args.threads),
             Self::Stress(args) => Some(&args.threads),
             Self::Check(_)
+            | Self::Decode(_)
             | Self::Generate(_)
             | Self::Cosim(_)
             | Self::Estimate(_)

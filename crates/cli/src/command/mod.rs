@@ -7,6 +7,7 @@ pub(crate) mod check;
 pub(crate) mod completions;
 pub(crate) mod cosim;
 pub(crate) mod dataset;
+pub(crate) mod decode;
 pub(crate) mod estimate;
 pub(crate) mod explain;
 pub(crate) mod explore;

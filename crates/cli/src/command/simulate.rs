@@ -137,7 +137,7 @@ fn batch_text(folder: &Path, summary: &BatchSummary) -> String {
     text
 }
 
-fn text(folder: &Path, summary: &Summary) -> String {
+pub(super) fn text(folder: &Path, summary: &Summary) -> String {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     format!(
         "{}: {} frames of {} x {} pixels, {} regions\n\

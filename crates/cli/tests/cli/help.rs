@@ -60,6 +60,10 @@ fn furnish(folder: &Path) {
     fs::write(folder.join("gt.txt"), "2,1,9,9,64,64,1,1,1\n").unwrap();
     succeed_in(folder, &["generate", "-o", "core", "--quiet"]);
     fs::copy(folder.join("core/design.toml"), folder.join("camera.toml")).unwrap();
+    let sent =
+        ["simulate", "street.mp4", "--packets", "--preset", "steady", "-o", "sent", "--quiet"];
+    succeed_in(folder, &sent);
+    fs::rename(folder.join("sent/packets.bin"), folder.join("packets.bin")).unwrap();
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let idx: Vec<u8> = header.into_iter().chain((0..512_u32).map(|p| p.to_le_bytes()[0])).collect();
     let denoiser = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/denoiser.onnx");

@@ -7,6 +7,7 @@ mod common;
 mod core;
 mod crate_map;
 mod dataset;
+mod decode;
 mod design;
 mod explore;
 mod footage;

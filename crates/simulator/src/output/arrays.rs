@@ -17,18 +17,23 @@ pub(super) struct Arrays {
     active: NpyWriter,
     /// Whether the means of the region were sent, where irrelevant regions send them.
     summary: Option<NpyWriter>,
-    temporal_count: NpyWriter,
+    /// None where they are not known, as of a stream without scores.
+    temporal_count: Option<NpyWriter>,
     scores: Vec<NpyWriter>,
 }
 
 impl Arrays {
-    pub(super) fn create(folder: &Path, camera: &Camera) -> Result<Self, SimulatorError> {
+    pub(super) fn create(
+        folder: &Path,
+        camera: &Camera,
+        has_scores: bool,
+    ) -> Result<Self, SimulatorError> {
         let shape = [camera.rows() as usize, camera.columns() as usize];
         let array = |name: &str, max: u64| {
             NpyWriter::create(&folder.join(name), Element::up_to(max), &shape)
         };
-        let scores = camera
-            .features()
+        let known = if has_scores { camera.features() } else { &[] };
+        let scores = known
             .iter()
             .map(|feature| array(&format!("score_{}.npy", feature.kind()), feature.score_max()));
         Ok(Self {
@@ -36,7 +41,9 @@ impl Arrays {
             trs: array("trs.npy", 1)?,
             active: array("active.npy", 1)?,
             summary: camera.periphery().map(|_| array("summary.npy", 1)).transpose()?,
-            temporal_count: array("t_count.npy", camera.region_pixels().into())?,
+            temporal_count: has_scores
+                .then(|| array("t_count.npy", camera.region_pixels().into()))
+                .transpose()?,
             scores: scores.collect::<Result<_, _>>()?,
         })
     }
@@ -52,7 +59,9 @@ impl Sink for Arrays {
             let sent = |action: &Action| u64::from(*action == Action::Summarize);
             summary.push(outcome.actions.iter().map(sent));
         }
-        self.temporal_count.push(outcome.temporal_count.iter().copied().map(u64::from));
+        if let Some(count) = &mut self.temporal_count {
+            count.push(outcome.temporal_count.iter().copied().map(u64::from));
+        }
         for (writer, scores) in self.scores.iter_mut().zip(&outcome.scores) {
             writer.push(scores.iter().copied());
         }
@@ -61,10 +70,10 @@ impl Sink for Arrays {
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         let flags = [&mut self.srs, &mut self.trs, &mut self.active];
-        for flags in flags.into_iter().chain(&mut self.summary) {
-            flags.write_out(all)?;
+        let others = self.summary.iter_mut().chain(&mut self.temporal_count);
+        for array in flags.into_iter().chain(others) {
+            array.write_out(all)?;
         }
-        self.temporal_count.write_out(all)?;
         Ok(self.scores.iter_mut().try_for_each(|scores| scores.write_out(all))?)
     }
 
@@ -72,10 +81,9 @@ impl Sink for Arrays {
         self.srs.finish()?;
         self.trs.finish()?;
         self.active.finish()?;
-        if let Some(summary) = self.summary {
-            summary.finish()?;
+        for array in self.summary.into_iter().chain(self.temporal_count) {
+            array.finish()?;
         }
-        self.temporal_count.finish()?;
         Ok(self.scores.into_iter().try_for_each(NpyWriter::finish)?)
     }
 }

@@ -8,18 +8,18 @@ use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
 /// The file.
-pub(super) struct Csv(GrowingFile);
+pub(crate) struct Csv(GrowingFile);
 
 impl Csv {
     /// Creates the file with its first line.
-    pub(super) fn create(path: &Path, heading: &str) -> Result<Self, SimulatorError> {
+    pub(crate) fn create(path: &Path, heading: &str) -> Result<Self, SimulatorError> {
         let mut csv = Self(GrowingFile::create(path)?);
         csv.line([heading]);
         Ok(csv)
     }
 
     /// Appends a line of fields that need no quotes.
-    pub(super) fn line(&mut self, fields: impl IntoIterator<Item = impl std::fmt::Display>) {
+    pub(crate) fn line(&mut self, fields: impl IntoIterator<Item = impl std::fmt::Display>) {
         let line = self.0.end();
         for (index, field) in fields.into_iter().enumerate() {
             let comma = if index == 0 { "" } else { "," };
@@ -34,7 +34,7 @@ impl Csv {
         self.0.append(foveate_files::tables::csv([fields]).as_bytes());
     }
 
-    pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+    pub(crate) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         Ok(self.0.write_out(all)?)
     }
 }

@@ -122,6 +122,14 @@ impl EventTable {
         Self { columns, fields, only_active }
     }
 
+    /// The same without what only scores say.
+    fn without_scores(self) -> Self {
+        let pairs = self.columns.into_iter().zip(self.fields);
+        let known = pairs.filter(|(_, field)| !matches!(field, Field::Score(_) | Field::Count));
+        let (columns, fields) = known.unzip();
+        Self { columns, fields, ..self }
+    }
+
     /// The columns, in order.
     #[must_use]
     pub fn columns(&self) -> &[Column] {
@@ -157,8 +165,10 @@ pub(super) fn sinks(
     folder: &Path,
     camera: &Camera,
     tables: EventTables,
+    has_scores: bool,
 ) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
     let table = EventTable::new(camera, tables.only_active);
+    let table = if has_scores { table } else { table.without_scores() };
     let columns = table.columns();
     let mut writers: Vec<Box<dyn RowWriter>> = Vec::new();
     if tables.csv {

@@ -39,6 +39,15 @@ pub struct PixelEvents {
     pub log: bool,
 }
 
+/// What goes into the packets of a camera.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Packets {
+    /// What a receiver needs for its screen.
+    Plain,
+    /// The scores of every region besides.
+    WithScores,
+}
+
 /// What a run writes beside arrays, the table of frames and the summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunOptions {
@@ -53,6 +62,8 @@ pub struct RunOptions {
     pub events: EventTables,
     /// Events of pixels.
     pub pixel_events: PixelEvents,
+    /// What the camera sends, `packets.bin`.
+    pub packets: Option<Packets>,
     /// The images of a set as a data set of the same form.
     pub data_set: bool,
     /// Replace the output folder of an earlier run.
@@ -67,6 +78,7 @@ impl Default for RunOptions {
             heatmap: None,
             events: EventTables::default(),
             pixel_events: PixelEvents::default(),
+            packets: None,
             data_set: false,
             overwrite: false,
         }

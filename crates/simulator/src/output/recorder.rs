@@ -3,8 +3,9 @@
 
 use std::path::Path;
 
-use foveate_design::Design;
+use foveate_design::{Camera, Design};
 use foveate_engine::{Engine, FrameOutcome};
+use foveate_frame::Plane;
 use foveate_staging::Reserve;
 use rayon::prelude::*;
 
@@ -13,6 +14,7 @@ use super::data_set::{self, DataSet};
 use super::gallery::Gallery;
 use super::heatmap::Heatmap;
 use super::overlay::Overlay;
+use super::packet_file::PacketFile;
 use super::pixel_events::PixelRecorder;
 use super::sink::{Sink, Step};
 use super::summary::Sent;
@@ -50,9 +52,14 @@ impl Recorder {
         design: &Design,
         form: &SetForm,
         options: &RunOptions,
+        has_scores: bool,
     ) -> Result<Self, SimulatorError> {
-        let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(Arrays::create(folder, design)?)];
-        sinks.append(&mut events::sinks(folder, design, options.events)?);
+        let arrays = Arrays::create(folder, design, has_scores)?;
+        let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(arrays)];
+        sinks.append(&mut events::sinks(folder, design, options.events, has_scores)?);
+        if let Some(packets) = options.packets {
+            sinks.push(Box::new(PacketFile::create(folder, design, packets)?));
+        }
         if let Some(medium) = options.rendered {
             sinks.push(Box::new(Gallery::rendered(folder, medium)?));
         }
@@ -89,15 +96,37 @@ impl Recorder {
         &mut self,
         source: &SourceFrame,
         engine: &Engine,
+        first: bool,
     ) -> Result<(), SimulatorError> {
-        self.write_out(false)?;
+        self.push_step(&Step::new(engine, self.totals.frames, source, first))
+    }
+
+    /// Writes a frame that was received, with what is on the screen then.
+    pub(crate) fn push_received(
+        &mut self,
+        source: &SourceFrame,
+        outcome: &FrameOutcome,
+        (camera, screen): (&Camera, Plane<'_>),
+    ) -> Result<(), SimulatorError> {
         let number = self.totals.frames;
-        self.push_row(source, engine.outcome());
+        self.push_step(&Step {
+            camera,
+            number,
+            source,
+            outcome,
+            screen,
+            first: false,
+            engine: None,
+        })
+    }
+
+    fn push_step(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+        self.write_out(false)?;
+        self.push_row(step.source, step.outcome);
         let Self { pixels, sinks, .. } = self;
-        let step = Step::new(engine, number, source);
         let (pixels, sinks) = rayon::join(
-            || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(&step)),
-            || sinks.par_iter_mut().try_for_each(|sink| sink.push(&step)),
+            || pixels.as_mut().map_or(Ok(()), |pixels| pixels.push(step)),
+            || sinks.par_iter_mut().try_for_each(|sink| sink.push(step)),
         );
         pixels.and(sinks)
     }

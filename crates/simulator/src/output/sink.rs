@@ -19,13 +19,23 @@ pub(super) struct Step<'a> {
     pub(super) outcome: &'a FrameOutcome,
     /// What is on the screen.
     pub(super) screen: Plane<'a>,
+    /// Whether it is the first since the camera forgot what was before.
+    pub(super) first: bool,
+    /// What the camera computed besides; none of a recording.
+    pub(super) engine: Option<&'a Engine>,
 }
 
 impl<'a> Step<'a> {
     /// The last step of `engine`, which took `source`.
-    pub(super) fn new(engine: &'a Engine, number: u64, source: &'a SourceFrame) -> Self {
+    pub(super) fn new(
+        engine: &'a Engine,
+        number: u64,
+        source: &'a SourceFrame,
+        first: bool,
+    ) -> Self {
         let (camera, outcome) = (engine.camera(), engine.outcome());
-        Self { camera, number, source, outcome, screen: engine.rendered() }
+        let screen = engine.rendered();
+        Self { camera, number, source, outcome, screen, first, engine: Some(engine) }
     }
 }
 

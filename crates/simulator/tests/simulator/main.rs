@@ -8,6 +8,7 @@ mod data_set;
 mod explain;
 mod inputs;
 mod outputs;
+mod packets;
 mod periphery;
 mod pixel_events;
 mod sets;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate decode`: a recorded stream of packets in; arrays, tables, pictures and video out.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use foveate_simulator::{Decoded, Recording, RunOptions};
+
+use super::simulate::{Terminal, text};
+use crate::args::DecodeArgs;
+use crate::error::CliError;
+use crate::output;
+
+pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
+    let config = args.design.read()?;
+    let name = args.stream.display().to_string();
+    let mut stream = open(&args.stream)?;
+    let options = RunOptions { overwrite: args.force, ..args.view.options() };
+    let mut hooks = Terminal::new(args.quiet)?;
+    let recording = Recording { config: &config, stream: &mut stream, name: &name };
+    let decoded = recording.decode(&args.output, &options, &mut hooks);
+    hooks.shown.finish();
+    let Decoded { summary, losses, loss_count } = decoded?;
+    for loss in &losses {
+        eprintln!("foveate: {loss}");
+    }
+    let more = loss_count - losses.len() as u64;
+    if more > 0 {
+        let file = args.output.join("losses.csv");
+        eprintln!("foveate: and {more} more, in `{}`", file.display());
+    }
+    match (args.json, args.quiet) {
+        (true, _) => output::json(&summary)?,
+        (false, true) => {}
+        (false, false) => output::text(&text(&args.output, &summary))?,
+    }
+    hooks.verdict(&args.output, summary.problem)
+}
+
+fn open(path: &Path) -> Result<Box<dyn Read>, CliError> {
+    if path == Path::new("-") {
+        return Ok(Box::new(io::stdin()));
+    }
+    let cannot = || CliError::io("read the packets", path);
+    let file = File::open(path).map_err(cannot())?;
+    if file.metadata().map_err(cannot())?.is_dir() {
+        return Err(CliError::Usage(format!(
+            "`{}` is a folder; give the file with the packets, such as packets.bin in it",
+            path.display()
+        )));
+    }
+    Ok(Box::new(file))
+}

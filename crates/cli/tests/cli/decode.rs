@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! simulate --packets and decode, end to end.
+
+use std::fs;
+
+use crate::common::{fail_in, foveate, run_in, succeed_in};
+use serde_json::Value;
+
+const SENT: [&str; 9] =
+    ["simulate", "scene:street", "-o", "sent", "--frames", "4", "--preset", "steady", "--quiet"];
+
+#[test]
+fn a_stream_becomes_what_was_simulated() {
+    let dir = tempfile::tempdir().unwrap();
+    let events = ["--packets=scores", "--events", "csv"];
+    succeed_in(dir.path(), &[&SENT[..], &events].concat());
+    let seen =
+        ["decode", "sent/packets.bin", "-o", "seen", "--preset", "steady", "--events", "csv"];
+    let told = succeed_in(dir.path(), &[&seen[..], &["--overlay"]].concat());
+    assert!(told.starts_with("seen: 4 frames of 224 x 224 pixels"), "{told}");
+    for name in ["events.csv", "t_count.npy", "active.npy", "rendered/000003.png"] {
+        let of = |folder: &str| fs::read(dir.path().join(folder).join(name)).unwrap();
+        assert!(of("sent") == of("seen"), "{name}");
+    }
+    assert!(dir.path().join("seen/overlay/000003.png").exists());
+    assert!(!dir.path().join("seen/losses.csv").exists());
+    fail_in(dir.path(), 2, &seen, &["seen", "not empty"]);
+
+    // From a pipe, cut off in the middle of the last frame.
+    let bytes = fs::read(dir.path().join("sent/packets.bin")).unwrap();
+    let piped = ["decode", "-", "-o", "seen", "--force", "--preset", "steady", "--json"];
+    let output = foveate(&piped)
+        .current_dir(dir.path())
+        .write_stdin(&bytes[..bytes.len() - 100])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(1));
+    let told = String::from_utf8(output.stderr).unwrap();
+    assert!(told.contains("frame 3: its END packet is missing"), "{told}");
+    assert!(told.contains("`seen` is not complete"), "{told}");
+    let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!((&summary["frames"], &summary["complete"]), (&4.into(), &false.into()));
+    assert!(dir.path().join("seen/losses.csv").exists());
+}
+
+#[test]
+fn many_losses_are_counted_and_kept() {
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &[&SENT[..], &["--packets"]].concat());
+    let mut bytes = fs::read(dir.path().join("sent/packets.bin")).unwrap();
+    let length = bytes.len();
+    bytes.iter_mut().take(length / 2).skip(100).step_by(301).for_each(|byte| *byte ^= 0x10);
+    fs::write(dir.path().join("bad.bin"), bytes).unwrap();
+    let outcome = run_in(dir.path(), &["decode", "bad.bin", "-o", "out", "--preset", "steady"]);
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("more, in `out/losses.csv`"), "{}", outcome.stderr);
+    let losses = fs::read_to_string(dir.path().join("out/losses.csv")).unwrap();
+    assert!(losses.lines().count() > 12);
+}
+
+#[test]
+fn what_is_no_stream_of_the_camera_is_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &[&SENT[..], &["--packets"]].concat());
+    let refused = |stream: &str, more: &[&str], parts: &[&str]| {
+        fail_in(dir.path(), 2, &[&["decode", stream, "-o", "out"], more].concat(), parts);
+        assert!(!dir.path().join("out").exists());
+    };
+    let summary = fs::read(dir.path().join("sent/summary.json")).unwrap();
+    let summary: Value = serde_json::from_slice(&summary).unwrap();
+    let fingerprint = summary["design_fingerprint"].as_str().unwrap();
+    refused("sent/packets.bin", &["--preset", "fovea"], &[fingerprint, "configuration"]);
+    refused("sent/packets.bin", &["--preset", "steady", "--heatmap"], &["without scores"]);
+    refused("sent/summary.json", &[], &["no FRAME packet", "sent/summary.json"]);
+    refused("missing.bin", &[], &["missing.bin"]);
+    refused("sent", &[], &["folder", "packets.bin"]);
+}

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Makes frames of packets. A frame ends with its END, or with the first packet of a later one.
+
+use crate::{FrameInfo, Layout, Loss, Packet, PacketError, ReceivedFrame};
+
+/// The frame that is being received, and what was missing so far.
+#[derive(Debug)]
+pub struct Assembler {
+    layout: Layout,
+    open: Option<ReceivedFrame>,
+    /// Number of the frame that came last.
+    last: Option<u32>,
+    losses: Vec<Loss>,
+}
+
+impl Assembler {
+    /// Nothing received yet.
+    #[must_use]
+    pub fn new(layout: Layout) -> Self {
+        Self { layout, open: None, last: None, losses: Vec::new() }
+    }
+
+    /// The packets that are expected.
+    #[must_use]
+    pub fn layout(&self) -> &Layout {
+        &self.layout
+    }
+
+    /// Takes a packet of frame `number`. Returns a frame if it is known now that nothing more comes of it.
+    ///
+    /// # Errors
+    /// When it is of another format or design.
+    pub fn push(
+        &mut self,
+        number: u32,
+        packet: Packet,
+    ) -> Result<[Option<ReceivedFrame>; 2], PacketError> {
+        let info = match &packet {
+            Packet::Frame(info) => {
+                self.check(number, info)?;
+                Some(info.clone())
+            }
+            _ => None,
+        };
+        let is_open = self.open.as_ref().is_some_and(|open| open.number == number);
+        let restarts = info.as_ref().is_some_and(|info| info.first);
+        // Numbers wrap around.
+        let is_late =
+            self.last.is_some_and(|last| number.wrapping_sub(last).wrapping_sub(1) >= 1 << 31);
+        if !restarts && ((is_late && !is_open) || (is_open && info.is_some())) {
+            self.losses.push(Loss::Misplaced { frame: number });
+            return Ok([None, None]);
+        }
+        let mut ended = None;
+        if !is_open || restarts {
+            ended = self.end();
+            self.begin(number, info);
+        }
+        let columns = self.layout.columns();
+        let mut is_last = false;
+        if let Some(open) = &mut self.open {
+            match packet {
+                Packet::Frame(_) => {}
+                Packet::Row(row) => open.take_row(row),
+                Packet::Scores(scores) => open.take_scores(scores),
+                Packet::Region(region) => open.take_region(region, columns),
+                Packet::End(end) => {
+                    open.take_end(end);
+                    is_last = true;
+                }
+            }
+        }
+        let last = if is_last { self.end() } else { None };
+        Ok([ended, last])
+    }
+
+    /// Ends the frame that is open, as the end of the stream does.
+    pub fn end(&mut self) -> Option<ReceivedFrame> {
+        let mut open = self.open.take()?;
+        self.losses.extend(open.conclude(&self.layout));
+        Some(open)
+    }
+
+    /// Notes something that is missing.
+    pub fn lose(&mut self, loss: Loss) {
+        self.losses.push(loss);
+    }
+
+    /// What was missing since this was asked last.
+    pub fn losses(&mut self) -> Vec<Loss> {
+        std::mem::take(&mut self.losses)
+    }
+
+    fn begin(&mut self, number: u32, info: Option<FrameInfo>) {
+        let restarts = info.as_ref().is_some_and(|info| info.first);
+        match self.last {
+            None if !restarts => self.losses.push(Loss::Start { frame: number }),
+            Some(last) if !restarts && number != last.wrapping_add(1) => {
+                let frame = last.wrapping_add(1);
+                self.losses.push(Loss::Frames { frame, count: number.wrapping_sub(frame) });
+            }
+            _ => {}
+        }
+        self.last = Some(number);
+        self.open = Some(ReceivedFrame::new(number, info, &self.layout));
+    }
+
+    /// Checks that a FRAME is of this design and format.
+    ///
+    /// # Errors
+    /// When it is not.
+    pub fn check(&self, frame: u32, info: &FrameInfo) -> Result<(), PacketError> {
+        let own = self.layout.info();
+        if info.version != own.version {
+            return Err(PacketError::Version { frame, version: info.version });
+        }
+        let stream = info.fingerprint;
+        if stream != own.fingerprint {
+            let (given, width, height) = (own.fingerprint, info.width, info.height);
+            return Err(PacketError::Design { frame, stream, given, width, height });
+        }
+        let pairs = [
+            ("frame size", (info.width, info.height) == (own.width, own.height)),
+            (
+                "grid of regions",
+                (info.columns, info.rows, info.side) == (own.columns, own.rows, own.side),
+            ),
+            ("bits of a pixel", info.pixel_bits == own.pixel_bits),
+            ("summaries", (info.blocks, info.irrelevant) == (own.blocks, own.irrelevant)),
+            ("payload", info.raw == own.raw),
+            ("scores, which the frames before have or have not", info.has_scores == own.has_scores),
+            (
+                "unit of time, which the frames before have",
+                info.ticks_per_second == own.ticks_per_second,
+            ),
+        ];
+        match pairs.into_iter().find(|(_, same)| !same) {
+            None => Ok(()),
+            Some((what, _)) => Err(PacketError::Fields { frame, stream, what }),
+        }
+    }
+}

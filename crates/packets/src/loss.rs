@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is missing from a stream.
+
+use std::fmt;
+
+/// Something that is not there, or cannot be used.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Loss {
+    /// Bytes that are no packet.
+    Bytes {
+        /// Where they begin.
+        offset: u64,
+        /// How many.
+        bytes: u64,
+    },
+    /// The stream begins in the middle of a run: nothing is known of the screen before.
+    Start {
+        /// The first frame.
+        frame: u32,
+    },
+    /// Frames of which nothing came.
+    Frames {
+        /// The first of them.
+        frame: u32,
+        /// How many.
+        count: u32,
+    },
+    /// The FRAME of a frame, and with it its time: the frame is not written.
+    Frame {
+        /// Its number.
+        frame: u32,
+    },
+    /// The decisions of a row.
+    Row {
+        /// Number of the frame.
+        frame: u32,
+        /// Row of regions.
+        row: u32,
+        /// Whether the camera may have dropped them.
+        dropped: bool,
+    },
+    /// The scores of a row.
+    Scores {
+        /// Number of the frame.
+        frame: u32,
+        /// Row of regions.
+        row: u32,
+    },
+    /// The pixels or means of a region.
+    Region {
+        /// Number of the frame.
+        frame: u32,
+        /// Row of regions.
+        row: u32,
+        /// Column of regions.
+        column: u32,
+        /// Whether the camera may have dropped it.
+        dropped: bool,
+    },
+    /// The END of a frame.
+    End {
+        /// Number of the frame.
+        frame: u32,
+    },
+    /// A packet that contradicts others, or comes too late.
+    Misplaced {
+        /// The frame that it names.
+        frame: u32,
+    },
+}
+
+impl Loss {
+    /// What it is, in a word.
+    #[must_use]
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Self::Bytes { .. } => "bytes",
+            Self::Start { .. } => "start",
+            Self::Frames { .. } => "frames",
+            Self::Frame { .. } => "frame",
+            Self::Row { dropped: false, .. } => "row",
+            Self::Row { dropped: true, .. } => "dropped-row",
+            Self::Scores { .. } => "scores",
+            Self::Region { dropped: false, .. } => "region",
+            Self::Region { dropped: true, .. } => "dropped-region",
+            Self::End { .. } => "end",
+            Self::Misplaced { .. } => "misplaced",
+        }
+    }
+
+    /// Frame, row, column, how many, and offset in the stream, as far as they are known.
+    #[must_use]
+    pub fn fields(&self) -> [Option<u64>; 5] {
+        let some = |value: u32| Some(u64::from(value));
+        match *self {
+            Self::Bytes { offset, bytes } => [None, None, None, Some(bytes), Some(offset)],
+            Self::Frames { frame, count } => [some(frame), None, None, some(count), None],
+            Self::Row { frame, row, .. } | Self::Scores { frame, row } => {
+                [some(frame), some(row), None, None, None]
+            }
+            Self::Region { frame, row, column, .. } => {
+                [some(frame), some(row), some(column), None, None]
+            }
+            Self::Start { frame }
+            | Self::Frame { frame }
+            | Self::End { frame }
+            | Self::Misplaced { frame } => [some(frame), None, None, None, None],
+        }
+    }
+}
+
+impl fmt::Display for Loss {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let by = |dropped: bool| if dropped { "dropped by the camera" } else { "missing" };
+        match *self {
+            Self::Bytes { offset, bytes } => {
+                write!(f, "{bytes} bytes from byte {offset} on are no packet")
+            }
+            Self::Start { frame } => {
+                write!(
+                    f,
+                    "the stream begins with frame {frame}; what the screen showed before is not known"
+                )
+            }
+            Self::Frames { frame, count: 1 } => write!(f, "frame {frame} is missing"),
+            Self::Frames { frame, count } => {
+                write!(f, "{count} frames from frame {frame} on are missing")
+            }
+            Self::Frame { frame } => {
+                write!(f, "frame {frame}: its FRAME packet is missing, so it is left out")
+            }
+            Self::Row { frame, row, dropped } => {
+                write!(f, "frame {frame}, row {row}: decisions are {}", by(dropped))
+            }
+            Self::Scores { frame, row } => {
+                write!(f, "frame {frame}, row {row}: scores are missing")
+            }
+            Self::Region { frame, row, column, dropped } => {
+                write!(
+                    f,
+                    "frame {frame}, row {row}, column {column}: the region is {}",
+                    by(dropped)
+                )
+            }
+            Self::End { frame } => write!(f, "frame {frame}: its END packet is missing"),
+            Self::Misplaced { frame } => {
+                write!(
+                    f,
+                    "a packet of frame {frame} contradicts others or is out of order, and is ignored"
+                )
+            }
+        }
+    }
+}

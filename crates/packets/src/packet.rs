@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Packets as values, and their checks: bytes that are not exactly a packet of the layout are none.
+
+use crate::FrameInfo;
+use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, WORD};
+use crate::word::{byte, half, index, short, word};
+
+/// What was decided of a region.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Decision {
+    /// Spatial relevance.
+    pub srs: bool,
+    /// Temporal relevance.
+    pub trs: bool,
+    /// Whether its summary is sent.
+    pub summary: bool,
+}
+
+/// The decisions of a row of regions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Row {
+    /// Number of the row.
+    pub row: u32,
+    /// One per region.
+    pub decisions: Vec<Decision>,
+}
+
+/// The scores of a row of regions.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Scores {
+    /// Number of the row.
+    pub row: u32,
+    /// Changed pixels of each region.
+    pub temporal_count: Vec<u32>,
+    /// Scores, by feature and then by region.
+    pub scores: Vec<Vec<u64>>,
+}
+
+/// What is special about a REGION.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RegionFlags {
+    /// There was no valid reference.
+    pub no_reference: bool,
+    /// Pixels, or those of the means, are raw.
+    pub raw: bool,
+    /// Means in place of pixels.
+    pub summary: bool,
+}
+
+/// The pixels or means of a region.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Region {
+    /// Row of regions.
+    pub row: u32,
+    /// Column of regions.
+    pub column: u32,
+    /// What is special about it.
+    pub flags: RegionFlags,
+    /// N x N pixels, or q x q means, row by row.
+    pub values: Vec<u16>,
+}
+
+/// What an END says of its frame.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct End {
+    /// REGION packets that were sent.
+    pub regions_sent: u32,
+    /// Regions that were dropped by the camera.
+    pub regions_dropped: u32,
+    /// ROW packets that were dropped by the camera.
+    pub rows_dropped: u32,
+}
+
+/// A packet.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Packet {
+    /// The beginning of a frame.
+    Frame(FrameInfo),
+    /// Decisions.
+    Row(Row),
+    /// Scores.
+    Scores(Scores),
+    /// Pixels or means.
+    Region(Region),
+    /// The end of a frame.
+    End(End),
+}
+
+/// Numbers of the types.
+pub(crate) const FRAME: u8 = 1;
+pub(crate) const ROW: u8 = 2;
+pub(crate) const SCORES: u8 = 3;
+pub(crate) const REGION: u8 = 4;
+pub(crate) const END: u8 = 5;
+
+/// The first word of a packet.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Head {
+    kind: u8,
+    flags: u8,
+    pub(crate) words: usize,
+    row: u16,
+    column: u16,
+}
+
+impl Head {
+    /// The head that these bytes begin with, if it can be that of a packet. Without a layout only that of a FRAME can.
+    pub(crate) fn of(bytes: &[u8], layout: Option<&Layout>) -> Option<Self> {
+        let word = word(bytes)?;
+        let kind_and_flags = byte(word, 8);
+        let head = Self {
+            kind: kind_and_flags & 0xF,
+            flags: kind_and_flags >> 4,
+            words: usize::from(short(word, 16)),
+            row: short(word, 32),
+            column: short(word, 48),
+        };
+        (byte(word, 0) == MARK && head.fits(layout)).then_some(head)
+    }
+
+    /// Whether length, place and flags can be those of a packet.
+    fn fits(self, layout: Option<&Layout>) -> bool {
+        if self.kind == FRAME {
+            return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0;
+        }
+        let Some(layout) = layout else { return false };
+        let (columns, rows) = (layout.info().columns, layout.info().rows);
+        let of_row = |bytes| {
+            self.flags == 0
+                && self.row < rows
+                && self.column == columns
+                && self.words * WORD == bytes
+        };
+        match self.kind {
+            ROW => of_row(layout.row_bytes()),
+            SCORES => layout.info().has_scores && of_row(layout.scores_bytes()),
+            REGION => {
+                let flags = RegionFlags::of(self.flags);
+                self.row < rows
+                    && self.column < columns
+                    && self.flags < 8
+                    && flags.raw == layout.info().raw
+                    && (layout.has_periphery() || !flags.summary)
+                    && self.words * WORD == layout.region_bytes(flags.summary)
+            }
+            END => {
+                self.flags <= 1 && self.words == END_WORDS && self.column == 0 && self.row <= rows
+            }
+            _ => false,
+        }
+    }
+}
+
+impl RegionFlags {
+    pub(crate) fn of(bits: u8) -> Self {
+        Self { no_reference: bits & 1 != 0, raw: bits & 2 != 0, summary: bits & 4 != 0 }
+    }
+
+    pub(crate) fn bits(self) -> u8 {
+        u8::from(self.no_reference) | u8::from(self.raw) << 1 | u8::from(self.summary) << 2
+    }
+}
+
+impl Packet {
+    /// The packet that these bytes are, and the number of its frame; none if they are not exactly one. `head` is theirs.
+    pub(crate) fn of(bytes: &[u8], head: Head, layout: Option<&Layout>) -> Option<(u32, Self)> {
+        let (before, tail) = bytes.split_last_chunk::<WORD>()?;
+        let tail = u64::from_le_bytes(*tail);
+        let (checked, _) = bytes.split_at_checked(bytes.len() - 4)?;
+        if crc32fast::hash(checked) != half(tail, 32) {
+            return None;
+        }
+        let carried = before.get(WORD..)?;
+        let packet = match (head.kind, layout) {
+            (FRAME, _) => Self::Frame(frame(head, carried)?),
+            (ROW, Some(layout)) => Self::Row(row(head, carried, layout)?),
+            (SCORES, Some(layout)) => Self::Scores(scores(head, carried, layout)?),
+            (REGION, Some(layout)) => Self::Region(region(head, carried, layout)?),
+            (END, _) => Self::End(end(head, carried)?),
+            _ => return None,
+        };
+        debug_assert_eq!(bytes.len(), carried.len() + AROUND * WORD);
+        Some((half(tail, 0), packet))
+    }
+}
+
+/// What a FRAME says. One of another version is a FRAME, too: whoever reads it must know that it cannot be read.
+fn frame(head: Head, carried: &[u8]) -> Option<FrameInfo> {
+    if !carried.starts_with(&MAGIC) {
+        return None;
+    }
+    let mut words = carried.chunks_exact(WORD).skip(1).filter_map(word);
+    let (fingerprint, time, size, rest) =
+        (words.next()?, words.next()?, words.next()?, words.next()?);
+    let info = FrameInfo {
+        version: head.row,
+        fingerprint,
+        ticks_per_second: half(size, 0),
+        width: short(size, 32),
+        height: short(size, 48),
+        columns: short(rest, 32),
+        rows: short(rest, 48),
+        side: byte(rest, 0),
+        pixel_bits: byte(rest, 8),
+        blocks: byte(rest, 16),
+        irrelevant: byte(rest, 24) & 0xF,
+        raw: rest >> 28 & 1 == 1,
+        has_scores: rest >> 29 & 1 == 1,
+        first: head.flags == 1,
+        time,
+    };
+    (info.ticks_per_second > 0 && rest >> 30 & 3 == 0).then_some(info)
+}
+
+fn row(head: Head, carried: &[u8], layout: &Layout) -> Option<Row> {
+    let bits = layout.decision_bits();
+    let code = |region: usize| {
+        let at = region * bits;
+        Some(carried.get(at / 8)? >> (at % 8) & if bits == 2 { 3 } else { 15 })
+    };
+    let decisions = (0..index(layout.columns())).map(|region| {
+        let code = code(region)?;
+        // A summary is sent of an irrelevant region only.
+        let possible = code & 0b1000 == 0 && code & 0b101 != 0b101;
+        possible.then_some(Decision {
+            srs: code & 1 != 0,
+            trs: code & 2 != 0,
+            summary: code & 4 != 0,
+        })
+    });
+    Some(Row { row: head.row.into(), decisions: decisions.collect::<Option<_>>()? })
+}
+
+fn scores(head: Head, carried: &[u8], layout: &Layout) -> Option<Scores> {
+    let columns = index(layout.columns());
+    let (mut temporal_count, mut scores) = (
+        Vec::with_capacity(columns),
+        vec![Vec::with_capacity(columns); layout.scores().count() - 1],
+    );
+    for record in carried.chunks_exact(layout.record()) {
+        let mut at = 0usize;
+        for (number, (max, bytes)) in layout.scores().enumerate() {
+            at = at.next_multiple_of(bytes);
+            let mut value = [0; WORD];
+            value.get_mut(..bytes)?.copy_from_slice(record.get(at..at + bytes)?);
+            at += bytes;
+            let value = Some(u64::from_le_bytes(value)).filter(|&value| value <= max)?;
+            match number.checked_sub(1) {
+                None => temporal_count.push(u32::try_from(value).ok()?),
+                Some(feature) => scores.get_mut(feature)?.push(value),
+            }
+        }
+    }
+    Some(Scores { row: head.row.into(), temporal_count, scores })
+}
+
+fn region(head: Head, carried: &[u8], layout: &Layout) -> Option<Region> {
+    let flags = RegionFlags::of(head.flags);
+    let count = layout.values(flags.summary);
+    let values: Vec<u16> = match layout.lane() {
+        1 => carried.iter().take(count).map(|&value| value.into()).collect(),
+        _ => carried.as_chunks().0.iter().take(count).map(|&two| u16::from_le_bytes(two)).collect(),
+    };
+    let fits = values.iter().all(|&value| value <= layout.pixel_max());
+    let (row, column) = (head.row.into(), head.column.into());
+    fits.then_some(Region { row, column, flags, values })
+}
+
+fn end(head: Head, carried: &[u8]) -> Option<End> {
+    let counts = word(carried)?;
+    let end = End {
+        regions_sent: half(counts, 0),
+        regions_dropped: half(counts, 32),
+        rows_dropped: head.row.into(),
+    };
+    let dropped = end.regions_dropped > 0 || end.rows_dropped > 0;
+    (dropped == (head.flags == 1)).then_some(end)
+}

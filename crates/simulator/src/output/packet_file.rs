@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `packets.bin`: what the camera sends, as `docs/packets.md` says, in the order in which a core can send it.
+
+use std::path::Path;
+
+use foveate_camera::{Action, Camera, Payload};
+use foveate_design::{Design, Reference};
+use foveate_engine::{Engine, FrameOutcome};
+use foveate_frame::Raster;
+use foveate_packets::{Decision, End, Layout, RegionFlags, write};
+use foveate_staging::GrowingFile;
+
+use super::Packets;
+use super::sink::{Sink, Step};
+use crate::SimulatorError;
+
+/// Times are microseconds.
+const TICKS_PER_SECOND: u32 = 1_000_000;
+
+/// The file, open.
+pub(super) struct PacketFile {
+    file: GrowingFile,
+    layout: Layout,
+    /// Regions that have a valid reference.
+    valid: Vec<bool>,
+}
+
+impl PacketFile {
+    pub(super) fn create(
+        folder: &Path,
+        design: &Design,
+        packets: Packets,
+    ) -> Result<Self, SimulatorError> {
+        let has_scores = packets == Packets::WithScores;
+        Ok(Self {
+            file: GrowingFile::create(&folder.join("packets.bin"))?,
+            layout: Layout::new(design, has_scores, TICKS_PER_SECOND),
+            valid: vec![false; design.regions() as usize],
+        })
+    }
+
+    /// Appends the packets of a row of regions, whose first region is `start`; returns how many were REGION.
+    fn row(&mut self, step: &Step<'_>, engine: &Engine, row: u32, frame: u32) -> u32 {
+        let Self { file, layout, valid } = self;
+        let (camera, outcome) = (step.camera, step.outcome);
+        let start = row * camera.columns();
+        let regions = start..start + camera.columns();
+        let decisions: Vec<Decision> =
+            regions.clone().map(|region| decision(outcome, region as usize)).collect();
+        write::row(file.end(), layout, frame, row, &decisions);
+        if layout.info().has_scores {
+            let scores = regions.clone().map(|region| scores(outcome, region as usize));
+            write::scores(file.end(), layout, frame, row, scores);
+        }
+        let (mut sent, mut values) = (0, Vec::new());
+        for region in regions {
+            let action = outcome.actions[region as usize];
+            let no_reference = !valid[region as usize];
+            valid[region as usize] = stays_valid(camera, action, !no_reference);
+            values.clear();
+            let summary = match action {
+                Action::Forward => false,
+                Action::Summarize => true,
+                Action::Hold | Action::Blank => continue,
+            };
+            match (summary, camera.payload()) {
+                (true, _) => engine.summary(region, &mut values),
+                (false, Payload::Denoised) => engine.denoised_region(region, &mut values),
+                (false, Payload::Raw) => {
+                    raw_region(camera, &step.source.frame, region, &mut values);
+                }
+            }
+            let flags = RegionFlags { no_reference, raw: layout.info().raw, summary };
+            let place = (row, region - start);
+            write::region(file.end(), layout, frame, place, (flags, &values));
+            sent += 1;
+        }
+        sent
+    }
+}
+
+/// What a ROW says of a region.
+fn decision(outcome: &FrameOutcome, region: usize) -> Decision {
+    Decision {
+        srs: outcome.srs[region],
+        trs: outcome.trs[region],
+        summary: outcome.actions[region] == Action::Summarize,
+    }
+}
+
+/// Changed pixels and scores of a region.
+fn scores(outcome: &FrameOutcome, region: usize) -> impl Iterator<Item = u64> {
+    let scores = outcome.scores.iter().map(move |scores| scores[region]);
+    std::iter::once(outcome.temporal_count[region].into()).chain(scores)
+}
+
+/// Whether a region has a valid reference after a frame with this action.
+fn stays_valid(camera: &Camera, action: Action, valid: bool) -> bool {
+    match (camera.temporal().reference, action) {
+        (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => true,
+        (Reference::LastSent, Action::Hold) => valid,
+        (Reference::LastSent, Action::Blank | Action::Summarize) => false,
+    }
+}
+
+/// Appends the pixels of a region as they came, padded as the contract says.
+fn raw_region(camera: &Camera, frame: &Raster, region: u32, pixels: &mut Vec<u16>) {
+    let side = camera.region_size();
+    let (left, top) = (region % camera.columns() * side, region / camera.columns() * side);
+    let last = |at: u32, size: u32| at.min(size - 1);
+    for y in top..top + side {
+        let y = last(y, frame.height());
+        pixels.extend((left..left + side).map(|x| frame.get(last(x, frame.width()), y)));
+    }
+}
+
+impl Sink for PacketFile {
+    fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
+        let Some(engine) = step.engine else { return Ok(()) };
+        if step.first {
+            self.valid.fill(false);
+        }
+        // Numbers wrap around.
+        let frame = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
+        let time = (step.source.time_us, step.first);
+        write::frame(self.file.end(), &self.layout, frame, time);
+        let rows = 0..step.camera.rows();
+        let regions_sent = rows.map(|row| self.row(step, engine, row, frame)).sum();
+        write::end(self.file.end(), frame, End { regions_sent, ..End::default() });
+        Ok(())
+    }
+
+    fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
+        Ok(self.file.write_out(all)?)
+    }
+
+    fn owed(&self, camera: &Camera) -> u64 {
+        // The last frame, if every region sends its pixels.
+        let rows = self.layout.row_bytes() + self.layout.scores_bytes();
+        let regions = u64::from(camera.regions()) * self.layout.region_bytes(false) as u64;
+        regions + u64::from(camera.rows()) * rows as u64
+    }
+
+    fn finish(mut self: Box<Self>) -> Result<(), SimulatorError> {
+        Ok(self.file.write_out(true)?)
+    }
+}

@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Packets and back: what the camera sends is what the page says of the model's integers, and what is made of it is
+//! what the simulation wrote.
+
+use std::fs;
+use std::path::Path;
+
+use foveate_design::{Action, Config, Design, Payload, Reference};
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_simulator::{
+    Decoded, EventTables, Medium, Packets, PixelEvents, Recording, RunOptions, Silent,
+    SimulatorError,
+};
+
+use crate::support::{design, frames, names, street};
+
+/// Designs of all references, irrelevant modes, payloads and features, with odd sizes, of 1 to 16 bits.
+const DESIGNS: [&[&str]; 9] = [
+    &["frame.width=45", "frame.height=38"],
+    &["frame.width=45", "frame.height=38", "temporal.reference='last-sent'"],
+    &[
+        "frame.width=45",
+        "frame.height=38",
+        "temporal.reference='last-sent'",
+        "render.payload='raw'",
+    ],
+    &[
+        "frame={width=33,height=50,pixel_bits=10}",
+        "render.irrelevant='hold'",
+        "temporal.reference='last-sent'",
+        "spatial=[{feature='variance'},{feature='mad'}]",
+    ],
+    &[
+        "frame={width=61,height=23,pixel_bits=4}",
+        "region.size=5",
+        "spatial=[{feature='edge',level=4,min_score=2}]",
+        "temporal.level=0",
+        "denoise.filter='none'",
+    ],
+    &[
+        "frame.width=45",
+        "frame.height=38",
+        "render.irrelevant='mean'",
+        "temporal.reference='last-sent'",
+        "periphery.level=2",
+        "spatial=[{feature='edge',min_score=12}]",
+    ],
+    &[
+        "frame={width=70,height=37,pixel_bits=16}",
+        "region={size=12,neighborhood='shared'}",
+        "render={irrelevant='mean',payload='raw'}",
+        "periphery.blocks=4",
+        "spatial=[{feature='corner',level=900},{feature='variance'}]",
+    ],
+    &[
+        "frame={width=40,height=40,pixel_bits=12}",
+        "region.size=4",
+        "spatial=[{feature='mad',min_score=0}]",
+        "temporal.min_count=0",
+    ],
+    &[
+        "frame={width=9,height=7,pixel_bits=1}",
+        "region.size=64",
+        "spatial=[{feature='edge',level=0,min_score=0}]",
+        "temporal.level=0",
+    ],
+];
+
+fn options(packets: Option<Packets>) -> RunOptions {
+    RunOptions {
+        rendered: Some(Medium::Png),
+        events: EventTables { csv: true, parquet: true, only_active: false },
+        packets,
+        ..RunOptions::default()
+    }
+}
+
+fn decode(
+    stream: &[u8],
+    overrides: &[&str],
+    output: &Path,
+    options: &RunOptions,
+) -> Result<Decoded, SimulatorError> {
+    let config = Config::from_toml_with("", overrides).unwrap();
+    let mut stream = stream;
+    Recording { config: &config, stream: &mut stream, name: "scene:street" }.decode(
+        output,
+        options,
+        &mut Silent,
+    )
+}
+
+/// All files below a folder but the stream and the list of files, with what is in them.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    for name in names(folder).into_iter().filter(|name| name != "packets.bin" && name != ".foveate")
+    {
+        let path = folder.join(&name);
+        if path.is_dir() {
+            let inside = |(inner, bytes)| (format!("{name}/{inner}"), bytes);
+            files.extend(self::files(&path).into_iter().map(inside));
+        } else {
+            files.push((name, fs::read(path).unwrap()));
+        }
+    }
+    files
+}
+
+/// The column of names, which no packet has.
+fn without_names(table: &[u8]) -> Vec<String> {
+    let text = String::from_utf8(table.to_vec()).unwrap();
+    let cut = |line: &str| {
+        let fields = line.split(',').enumerate().filter(|(at, _)| *at != 2);
+        fields.map(|(_, field)| field).collect::<Vec<_>>().join(",")
+    };
+    text.lines().map(cut).collect()
+}
+
+#[test]
+fn what_comes_back_is_what_was_simulated() {
+    for (number, overrides) in DESIGNS.into_iter().enumerate() {
+        let folder = tempfile::tempdir().unwrap();
+        let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+        let heat = RunOptions { heatmap: Some(Medium::Png), ..options(Some(Packets::WithScores)) };
+        let summary = street(&sent, overrides, &heat);
+        let stream = fs::read(sent.join("packets.bin")).unwrap();
+        let decoded =
+            decode(&stream, overrides, &seen, &RunOptions { packets: None, ..heat }).unwrap();
+        assert_eq!((decoded.loss_count, &decoded.summary), (0, &summary), "design {number}");
+        let (sent, seen) = (files(&sent), files(&seen));
+        assert_eq!(sent.len(), seen.len());
+        for ((name, sent), (also, seen)) in sent.iter().zip(&seen) {
+            assert_eq!(name, also);
+            if name == "frames.csv" {
+                assert_eq!(without_names(sent), without_names(seen), "design {number}");
+            } else {
+                assert!(sent == seen, "design {number}: {name} differs");
+            }
+        }
+    }
+}
+
+/// CRC-32, bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    let step = |crc: u32| (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg());
+    !bytes.iter().fold(!0u32, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), |crc, _| step(crc)))
+}
+
+/// A packet as the page says: head, numbers of `bits` each from the lowest bit of the first word on, tail.
+fn packet([kind, flags, row, column]: [u64; 4], numbers: &[(u64, usize)], frame: u32) -> Vec<u8> {
+    let mut bits: Vec<bool> = Vec::new();
+    for &(number, width) in numbers {
+        bits.extend((0..width).map(|bit| number >> bit & 1 == 1));
+    }
+    bits.resize(bits.len().next_multiple_of(64), false);
+    let byte = |bits: &[bool]| (0..8).map(|bit| u8::from(bits[bit]) << bit).sum::<u8>();
+    let words = bits.len() as u64 / 64 + 2;
+    let head = 0xFA | kind << 8 | flags << 12 | words << 16 | row << 32 | column << 48;
+    let mut bytes = head.to_le_bytes().to_vec();
+    bytes.extend(bits.chunks(8).map(byte));
+    bytes.extend(frame.to_le_bytes());
+    let check = crc(&bytes);
+    bytes.extend(check.to_le_bytes());
+    bytes
+}
+
+/// The packets of a frame, from the model and the page.
+fn by_the_page(
+    design: &Design,
+    number: u32,
+    time: u64,
+    outcome: &FunctionalOutcome,
+    valid: &mut [bool],
+) -> Vec<u8> {
+    let side = u64::from(design.region_size());
+    let (columns, rows) = (u64::from(design.columns()), u64::from(design.rows()));
+    let periphery = design.periphery();
+    let raw = u64::from(design.payload() == Payload::Raw);
+    let irrelevant = ["zero", "hold", "mean"];
+    let irrelevant = irrelevant.iter().position(|&name| name == design.irrelevant().to_string());
+    let fingerprint = u64::from_str_radix(&design.fingerprint(), 16).unwrap();
+    let depth = u64::from(design.pixel_bits());
+    let fields = [
+        (u64::from_le_bytes(*b"FOVEATE\n"), 64),
+        (fingerprint, 64),
+        (time, 64),
+        (1_000_000, 32),
+        (design.width().into(), 16),
+        (design.height().into(), 16),
+        (side, 8),
+        (depth, 8),
+        (periphery.map_or(0, |own| own.blocks.into()), 8),
+        (irrelevant.unwrap() as u64 | raw << 4, 8),
+        (columns, 16),
+        (rows, 16),
+    ];
+    let mut stream = packet([1, u64::from(number == 0), 1, 0], &fields, number);
+    let lane = if depth <= 8 { 8 } else { 16 };
+    let mut sent = 0;
+    for row in 0..rows {
+        let of_row = (row * columns) as usize..((row + 1) * columns) as usize;
+        let bits = if periphery.is_some() { 4 } else { 2 };
+        let code = |region: usize| {
+            let summary = outcome.actions[region] == Action::Summarize;
+            let bits = [outcome.srs[region], outcome.trs[region], summary];
+            (0..).zip(bits).map(|(at, bit)| u64::from(bit) << at).sum()
+        };
+        let codes: Vec<_> = of_row.clone().map(|region| (code(region), bits)).collect();
+        stream.extend(packet([2, 0, row, columns], &codes, number));
+        for region in of_row {
+            let column = region as u64 % columns;
+            let payload = outcome.payload(design);
+            let pixel = |at: u64| {
+                let (x, y) = (column * side + at % side, row * side + at / side);
+                payload.get(u32::try_from(x).unwrap(), u32::try_from(y).unwrap())
+            };
+            let (summary, values): (u64, Vec<u16>) = match outcome.actions[region] {
+                Action::Forward => (0, (0..side * side).map(pixel).collect()),
+                Action::Summarize => (1, outcome.means[region].clone()),
+                Action::Hold | Action::Blank => (2, Vec::new()),
+            };
+            if summary < 2 {
+                let values: Vec<_> = values.iter().map(|&value| (value.into(), lane)).collect();
+                let flags = u64::from(!valid[region]) | raw << 1 | summary << 2;
+                stream.extend(packet([4, flags, row, column], &values, number));
+                sent += 1;
+            }
+            valid[region] = design.temporal().reference == Reference::Previous
+                || match outcome.actions[region] {
+                    Action::Forward => true,
+                    Action::Hold => valid[region],
+                    Action::Blank | Action::Summarize => false,
+                };
+        }
+    }
+    stream.extend(packet([5, 0, 0, 0], &[(sent, 64)], number));
+    stream
+}
+
+#[test]
+fn the_stream_is_what_the_page_says_of_the_model() {
+    for (at, overrides) in DESIGNS.into_iter().enumerate() {
+        let folder = tempfile::tempdir().unwrap();
+        let output = folder.path().join("out");
+        let options = RunOptions { rendered: None, ..options(Some(Packets::Plain)) };
+        street(&output, overrides, &options);
+        let table = fs::read_to_string(output.join("frames.csv")).unwrap();
+        let time = |line: &str| line.split(',').nth(1).unwrap().parse::<u64>().unwrap();
+        let design = design(overrides);
+        let mut camera = FunctionalCamera::new(&design);
+        let mut valid = vec![false; design.regions() as usize];
+        let mut stream = Vec::new();
+        for ((number, frame), line) in (0..).zip(frames(&design)).zip(table.lines().skip(1)) {
+            let outcome = camera.step(&frame).unwrap();
+            stream.extend(by_the_page(&design, number, time(line), outcome, &mut valid));
+        }
+        assert!(fs::read(output.join("packets.bin")).unwrap() == stream, "design {at}");
+    }
+}
+
+#[test]
+fn without_scores_all_else_is_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, DESIGNS[5], &options(Some(Packets::Plain)));
+    let stream = fs::read(sent.join("packets.bin")).unwrap();
+    decode(&stream, DESIGNS[5], &seen, &options(None)).unwrap();
+    let lost: Vec<String> =
+        names(&sent).into_iter().filter(|name| !names(&seen).contains(name)).collect();
+    assert_eq!(lost, ["packets.bin", "score_edge.npy", "t_count.npy"]);
+    let events = fs::read_to_string(seen.join("events.csv")).unwrap();
+    assert!(events.starts_with("frame,t_us,x,y,x0,y0,srs,trs,action\n"), "{events:.80}");
+    for name in ["srs.npy", "trs.npy", "active.npy", "summary.npy", "rendered/000004.png"] {
+        assert!(fs::read(sent.join(name)).unwrap() == fs::read(seen.join(name)).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn a_lost_region_stays_as_it_was_and_is_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, DESIGNS[0], &options(Some(Packets::Plain)));
+    let mut stream = fs::read(sent.join("packets.bin")).unwrap();
+    // The first REGION of the first frame, behind FRAME (56) and ROW (24).
+    let is_region = |at: &usize| stream[*at] == 0xFA && stream[at + 1] & 15 == 4;
+    let at = (56..stream.len()).step_by(8).find(is_region).unwrap();
+    stream[at + 20] ^= 1;
+    let decoded = decode(&stream, DESIGNS[0], &seen, &options(None)).unwrap();
+    assert_eq!(decoded.loss_count, 2);
+    assert!(!decoded.summary.complete);
+    assert_eq!(decoded.summary.frames, 5);
+    let row = u16::from_le_bytes([stream[at + 4], stream[at + 5]]);
+    let column = u16::from_le_bytes([stream[at + 6], stream[at + 7]]);
+    let losses = fs::read_to_string(seen.join("losses.csv")).unwrap();
+    let expected = [
+        "what,frame,row,column,count,offset".to_owned(),
+        format!("bytes,,,,80,{at}"),
+        format!("region,0,{row},{column},,"),
+    ];
+    assert_eq!(losses.lines().collect::<Vec<_>>(), expected);
+    let events = fs::read_to_string(seen.join("events.csv")).unwrap();
+    let held = format!("0,0,{column},{row},{},{},1,1,hold", 8 * column, 8 * row);
+    assert!(events.lines().any(|line| line == held), "{held}");
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_both_sides() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, DESIGNS[0], &options(Some(Packets::Plain)));
+    let stream = fs::read(sent.join("packets.bin")).unwrap();
+    let refused = |stream: &[u8], overrides: &[&str], options: &RunOptions| {
+        let message = decode(stream, overrides, &seen, options).unwrap_err().to_string();
+        assert!(!seen.exists(), "{message}");
+        message
+    };
+    let plain = options(None);
+    let other = refused(&stream, &["region.size=4"], &plain);
+    let resized = |overrides: &[&str]| design(&[DESIGNS[0], overrides].concat()).fingerprint();
+    assert!(
+        other.contains(&resized(&[])) && other.contains(&resized(&["region.size=4"])),
+        "{other}"
+    );
+    let fixed = refused(&stream, &["frame.width=46"], &plain);
+    assert!(fixed.contains("46") && fixed.contains("45"), "{fixed}");
+    assert!(refused(b"", DESIGNS[0], &plain).contains("0 bytes"));
+    assert!(refused(&[7; 5000], DESIGNS[0], &plain).contains("no FRAME packet"));
+    let heat = RunOptions { heatmap: Some(Medium::Png), ..plain };
+    assert!(refused(&stream, DESIGNS[0], &heat).contains("without scores"));
+    let pixel_events = PixelEvents { csv: true, ..PixelEvents::default() };
+    let events = RunOptions { pixel_events, ..plain };
+    assert!(refused(&stream, DESIGNS[0], &events).contains("pixel events"));
+    let mut newer = stream.clone();
+    newer[4] = 2;
+    let check = crc(&newer[..52]);
+    newer[52..56].copy_from_slice(&check.to_le_bytes());
+    assert!(refused(&newer, DESIGNS[0], &plain).contains("version 2"));
+}
