@@ -198,7 +198,8 @@ fn by_the_page(
     let lane = if depth <= 8 { 8 } else { 16 };
     let mut sent = 0;
     for row in 0..rows {
-        let of_row = (row * columns) as usize..((row + 1) * columns) as usize;
+        let first = |row: u64| usize::try_from(row * columns).unwrap();
+        let of_row = first(row)..first(row + 1);
         let bits = if periphery.is_some() { 4 } else { 2 };
         let code = |region: usize| {
             let summary = outcome.actions[region] == Action::Summarize;
