@@ -260,7 +260,7 @@ module raster_forward #(
             assign done_region_o = lost_region_o;
         end else begin : g_pixels
             wire unused_means = mean_valid_i || |mean_region_i || |mean_row_i || |mean_number_i || |mean_i || |fetch_mean || |held_row
-                                || fetch_last;
+                                || fetch_last || fetch;
             assign pixel_o = pixel;
             assign {done_o, done_lost_o, done_region_o} = {(2 + REGION_BITS) {1'b0}};
             assign sent_o = 1'b0;
