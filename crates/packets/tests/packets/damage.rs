@@ -113,3 +113,16 @@ fn a_lost_region_is_named() {
     let (row, column) = (place(4), place(6));
     assert_eq!(losses, [Loss::Region { frame: 0, row, column, dropped: false }]);
 }
+
+#[test]
+fn a_packet_that_comes_too_late_is_ignored() {
+    let mut rng = Rng::with_seed(8);
+    let Stream { layout, bytes, frames } = random(&mut rng, 3);
+    let (first, second) = (frames[0].end, frames[1].end);
+    let late = &bytes[first - 24..first];
+    let received = read(&mut rng, &layout, &bytes).0;
+    let (again, losses) =
+        read(&mut rng, &layout, &[&bytes[..second], late, &bytes[second..]].concat());
+    assert_eq!(losses, [Loss::Misplaced { frame: 0 }]);
+    assert!(again == received, "the late packet changed a frame");
+}
