@@ -10,7 +10,7 @@ use crate::change;
 use crate::look::{Changes, Look};
 use crate::outcome::{FrameOutcome, split_off};
 use crate::pixels::Pixels;
-use crate::plan::{CameraPlan, index};
+use crate::plan::CameraPlan;
 use crate::policy::{Policy, SAMPLE, Step};
 use crate::scratch::Scratch;
 use crate::screens::Screen;
@@ -95,11 +95,10 @@ impl<T: Lane> Core<T> {
 
     /// Appends the denoised pixels of a region.
     pub(crate) fn denoised_region(&self, region: u32, pixels: &mut Vec<u16>) {
-        let (plan, stride) = (&self.plan, self.plan.stride());
-        let (row, column) = (index(region) / plan.columns, index(region) % plan.columns);
-        for y in row * plan.side..(row + 1) * plan.side {
-            let row = &self.denoised[y * stride + column * plan.side..][..plan.side];
-            pixels.extend(row.iter().map(|&pixel| word(pixel)));
+        let plan = &self.plan;
+        let own = &self.denoised[plan.first_pixel(region)..];
+        for row in own.chunks(plan.stride()).take(plan.side) {
+            pixels.extend(row[..plan.side].iter().map(|&pixel| word(pixel)));
         }
     }
 
@@ -107,10 +106,9 @@ impl<T: Lane> Core<T> {
     pub(crate) fn summary(&self, region: u32, means: &mut Vec<u16>) {
         let plan = &self.plan;
         let Some(own) = plan.periphery else { return };
-        let (row, column) = (index(region) / plan.columns, index(region) % plan.columns);
-        let band = &self.means[row * plan.band_means()..][..plan.band_means()];
-        for row in band.chunks_exact(plan.means_in_row()) {
-            means.extend(row[column * own.blocks..][..own.blocks].iter().map(|&mean| word(mean)));
+        let sent = &self.means[plan.first_mean(region, own.blocks)..];
+        for row in sent.chunks(plan.means_in_row()).take(own.blocks) {
+            means.extend(row[..own.blocks].iter().map(|&mean| word(mean)));
         }
     }
 

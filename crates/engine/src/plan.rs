@@ -128,6 +128,18 @@ impl<T: Lane> CameraPlan<T> {
         self.blocks * BLOCK
     }
 
+    /// Where a region begins in a padded frame.
+    pub(crate) fn first_pixel(&self, region: u32) -> usize {
+        let (row, column) = (index(region) / self.columns, index(region) % self.columns);
+        (row * self.stride() + column) * self.side
+    }
+
+    /// Where the means of a region begin, row by row of blocks of the frame, which has `blocks` in a region's side.
+    pub(crate) fn first_mean(&self, region: u32, blocks: usize) -> usize {
+        let (row, column) = (index(region) / self.columns, index(region) % self.columns);
+        row * self.band_means() + column * blocks
+    }
+
     /// Width with padding.
     pub(crate) fn padded_width(&self) -> usize {
         self.columns * self.side

@@ -7,7 +7,7 @@ use foveate_frame::Plane;
 use foveate_lanes::Lane;
 
 use crate::pixels::Pixels;
-use crate::plan::{CameraPlan, index};
+use crate::plan::CameraPlan;
 use crate::render::Canvas;
 
 /// A screen, and what was received of the frame that it shows next.
@@ -112,19 +112,15 @@ impl<T: Lane> Received<T> {
     }
 
     fn take_pixels(&mut self, region: u32, pixels: &[u16]) {
-        let (plan, stride) = (&self.plan, self.plan.stride());
-        let (row, column) = (index(region) / plan.columns, index(region) % plan.columns);
-        let start = row * plan.side * stride + column * plan.side;
-        let to = self.pixels.get_mut(start..).unwrap_or_default();
-        fill(to, stride, pixels, plan.side);
+        let plan = &self.plan;
+        let to = self.pixels.get_mut(plan.first_pixel(region)..).unwrap_or_default();
+        fill(to, plan.stride(), pixels, plan.side);
     }
 
     fn take_means(&mut self, region: u32, means: &[u16]) {
         let plan = &self.plan;
         let Some(own) = &plan.periphery else { return };
-        let (row, column) = (index(region) / plan.columns, index(region) % plan.columns);
-        let start = row * plan.band_means() + column * own.blocks;
-        let to = self.means.get_mut(start..).unwrap_or_default();
+        let to = self.means.get_mut(plan.first_mean(region, own.blocks)..).unwrap_or_default();
         fill(to, plan.means_in_row(), means, own.blocks);
     }
 

@@ -2,7 +2,7 @@
 //! A recorded stream of packets, written as a simulation is: the same files by the same writers, as far as the stream
 //! says what is in them. What is missing is listed in `losses.csv`, and the summary says that the run is not complete.
 
-use std::io::Read;
+use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use foveate_design::{Config, Design};
@@ -68,22 +68,27 @@ impl Recording<'_> {
         let (mut splitter, mut chunk, mut bytes) = (Splitter::default(), vec![0; CHUNK], 0u64);
         let mut is_cancelled = false;
         loop {
-            let read = self.stream.read(&mut chunk).or_else(|source| match source.kind() {
-                std::io::ErrorKind::Interrupted => Ok(usize::MAX),
-                _ => Err(SimulatorError::ReadStream { stream: self.name.to_owned(), source }),
-            })?;
-            is_cancelled |= hooks.cancelled();
-            match chunk.get(..read) {
-                // The system asks to try again.
-                None if !is_cancelled => continue,
-                Some([_, ..]) if !is_cancelled => {
-                    bytes += read as u64;
-                    splitter.feed(&chunk[..read]);
+            let read = match self.stream.read(&mut chunk) {
+                // The system asks to try again, perhaps because the user stops the run.
+                Err(source) if source.kind() == ErrorKind::Interrupted => None,
+                Err(source) => {
+                    return Err(SimulatorError::ReadStream {
+                        stream: self.name.to_owned(),
+                        source,
+                    });
                 }
-                _ => splitter.complete(),
+                Ok(read) => Some(read),
+            };
+            is_cancelled |= hooks.cancelled();
+            let ends = is_cancelled || read == Some(0);
+            if ends {
+                splitter.complete();
+            } else if let Some(read) = read {
+                bytes += read as u64;
+                splitter.feed(&chunk[..read]);
             }
             reader.take(&mut splitter, hooks)?;
-            if read == 0 || is_cancelled {
+            if ends {
                 break;
             }
         }
