@@ -110,13 +110,7 @@ impl Job {
         cache: &Cache,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<CosimReport, CosimError> {
-        let design = self.stimulus.level.design(&self.design)?;
-        replay::check(&self.output)?;
-        for &tool in self.simulator.tools() {
-            toolchain.find(tool)?;
-        }
-        replay::remove(&self.output)?;
-        let dut = self.dut(&design);
+        self.prepare(toolchain)?;
         let start = Instant::now();
         let recording = self.stimulus.record_until(
             &self.design,
@@ -124,6 +118,45 @@ impl Job {
             &mut |done, total| progress(Progress::Vectors { done, total }),
         )?;
         let vectors = start.elapsed();
+        let mut report = self.simulate(&recording, toolchain, cache, progress)?;
+        report.seconds.vectors = vectors.as_secs_f64();
+        Ok(report)
+    }
+
+    /// The same on vectors that were made before: those of its design and its stimulus.
+    ///
+    /// # Errors
+    /// As for [`Job::run`].
+    pub fn run_on(
+        &self,
+        recording: &Recording,
+        toolchain: &Toolchain,
+        cache: &Cache,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<CosimReport, CosimError> {
+        self.prepare(toolchain)?;
+        self.simulate(recording, toolchain, cache, progress)
+    }
+
+    /// Refuses what cannot come to an end before anything is made, and removes what an earlier run has left.
+    fn prepare(&self, toolchain: &Toolchain) -> Result<(), CosimError> {
+        self.stimulus.level.design(&self.design)?;
+        replay::check(&self.output)?;
+        for &tool in self.simulator.tools() {
+            toolchain.find(tool)?;
+        }
+        replay::remove(&self.output)
+    }
+
+    fn simulate(
+        &self,
+        recording: &Recording,
+        toolchain: &Toolchain,
+        cache: &Cache,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<CosimReport, CosimError> {
+        let design = self.stimulus.level.design(&self.design)?;
+        let dut = self.dut(&design);
         progress(Progress::Simulation { clocks: recording.clocks() });
         let run = Run {
             simulator: self.simulator,
@@ -134,12 +167,11 @@ impl Job {
             limit: self.limit,
             optimize: Optimize::Build,
         };
-        let outcome = run.run(&dut, &recording)?;
-        let mut report = self.report(&design, &recording, &outcome)?;
-        report.seconds.vectors = vectors.as_secs_f64();
+        let outcome = run.run(&dut, recording)?;
+        let mut report = self.report(&design, recording, &outcome)?;
         if let Some(mismatch) = &report.mismatch {
             let about = About { mismatch, fingerprint: &report.design };
-            let folder = replay::write(&self.output, &run, &dut, &recording, &outcome, &about)?;
+            let folder = replay::write(&self.output, &run, &dut, recording, &outcome, &about)?;
             report.replay = Some(folder);
         } else if let Some(waves) = &outcome.waves {
             report.waves = Some(replay::write_waves(&self.output, waves)?);

@@ -12,6 +12,7 @@ use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
 use tempfile::TempDir;
 
 /// Where a stretch of clocks belongs, to name a mismatch in the words of the vectors.
@@ -27,10 +28,17 @@ pub struct Span {
     pub region: Option<u32>,
 }
 
-/// Finished vectors. The files vanish with the value.
+/// The vectors that a replay bench reads.
+pub(crate) const VECTORS_FILE: &str = "vectors.hex";
+/// Where sequences end, for the same bench.
+pub(crate) const ENDS_FILE: &str = "ends.hex";
+
+/// Finished vectors, for any number of runs, also at the same time. The files vanish with the value.
 #[derive(Debug)]
 pub struct Recording {
     folder: TempDir,
+    /// Whether the folder has the files of the replay bench.
+    has_bench_files: Mutex<bool>,
     inputs: Layout,
     outputs: Layout,
     clocks: u64,
@@ -122,7 +130,7 @@ impl Recording {
     ///
     /// # Errors
     /// When the file cannot be written.
-    pub(crate) fn write_ends(&self, path: &Path) -> Result<(), CosimError> {
+    fn write_ends(&self, path: &Path) -> Result<(), CosimError> {
         let starts = self.spans.iter().filter(|span| span.frame == 0).map(|span| span.first_clock);
         let ends = starts.filter(|&clock| clock > 0).map(|clock| format!("{clock:x}\n"));
         std::fs::write(path, ends.collect::<String>()).map_err(CosimError::io("write", path))
@@ -166,10 +174,36 @@ impl Recording {
         expected_path(self.folder.path())
     }
 
-    /// The folder of the files, for what a run adds.
+    /// The folder of the files.
     #[must_use]
     pub fn folder(&self) -> &Path {
         self.folder.path()
+    }
+
+    /// A new folder for what one run writes, which vanishes with the recording.
+    ///
+    /// # Errors
+    /// When there is no place for it.
+    pub(crate) fn folder_of_a_run(&self) -> Result<PathBuf, CosimError> {
+        let folder = tempfile::Builder::new()
+            .prefix("run-")
+            .tempdir_in(self.folder())
+            .map_err(CosimError::temporary("create a folder in", self.folder()))?;
+        Ok(folder.keep())
+    }
+
+    /// The folder with [`VECTORS_FILE`] and [`ENDS_FILE`], which are written when they are asked for the first time.
+    ///
+    /// # Errors
+    /// When a file cannot be read or written.
+    pub(crate) fn bench_folder(&self) -> Result<&Path, CosimError> {
+        let mut has_files = self.has_bench_files.lock().unwrap_or_else(PoisonError::into_inner);
+        if !*has_files {
+            self.write_hex(&self.folder().join(VECTORS_FILE), u64::MAX)?;
+            self.write_ends(&self.folder().join(ENDS_FILE))?;
+            *has_files = true;
+        }
+        Ok(self.folder())
     }
 
     /// Writes the first `limit` clocks as the vectors of a replay bench.
@@ -234,6 +268,7 @@ impl Recorder {
             expected: create(expected_path(folder.path()))?,
             recording: Recording {
                 folder,
+                has_bench_files: Mutex::new(false),
                 inputs: Layout::inputs(ports),
                 outputs: Layout::outputs(ports),
                 clocks: 0,

@@ -4,8 +4,8 @@
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, rendered, replay_bench};
 use crate::mismatch::Mismatch;
-use crate::recording::Recording;
-use crate::simulate::{Dut, Outcome, Run, Simulator, VECTORS_FILE, WAVES_FILE};
+use crate::recording::{Recording, VECTORS_FILE};
+use crate::simulate::{Dut, Outcome, Run, Simulator, WAVES_FILE};
 use askama::Template;
 use foveate_staging::{Kind, StagedFolder};
 use std::fs;

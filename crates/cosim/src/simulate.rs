@@ -4,7 +4,7 @@
 use crate::compare::{Difference, compare, parse_clocks, parse_mismatch};
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, cpp_harness, replay_bench};
-use crate::recording::Recording;
+use crate::recording::{ENDS_FILE, Recording, VECTORS_FILE};
 use foveate_design::Port;
 use foveate_emit::Parameter;
 use foveate_toolchain::verilator::{self, Lint, Optimize, VerilatorJob};
@@ -14,10 +14,6 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// The vectors that a replay bench reads.
-pub(crate) const VECTORS_FILE: &str = "vectors.hex";
-/// Where sequences end, for the same bench.
-const ENDS_FILE: &str = "ends.hex";
 /// Waves, where they are asked for.
 pub(crate) const WAVES_FILE: &str = "waves.fst";
 
@@ -177,12 +173,13 @@ impl Run<'_> {
         let program = self.build(dut)?;
         let build = start.elapsed();
         let start = Instant::now();
+        let folder = recording.folder_of_a_run()?;
+        let waves = self.trace.then(|| folder.join(WAVES_FILE));
         let differences = match self.simulator {
-            Simulator::Verilator => self.verilator(&program, recording)?,
-            Simulator::Iverilog => self.iverilog(&program, recording)?,
+            Simulator::Verilator => self.verilator(&program, recording, &folder)?,
+            Simulator::Iverilog => self.iverilog(&program, recording, waves.as_deref())?,
         };
         let run = start.elapsed();
-        let waves = self.trace.then(|| recording.folder().join(WAVES_FILE));
         Ok(Outcome { differences, waves, version, build, run })
     }
 
@@ -208,8 +205,9 @@ impl Run<'_> {
         &self,
         program: &Path,
         recording: &Recording,
+        folder: &Path,
     ) -> Result<Vec<Difference>, CosimError> {
-        let actual = recording.folder().join("actual.bin");
+        let actual = folder.join("actual.bin");
         let output = self.toolchain.run(&self.harness(program, recording, &actual))?;
         if output.log().contains("cannot write the outputs") {
             let full = std::io::ErrorKind::StorageFull.into();
@@ -220,10 +218,12 @@ impl Run<'_> {
         if compared.differences.is_empty() && !complete {
             return Err(self.short(recording, compared.records, &output));
         }
+        // It is as large as the recording, and other runs of the recording may follow.
+        std::fs::remove_file(&actual).map_err(CosimError::temporary("remove", &actual))?;
         Ok(compared.differences)
     }
 
-    /// The harness on the inputs of a recording; what comes out goes into `actual`.
+    /// The harness on the inputs of a recording; what comes out goes into `actual`, waves beside it.
     pub(crate) fn harness(
         &self,
         program: &Path,
@@ -232,7 +232,7 @@ impl Run<'_> {
     ) -> Invocation {
         Invocation::new(program)
             .arg((self.seed % 0x7fff_fffe + 1).to_string())
-            .arg(recording.folder().join(WAVES_FILE))
+            .arg(actual.with_file_name(WAVES_FILE))
             .dir(recording.folder())
             .stdin_file(recording.inputs_path())
             .stdout_file(actual)
@@ -243,9 +243,9 @@ impl Run<'_> {
         &self,
         program: &Path,
         recording: &Recording,
+        waves: Option<&Path>,
     ) -> Result<Vec<Difference>, CosimError> {
-        recording.write_hex(&recording.folder().join(VECTORS_FILE), u64::MAX)?;
-        let (output, found) = self.bench(program, recording)?;
+        let (output, found) = self.bench(program, recording, waves)?;
         let passed = format!("PASS {} clocks", recording.clocks());
         let log = output.log();
         let Some(first) = found.first() else {
@@ -259,21 +259,22 @@ impl Run<'_> {
         Ok(found.into_iter().filter(|difference| difference.clock < end).collect())
     }
 
-    /// The replay bench on the vectors in the folder of the recording, and the first difference of each
-    /// port. Waves show all vectors; without them the bench ends with the sequence of the first difference.
+    /// The replay bench on the vectors of a recording, and the first difference of each port. Waves show all
+    /// vectors; without them the bench ends with the sequence of the first difference.
     fn bench(
         &self,
         program: &Path,
         recording: &Recording,
+        waves: Option<&Path>,
     ) -> Result<(Output, Vec<Difference>), CosimError> {
-        let folder = recording.folder();
         let mut args = vec![format!("+vectors={VECTORS_FILE}")];
-        if self.trace {
-            args.extend(["-fst".to_owned(), format!("+waves={WAVES_FILE}")]);
-        } else {
-            recording.write_ends(&folder.join(ENDS_FILE))?;
-            args.push(format!("+ends={ENDS_FILE}"));
+        match waves {
+            Some(waves) => {
+                args.extend(["-fst".to_owned(), format!("+waves={}", waves.display())]);
+            }
+            None => args.push(format!("+ends={ENDS_FILE}")),
         }
+        let folder = recording.bench_folder()?;
         let output = iverilog::run(self.toolchain, program, &args, folder, self.limit)?;
         let found = output.log().lines().filter_map(parse_mismatch).collect();
         Ok((output, found))

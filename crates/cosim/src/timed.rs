@@ -72,7 +72,7 @@ impl Run<'_> {
         let program = self.build(dut)?;
         let build = start.elapsed();
 
-        let actual = recording.folder().join("actual.bin");
+        let actual = recording.folder_of_a_run()?.join("actual.bin");
         let harness = self.harness(&program, recording, &actual);
         let start = Instant::now();
         let output = self.toolchain.run(&harness)?;

@@ -13,46 +13,61 @@ mod sync_faults;
 
 use crate::common::{agrees, cosimulate, directed, in_parallel, simulators};
 use faults::Fault;
-use foveate_cosim::{CosimReport, Level, Simulator};
+use foveate_cosim::{CosimReport, Job, Level, Recording, Simulator};
 use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Toolchain};
 use planted::Planted;
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 use std::process::Command;
+use std::sync::{Arc, Mutex, OnceLock};
 
-fn plant(fault: &Fault, output: &Path) -> Result<CosimReport, String> {
-    let design = fault.design.design();
+/// Vectors that the first fault makes for those that come after it.
+type Shared = Arc<OnceLock<Recording>>;
+
+/// The vectors of each design at each level.
+#[derive(Default)]
+struct Vectors(Mutex<HashMap<(Planted, Level), Shared>>);
+
+impl Vectors {
+    /// Does something with them.
+    fn with<T>(&self, planted: Planted, level: Level, work: impl FnOnce(&Recording) -> T) -> T {
+        let slot = Arc::clone(self.0.lock().unwrap().entry((planted, level)).or_default());
+        let make = || directed(level, 1).record(&planted.design(), &mut |_, _| {}).unwrap();
+        work(slot.get_or_init(make))
+    }
+}
+
+fn plant(fault: &Fault, vectors: &Vectors, output: &Path) -> Result<CosimReport, String> {
     let Fault { what, module, from, to, .. } = fault;
     let path = format!("rtl/{module}.v");
-    let (level, simulator) = (fault.design.level(module), fault.design.simulator());
-    let mut problem = None;
-    let report = cosimulate(&design, simulator, directed(level, 1), output, |job| {
-        match job.sources.iter_mut().find(|file| file.path == path) {
-            None => problem = Some(format!("{module}: not in this design")),
-            Some(file) if file.contents.matches(from).count() != 1 => {
-                let count = file.contents.matches(from).count();
-                problem = Some(format!("{module}: `{from}` is there {count} times"));
-            }
-            Some(file) => file.contents = file.contents.replace(from, to),
+    let level = fault.design.level(module);
+    let mut job = Job::new(&fault.design.design(), directed(level, 1), output).unwrap();
+    job.simulator = fault.design.simulator();
+    match job.sources.iter_mut().find(|file| file.path == path) {
+        None => return Err(format!("{module}: not in this design")),
+        Some(file) if file.contents.matches(from).count() != 1 => {
+            let count = file.contents.matches(from).count();
+            return Err(format!("{module}: `{from}` is there {count} times"));
         }
-    });
-    match (problem, report) {
-        (Some(problem), _) => Err(problem),
-        (None, Err(error)) => Err(format!("{module}, {what}: {error}")),
-        (None, Ok(report)) => Ok(report),
+        Some(file) => file.contents = file.contents.replace(from, to),
     }
+    let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
+    let run = |recording: &_| job.run_on(recording, &toolchain, &cache, &mut |_| {});
+    let report = vectors.with(fault.design, level, run);
+    report.map_err(|error| format!("{module}, {what}: {error}"))
 }
 
 fn all_are_caught(faults: &[Fault]) {
     if !simulators() {
         return;
     }
-    let output = tempfile::tempdir().unwrap();
+    let (output, vectors) = (tempfile::tempdir().unwrap(), Vectors::default());
     let numbered: Vec<(usize, &Fault)> = faults.iter().enumerate().collect();
     let failures = in_parallel(&numbered, |(number, fault)| {
         let folder = output.path().join(number.to_string());
         let Fault { what, module, from, to, .. } = fault;
-        let report = plant(fault, &folder)?;
+        let report = plant(fault, &vectors, &folder)?;
         if report.passed() {
             return Err(format!("{module}, {what}: not caught: `{from}` -> `{to}`: {report}"));
         }
@@ -164,7 +179,7 @@ fn the_replay_of_a_fault_shows_it_again() {
         }
         let output = tempfile::tempdir().unwrap();
         let folder = output.path().join("replay");
-        let edit = |job: &mut foveate_cosim::Job| {
+        let edit = |job: &mut Job| {
             let vote = job.sources.iter_mut().find(|file| file.path == "rtl/vote.v").unwrap();
             vote.contents = vote.contents.replace("score_i >= minimum_i", "score_i > minimum_i");
             job.trace = true;

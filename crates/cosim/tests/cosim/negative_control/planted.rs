@@ -6,7 +6,7 @@ use foveate_cosim::{Level, Simulator};
 use foveate_design::{Config, Design};
 
 /// A design to plant faults in.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Planted {
     /// Median, edges, previous frame.
     Paper,
