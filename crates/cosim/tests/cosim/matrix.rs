@@ -2,7 +2,7 @@
 //! Model against emitted RTL at RPU level: every feature x region size x filter x neighborhood x
 //! reference, with the other keys sampled along the way, and what lies beyond at the edges.
 
-use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
+use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, name, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
     CameraConfig, Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
@@ -36,7 +36,7 @@ fn check_all(configs: &[Config]) {
 
 /// Plain and deep in turns that have no period with those of the other keys.
 fn pipelining(turn: usize) -> Pipelining {
-    Pipelining::ALL[turn.count_ones() as usize % 2]
+    in_turn(Pipelining::ALL, turn.count_ones() as usize)
 }
 
 /// What irrelevant regions show, by turns; where it is their means, of how many blocks and with which level, too.
@@ -73,7 +73,7 @@ fn matrix() -> Vec<Config> {
                         config.camera.denoise.filter = filter;
                         config.camera.temporal.reference = reference;
                         show_irrelevant(&mut config.camera, turn / 2);
-                        config.camera.render.payload = Payload::ALL[turn / 3 % 2];
+                        config.camera.render.payload = in_turn(Payload::ALL, turn / 3);
                         config.hardware.pipelining = Some(pipelining(turn));
                         configs.push(config);
                     }
@@ -156,10 +156,10 @@ fn what_the_matrix_leaves_out_agrees() {
             let spatial = kinds.iter().map(|&kind| feature(kind, 2)).collect();
             let mut config = Config::from(CameraConfig { spatial, ..CameraConfig::default() });
             config.camera.region.size = [8, 5, 4][turn % 3];
-            config.camera.region.neighborhood = Neighborhood::ALL[turn % 2];
+            config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn);
             config.camera.decision.combine = combine;
-            config.camera.temporal.reference = Reference::ALL[(turn + 1) % 2];
-            config.camera.render.payload = Payload::ALL[turn / 2 % 2];
+            config.camera.temporal.reference = in_turn(Reference::ALL, turn + 1);
+            config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
             show_irrelevant(&mut config.camera, turn + 1);
             configs.push(config);
         }
@@ -174,8 +174,8 @@ fn what_the_matrix_leaves_out_agrees() {
             spatial.min_score = Some(Decimal::whole(0));
         }
         config.camera.temporal.level = Some(u32::from(bits > 1));
-        config.camera.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
-        config.camera.temporal.reference = Reference::ALL[turn % 2];
+        config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 2);
+        config.camera.temporal.reference = in_turn(Reference::ALL, turn);
         configs.push(config);
     }
     for (turn, size) in [2, 3, 7, 2, 3, 7, 2, 64, 64].into_iter().enumerate() {
@@ -184,9 +184,9 @@ fn what_the_matrix_leaves_out_agrees() {
         config.camera.region.size = size;
         config.camera.spatial[0].min_score = Some(Decimal::whole(2));
         config.camera.temporal.min_count = 2;
-        config.camera.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
-        config.camera.temporal.reference = Reference::ALL[turn % 2];
-        config.camera.render.payload = Payload::ALL[turn / 2 % 2];
+        config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
+        config.camera.temporal.reference = in_turn(Reference::ALL, turn);
+        config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
         show_irrelevant(&mut config.camera, turn + turn / 3);
         configs.push(config);
     }
@@ -197,8 +197,8 @@ fn what_the_matrix_leaves_out_agrees() {
         });
         config.hardware.thresholds = Thresholds::Constant;
         config.camera.region.size = [4, 5][turn / 4];
-        config.camera.denoise.filter = Filter::ALL[turn % 2];
-        config.camera.temporal.reference = Reference::ALL[turn / 2 % 2];
+        config.camera.denoise.filter = in_turn(Filter::ALL, turn);
+        config.camera.temporal.reference = in_turn(Reference::ALL, turn / 2);
         configs.push(config);
     }
     for (turn, config) in configs.iter_mut().enumerate() {

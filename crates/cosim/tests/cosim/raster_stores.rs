@@ -5,7 +5,7 @@
 use std::collections::VecDeque;
 
 use crate::common::vectors::{clocks, field, value};
-use crate::common::{agrees, design, directed, feature, in_parallel, name, simulators};
+use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, name, simulators};
 use foveate_cosim::{Level, Recording, Simulator};
 use foveate_design::{
     CameraConfig, Config, Design, FeatureKind, Filter, Neighborhood, Organization, Payload,
@@ -211,9 +211,9 @@ fn matrix(store: Store, forward: bool) -> Vec<Design> {
             config.hardware.pipelining = Some(pipelining);
             let (size, pixels) = [(4, 1), (4, 2), (5, 1), (8, 4), (4, 4)][turn % 5];
             (config.camera.region.size, config.hardware.pixels_per_clock) = (size, Some(pixels));
-            config.camera.denoise.filter = Filter::ALL[turn / 2 % 2];
-            config.camera.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
-            config.camera.render.payload = Payload::ALL[turn / 2 % 2];
+            config.camera.denoise.filter = in_turn(Filter::ALL, turn / 2);
+            config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
+            config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
             config.hardware.thresholds =
                 [Thresholds::Runtime, Thresholds::Runtime, Thresholds::Constant][turn % 3];
             let columns = (16 * pixels).div_ceil(size).max(4);

@@ -6,16 +6,17 @@
 use crate::common;
 use crate::common::serial::config;
 use crate::common::vectors::{clocks, value};
-use crate::common::{cosimulate, feature, in_parallel};
-use foveate_cosim::{Level, Recording, Simulator, Stimulus};
+use crate::common::{feature, in_parallel, in_turn};
+use foveate_cosim::{Job, Level, Recording, Simulator, Stimulus};
 use foveate_design::{
-    Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood, Organization,
-    Payload, Pipelining, PortRole, Reference, Store,
+    Action, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, Neighborhood,
+    Organization, Payload, Pipelining, PortRole, Reference, Store,
 };
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, region_pixels};
 use foveate_scenes::{Scene, SceneSize};
 use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Toolchain};
 
 /// What became of one region of one frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -24,8 +25,36 @@ struct Result {
     scores: Vec<u64>,
     srs: bool,
     trs: bool,
-    /// Empty unless the region is active.
-    pixels: Vec<u64>,
+    /// Its summary is sent.
+    summary: bool,
+    /// What leaves: the pixels of an active region, the means of one whose summary is sent.
+    sent: Vec<u64>,
+}
+
+/// The pixel of its block at which a mean stands.
+#[derive(Clone, Copy, PartialEq)]
+enum Place {
+    First,
+    Last,
+}
+
+impl Result {
+    /// How many words leave: pixels and means.
+    fn words(&self, design: &Design) -> usize {
+        let pixels = if self.srs && self.trs { design.region_pixels() } else { 0 };
+        let means = if self.summary { design.periphery().unwrap().means() } else { 0 };
+        (pixels + means) as usize
+    }
+
+    /// The number in the region of the pixel at which the next word stands.
+    fn next_position(&self, design: &Design, of_block: Place) -> u64 {
+        let number = self.sent.len() as u64;
+        let Some(periphery) = design.periphery().filter(|_| self.summary) else { return number };
+        let side = u64::from(design.region_size());
+        let (blocks, block) = (u64::from(periphery.blocks), u64::from(periphery.block_side));
+        let inside = if of_block == Place::Last { block - 1 } else { 0 };
+        (number / blocks * block + inside) * side + number % blocks * block + inside
+    }
 }
 
 /// Frame after frame, region after region.
@@ -38,16 +67,21 @@ fn functional(design: &Design, frames: &[Frame]) -> Results {
         let outcome = camera.step(frame).unwrap();
         let result = |region: u32| {
             let at = region as usize;
-            let mut pixels = Vec::new();
+            let mut sent = Vec::new();
             if outcome.active[at] {
-                region_pixels(design, outcome.payload(design), region, &mut pixels);
+                region_pixels(design, outcome.payload(design), region, &mut sent);
+            }
+            let summary = outcome.actions[at] == Action::Summarize;
+            if summary {
+                sent.clone_from(&outcome.means[at]);
             }
             Result {
                 count: outcome.temporal_count[at].into(),
                 scores: outcome.scores.iter().map(|scores| scores[at]).collect(),
                 srs: outcome.srs[at],
                 trs: outcome.trs[at],
-                pixels: pixels.into_iter().map(u64::from).collect(),
+                summary,
+                sent: sent.into_iter().map(u64::from).collect(),
             }
         };
         results.push((0..design.regions()).map(result).collect());
@@ -59,6 +93,7 @@ fn pipelined(design: &Design, recording: &Recording, frames: usize) -> Results {
     let regions = design.regions() as usize;
     let outputs = recording.outputs();
     let field = |role| common::vectors::field(outputs, role);
+    let has_summaries = design.periphery().is_some();
     let mut results: Results = Vec::new();
     let mut forwarded = vec![Vec::new(); regions];
     for (_, output) in clocks(recording) {
@@ -73,24 +108,22 @@ fn pipelined(design: &Design, recording: &Recording, frames: usize) -> Results {
                     .collect(),
                 srs: says(PortRole::Srs, lane) == 1,
                 trs: says(PortRole::Trs, lane) == 1,
-                pixels: Vec::new(),
+                summary: has_summaries && says(PortRole::Summary, lane) == 1,
+                sent: Vec::new(),
             };
             results.push((0..design.regions()).map(result).collect());
         }
-        for (lane, pixels) in (0..).zip(&mut forwarded) {
+        for (lane, words) in (0..).zip(&mut forwarded) {
             if says(PortRole::ForwardValid, lane) == 1 {
-                pixels.push(says(PortRole::ForwardPixel, lane));
+                words.push(says(PortRole::ForwardPixel, lane));
             }
         }
     }
     // What follows the caller's frames lets the last of them leave.
     results.truncate(frames);
-    let pixels = design.region_pixels() as usize;
     for results in &mut results {
         for (result, forwarded) in results.iter_mut().zip(&mut forwarded) {
-            if result.srs && result.trs {
-                result.pixels = forwarded.drain(..pixels).collect();
-            }
+            result.sent = forwarded.drain(..result.words(design)).collect();
         }
     }
     results
@@ -114,7 +147,8 @@ fn serial(design: &Design, recording: &Recording) -> Results {
                 _ => result.scores.push(says(PortRole::AnyScore)),
             }
             if says(PortRole::DecisionValid) == 1 {
-                (result.srs, result.trs) = (says(PortRole::Srs) == 1, says(PortRole::Trs) == 1);
+                let is = [PortRole::Srs, PortRole::Trs, PortRole::Summary].map(|r| says(r) == 1);
+                [result.srs, result.trs, result.summary] = is;
             }
         }
         let valid = field(PortRole::ForwardValid);
@@ -123,10 +157,10 @@ fn serial(design: &Design, recording: &Recording) -> Results {
                 Feed::Raster => says(PortRole::ForwardRegion),
                 Feed::Parallel => u64::from(lane * design.slots()) + says(PortRole::ForwardSlot),
             };
-            let pixel = field(PortRole::ForwardPixel).get(&output, lane);
+            let word = field(PortRole::ForwardPixel).get(&output, lane);
             let result = &mut results.last_mut().unwrap()[usize::try_from(region).unwrap()];
-            assert_eq!(result.pixels.len() as u64, says(PortRole::ForwardPosition));
-            result.pixels.push(pixel);
+            assert_eq!(result.next_position(design, Place::Last), says(PortRole::ForwardPosition));
+            result.sent.push(word);
         }
     }
     results
@@ -151,18 +185,25 @@ fn raster(design: &Design, recording: &Recording) -> Results {
                 scores: design.features().iter().map(score).collect(),
                 srs: says(PortRole::Srs) == 1,
                 trs: says(PortRole::Trs) == 1,
-                pixels: Vec::new(),
+                summary: says(PortRole::Summary) == 1,
+                sent: Vec::new(),
             };
             decided[region] += 1;
         }
         if says(PortRole::ForwardValid) == 1 {
             let region = number(PortRole::ForwardRegion);
-            let pixels = &mut results[decided[region] - 1][region].pixels;
-            assert_eq!(pixels.len(), number(PortRole::ForwardPosition));
-            let field = common::vectors::field(outputs, PortRole::ForwardPixel);
-            let is_first = pixels.is_empty();
-            pixels.extend(field.words(&output, word));
-            let is_last = pixels.len() == design.region_pixels() as usize;
+            let result = &mut results[decided[region] - 1][region];
+            assert_eq!(result.next_position(design, Place::First), says(PortRole::ForwardPosition));
+            let is_first = result.sent.is_empty();
+            let words = common::vectors::field(outputs, PortRole::ForwardPixel);
+            let words: Vec<u64> = words.words(&output, word).into_iter().collect();
+            if says(PortRole::ForwardSummary) == 1 {
+                assert_eq!(words, vec![words[0]; word], "a mean is on all pixels of a word");
+                result.sent.push(words[0]);
+            } else {
+                result.sent.extend(words);
+            }
+            let is_last = result.sent.len() == result.words(design);
             let ends = [PortRole::ForwardFirst, PortRole::ForwardLast, PortRole::ForwardAbort];
             assert_eq!(ends.map(|role| says(role) == 1), [is_first, is_last, false]);
             assert_eq!(number(PortRole::ForwardFrame), decided[region] - 1);
@@ -183,6 +224,7 @@ fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(
         config.validate().unwrap()
     };
     let expected = functional(&design(Organization::Pipelined, None, 1), frames);
+    let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     for (organization, feed, fold) in [
         (Organization::Pipelined, None, 1),
         (Organization::Serial, Some(Feed::Parallel), 1),
@@ -194,12 +236,14 @@ fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(
         let stimulus = Stimulus { level, seed: 1, rounds: 0, frames, enough: None };
         let output = tempfile::tempdir().unwrap();
         let folder = output.path().join("replay");
-        let report = cosimulate(&design, Simulator::Iverilog, stimulus.clone(), &folder, |_| {});
+        let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
+        let mut job = Job::new(&design, stimulus.clone(), &folder).unwrap();
+        job.simulator = Simulator::Iverilog;
+        let report = job.run_on(&recording, &toolchain, &cache, &mut |_| {});
         let report = report.map_err(|error| format!("{what}: {error}"))?;
         if !report.passed() {
             return Err(format!("{what}, {organization}: {report}"));
         }
-        let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
         let got = match organization {
             Organization::Pipelined => pipelined(&design, &recording, stimulus.frames.len()),
             Organization::Serial => serial(&design, &recording),
@@ -248,11 +292,11 @@ fn configs() -> Vec<Config> {
             spatial.min_score = Some(Decimal::whole(3));
         }
         config.camera.temporal.min_count = 3;
-        config.camera.denoise.filter = Filter::ALL[turn / 2 % 2];
-        config.camera.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
-        config.camera.temporal.reference = Reference::ALL[turn.div_ceil(2) % 2];
-        config.camera.render.irrelevant = Irrelevant::ALL[turn / 3 % 2];
-        config.camera.render.payload = Payload::ALL[turn % 2];
+        config.camera.denoise.filter = in_turn(Filter::ALL, turn / 2);
+        config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn + 1);
+        config.camera.temporal.reference = in_turn(Reference::ALL, turn.div_ceil(2));
+        config.camera.render.irrelevant = in_turn(Irrelevant::ALL, turn + 1);
+        config.camera.render.payload = in_turn(Payload::ALL, turn);
         configs.push(config);
     }
     configs
@@ -305,10 +349,11 @@ fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
             (Some(5 * side - 1), Some(4 * side - 2));
         config.camera.temporal.reference = Reference::Previous;
         config.hardware.organization = Organization::Raster;
-        config.hardware.pipelining = Some(Pipelining::ALL[turn % 2]);
-        for (store, forward) in
-            [(Store::SinglePort, true), (Store::External, true), (Store::External, false)]
-        {
+        config.hardware.pipelining = Some(in_turn(Pipelining::ALL, turn));
+        // Summaries have to leave.
+        let may_keep = config.camera.render.irrelevant != Irrelevant::Mean;
+        let stores = [(Store::SinglePort, true), (Store::External, true), (Store::External, false)];
+        for (store, forward) in stores.into_iter().filter(|&(_, forward)| forward || may_keep) {
             config.hardware.store = Some(store);
             config.hardware.forward = Some(forward);
             let design = config.validate().unwrap();
@@ -322,7 +367,7 @@ fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
             let recording = stimulus.record(&design, &mut |_, _| {}).unwrap();
             let mut expected = functional(&design, &frames);
             if !forward {
-                expected.iter_mut().flatten().for_each(|result| result.pixels.clear());
+                expected.iter_mut().flatten().for_each(|result| result.sent.clear());
             }
             assert!(raster(&design, &recording) == expected, "{config:?}");
         }

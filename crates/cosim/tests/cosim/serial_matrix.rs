@@ -3,7 +3,7 @@
 //! clocks, so that the keys are not crossed but take turns, each at a pace of its own.
 
 use crate::common::serial::{config, name};
-use crate::common::{agrees, design, directed, feature, in_parallel, simulators};
+use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
     Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind,
@@ -65,8 +65,8 @@ fn check_all(cases: &[Case]) {
 /// Lets the keys that are no axis of a test take turns.
 fn with_turns(mut config: Config, turn: usize) -> Config {
     config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % Irrelevant::ALL.len()];
-    config.camera.render.payload = Payload::ALL[turn / 3 % 2];
-    config.camera.decision.combine = Combine::ALL[turn / 5 % 2];
+    config.camera.render.payload = in_turn(Payload::ALL, turn / 3);
+    config.camera.decision.combine = in_turn(Combine::ALL, turn / 5);
     config
 }
 
@@ -86,7 +86,7 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
                     config.camera.temporal.reference = reference;
                     config.camera.region.size = [4, 5, 4, 8][turn / 3 % 4];
                     config.hardware.fold = [1, 2, 1, 3][turn % 4];
-                    config.hardware.feed = Some(Feed::ALL[(turn / 2 + turn / 8) % 2]);
+                    config.hardware.feed = Some(in_turn(Feed::ALL, turn / 2 + turn / 8));
                     cases.push(Case::lane(config));
                 }
             }
@@ -129,8 +129,8 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
                 config.hardware.fold = fold;
                 config.camera.region.neighborhood = neighborhood;
                 config.camera.region.size = [4, 5, 4, 4, 5][turn % 5];
-                config.camera.denoise.filter = Filter::ALL[turn / 2 % 2];
-                config.camera.temporal.reference = Reference::ALL[(turn + turn / 7) % 2];
+                config.camera.denoise.filter = in_turn(Filter::ALL, turn / 2);
+                config.camera.temporal.reference = in_turn(Reference::ALL, turn + turn / 7);
                 cases.push(Case::array(config, grid));
             }
         }
@@ -153,9 +153,9 @@ fn depths_sizes_memories_and_constants_agree() {
         }
         config.camera.temporal.level = Some(u32::from(bits > 1));
         config.camera.region.size = 4;
-        config.camera.region.neighborhood = Neighborhood::ALL[turn / 2 % 2];
-        config.camera.temporal.reference = Reference::ALL[turn % 2];
-        config.hardware.feed = Some(Feed::ALL[turn / 3 % 2]);
+        config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 2);
+        config.camera.temporal.reference = in_turn(Reference::ALL, turn);
+        config.hardware.feed = Some(in_turn(Feed::ALL, turn / 3));
         config.hardware.fold = 1 + u32::try_from(turn % 2).unwrap();
         cases.push(Case::array(config, (2, 1)));
     }
@@ -167,10 +167,10 @@ fn depths_sizes_memories_and_constants_agree() {
         let mut config = with_turns(config(&kinds.map(|kind| feature(kind, 3))), turn);
         config.camera.region.size = size;
         config.hardware.fold = fold;
-        config.hardware.feed = Some(Feed::ALL[turn % 2]);
-        config.camera.region.neighborhood = Neighborhood::ALL[(turn + 1) % 2];
-        config.camera.temporal.reference = Reference::ALL[turn / 2 % 2];
-        config.camera.denoise.filter = Filter::ALL[(turn / 2 + turn) % 2];
+        config.hardware.feed = Some(in_turn(Feed::ALL, turn));
+        config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn + 1);
+        config.camera.temporal.reference = in_turn(Reference::ALL, turn / 2);
+        config.camera.denoise.filter = in_turn(Filter::ALL, turn / 2 + turn);
         cases.push(Case::array(config, (3, 2)));
     }
     let mut large = config(&[feature(Edge, 0)]);
@@ -183,7 +183,7 @@ fn depths_sizes_memories_and_constants_agree() {
         config.hardware.thresholds = Thresholds::Constant;
         config.camera.region.size = [4, 5][turn % 2];
         config.hardware.fold = [1, 2][turn / 2];
-        config.camera.denoise.filter = Filter::ALL[turn % 2];
+        config.camera.denoise.filter = in_turn(Filter::ALL, turn);
         config.camera.temporal.reference = Reference::ALL[turn / 2];
         cases.push(Case::array(config, (2, 2)));
     }
@@ -212,7 +212,7 @@ fn deep_arrays_agree() {
                     config.camera.temporal.reference = reference;
                     config.camera.region.size = [4, 5, 4][turn / 2 % 3];
                     config.camera.region.neighborhood =
-                        Neighborhood::ALL[(turn / 4 + turn / 2 + turn) % 2];
+                        in_turn(Neighborhood::ALL, turn / 4 + turn / 2 + turn);
                     cases.push(Case::array(config, (3, 2)));
                 }
             }
@@ -252,12 +252,12 @@ fn summaries_agree() {
         config.camera.frame.pixel_bits = bits;
         config.camera.render.irrelevant = Irrelevant::Mean;
         config.camera.periphery.blocks = Some(blocks);
-        config.camera.render.payload = Payload::ALL[turn / 2 % 2];
-        config.camera.denoise.filter = Filter::ALL[(turn + turn / 4) % 2];
-        config.camera.temporal.reference = Reference::ALL[turn % 3 % 2];
-        config.camera.region.neighborhood = Neighborhood::ALL[turn / 3 % 2];
+        config.camera.render.payload = in_turn(Payload::ALL, turn / 2);
+        config.camera.denoise.filter = in_turn(Filter::ALL, turn + turn / 4);
+        config.camera.temporal.reference = in_turn(Reference::ALL, turn % 3);
+        config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 3);
         config.hardware.thresholds = Thresholds::ALL[turn / 6];
-        config.hardware.feed = Some(Feed::ALL[turn % 2]);
+        config.hardware.feed = Some(in_turn(Feed::ALL, turn));
         config.hardware.memory = Some(memory);
         config.hardware.pipelining = Some(pipelining);
         config.hardware.fold = fold;
@@ -285,7 +285,7 @@ fn the_memory_that_is_named_agrees() {
                     config.hardware.feed = Some(feed);
                     config.hardware.fold = fold;
                     config.camera.region.size = size;
-                    config.camera.region.neighborhood = Neighborhood::ALL[(turn / 4 + turn) % 2];
+                    config.camera.region.neighborhood = in_turn(Neighborhood::ALL, turn / 4 + turn);
                     let ruled = design(&config, (5, 2)).serial().unwrap().lane_memory().kind;
                     assert_ne!(ruled, memory, "the rule would choose it, too");
                     config.hardware.memory = Some(memory);

@@ -38,6 +38,11 @@ pub(crate) fn name(config: &Config) -> String {
     )
 }
 
+/// One of all values of a key, by turns.
+pub(crate) fn in_turn<T: Copy>(all: &[T], turn: usize) -> T {
+    all[turn % all.len()]
+}
+
 /// The design of a configuration for a frame of that many regions.
 pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
     let mut config = config.clone();
