@@ -8,7 +8,7 @@ use foveate_engine::Options;
 use foveate_frame::Frame;
 
 use crate::film::{Change, film};
-use crate::properties::check;
+use crate::properties::{check, check_all};
 
 pub(crate) fn camera(
     width: u32,
@@ -85,11 +85,11 @@ fn stillness_is_skipped_and_exact() {
                         config.spatial[0].level = Some(400);
                     });
                     let frames = film(&camera, 77, &script);
-                    for threads in [1, 2] {
-                        let options = Options { threads, ..Options::default() };
-                        assert!(check(&camera, &frames, options) > 1000);
-                        assert_eq!(check(&camera, &frames, Options { skip: false, ..options }), 0);
-                    }
+                    let way = |(threads, skip)| Options { threads, skip, ..Options::default() };
+                    let ways = [(1, true), (1, false), (2, true), (2, false)].map(way);
+                    let [alone, alone_all, two, two_all] = check_all(&camera, &frames, ways);
+                    assert!(alone > 1000 && two > 1000, "skipped: {alone}, {two}");
+                    assert_eq!([alone_all, two_all], [0, 0]);
                 }
             }
         }
@@ -179,20 +179,21 @@ fn regions_that_share_a_block_with_a_change_stay_exact() {
 fn strips_of_several_threads_meet_without_a_seam() {
     use Change::{Noise, Patch, Spot, Still};
     let script = [Still, Still, Patch(0.4, 0.2), Still, Noise, Still, Spot(0.5, 0.5)];
-    for side in [5, 8, 32] {
+    // Every pair of side, neighborhood and reference.
+    for (number, side) in [5, 8, 32].into_iter().enumerate() {
         for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
-            for reference in [Reference::Previous, Reference::LastSent] {
-                let camera = camera(530, 270, side, |config| {
-                    every_feature(config);
-                    config.region.neighborhood = neighborhood;
-                    config.temporal.reference = reference;
-                });
-                let frames = film(&camera, 3, &script);
-                for threads in [2, 3] {
-                    let options = Options { threads, ..Options::default() };
-                    check(&camera, &frames, options);
-                }
-            }
+            let is_isolated = neighborhood == Neighborhood::Isolated;
+            let reference = match is_isolated == number.is_multiple_of(2) {
+                true => Reference::Previous,
+                false => Reference::LastSent,
+            };
+            let camera = camera(530, 270, side, |config| {
+                every_feature(config);
+                config.region.neighborhood = neighborhood;
+                config.temporal.reference = reference;
+            });
+            let ways = [2, 3].map(|threads| Options { threads, ..Options::default() });
+            check_all(&camera, &film(&camera, 3, &script), ways);
         }
     }
 }

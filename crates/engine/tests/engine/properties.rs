@@ -27,22 +27,36 @@ pub(crate) fn assert_same(
 
 /// Runs a film through both; returns how many regions were skipped.
 pub(crate) fn check(camera: &Camera, frames: &[Frame], options: Options) -> usize {
+    check_all(camera, frames, [options])[0]
+}
+
+/// Runs a film through the model and an engine for each way to run; returns how many regions each of them skipped.
+pub(crate) fn check_all<const N: usize>(
+    camera: &Camera,
+    frames: &[Frame],
+    ways: [Options; N],
+) -> [usize; N] {
     let mut model = FunctionalCamera::new(camera);
-    let mut engine = Engine::with_options(camera, options).unwrap();
-    let mut skipped = 0;
+    let mut engines = ways.map(|options| Engine::with_options(camera, options).unwrap());
+    let mut skipped = [0; N];
     for (number, frame) in frames.iter().enumerate() {
-        let context = format!("frame {number}, {options:?}, {:?}", camera.config());
         let clear = model.step(frame).unwrap();
-        let fast = engine.step(frame).unwrap();
-        assert_same(fast, clear, &context);
-        skipped += fast.skipped;
-        assert_eq!(engine.rendered().to_words(), clear.rendered.pixels(), "screen, {context}");
+        for ((engine, options), skipped) in engines.iter_mut().zip(ways).zip(&mut skipped) {
+            let context = format!("frame {number}, {options:?}, {:?}", camera.config());
+            let fast = engine.step(frame).unwrap();
+            assert_same(fast, clear, &context);
+            *skipped += fast.skipped;
+            assert_eq!(engine.rendered().to_words(), clear.rendered.pixels(), "screen, {context}");
+        }
     }
     // A reset forgets everything.
     model.reset();
-    engine.reset();
     if let Some(frame) = frames.last() {
-        assert_same(engine.step(frame).unwrap(), model.step(frame).unwrap(), "after a reset");
+        let clear = model.step(frame).unwrap();
+        for engine in &mut engines {
+            engine.reset();
+            assert_same(engine.step(frame).unwrap(), clear, "after a reset");
+        }
     }
     skipped
 }
