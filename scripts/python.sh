@@ -6,14 +6,18 @@
 #   scripts/python.sh           build and install
 #   scripts/python.sh --test    and run its tests
 #
-# FOVEATE    an executable that the package must equal, instead of the debug build
+# FOVEATE            an executable that the package must equal, instead of the debug build
+# FOVEATE_PACKAGE    what this script has printed before: nothing is built and installed again
 set -euo pipefail
 cd "$(dirname "$0")/.."
-tools=$(scripts/python_tools.sh --package)
-wheels=${CARGO_TARGET_DIR:-target}/wheels
-rm -rf "$wheels"
-VIRTUAL_ENV=$(dirname "$tools") "$tools/maturin" build --profile dev --features as-tested --locked --quiet --out "$wheels" >&2
-"$tools/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl >&2
+tools=${FOVEATE_PACKAGE:-}
+if [ -z "$tools" ]; then
+    tools=$(scripts/python_tools.sh --package)
+    wheels=${CARGO_TARGET_DIR:-target}/wheels
+    rm -rf "$wheels"
+    VIRTUAL_ENV=$(dirname "$tools") "$tools/maturin" build --profile dev --features as-tested --locked --quiet --out "$wheels" >&2
+    "$tools/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl >&2
+fi
 echo "$tools"
 [ "${1:-}" = --test ] || exit 0
 FOVEATE=$(scripts/foveate.sh)

@@ -5,7 +5,8 @@
 # has (see `given` in snippets.py). Then it reads tables with difficult names with every reader that people use. The blocks have the
 # Python package and what its tests have, see python.sh.
 #
-# FOVEATE    an executable to use instead of the debug build
+# FOVEATE            an executable to use instead of the debug build
+# FOVEATE_PACKAGE    where python.sh has installed the package, instead of building it
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools=$(scripts/python.sh)

@@ -46,13 +46,15 @@ step "build of the tests"
 cargo test --workspace --locked --quiet --no-run --lib --bins --tests
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
-step "Python package"
+step "Python package, the documents with it, workflow on this machine"
 wait "$installed" || { cat "$packages" && exit 1; }
+FOVEATE_PACKAGE=$(scripts/python.sh)
+export FOVEATE_PACKAGE
+# One of two processors for each.
+(scripts/snippets.sh && scripts/workflow.sh) >"$beside" 2>&1 &
 scripts/python.sh --test
-step "Python of the documents"
-scripts/snippets.sh
-step "workflow on this machine"
-scripts/workflow.sh
+wait $! || { cat "$beside" && exit 1; }
+cat "$beside"
 step "samples of proofs, lint matrix, growth of area and mutants (scripts/formal.sh, lint.sh, area_growth.py and mutation.sh are the whole)"
 # One of two processors for each.
 (JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick && JOBS=1 scripts/area_growth.py --quick) >"$beside" 2>&1 &
