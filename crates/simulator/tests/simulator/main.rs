@@ -5,6 +5,7 @@
 mod atomic;
 mod batch;
 mod data_set;
+mod decode;
 mod explain;
 mod inputs;
 mod outputs;

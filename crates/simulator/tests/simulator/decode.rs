@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is made of a stream of packets is what the simulation wrote; what is lost is listed, what cannot be is refused.
+
+use std::fs;
+use std::path::Path;
+
+use foveate_design::Config;
+use foveate_simulator::{
+    Decoded, Medium, Packets, PixelEvents, Recording, RunOptions, Silent, SimulatorError,
+};
+
+use crate::packets::{DESIGNS, crc, options};
+use crate::support::{design, names, street};
+
+fn decode(
+    stream: &[u8],
+    overrides: &[&str],
+    output: &Path,
+    options: &RunOptions,
+) -> Result<Decoded, SimulatorError> {
+    let config = Config::from_toml_with("", overrides).unwrap();
+    let mut stream = stream;
+    Recording { config: &config, stream: &mut stream, name: "scene:street" }.decode(
+        output,
+        options,
+        &mut Silent,
+    )
+}
+
+/// All files below a folder but the stream and the list of files, with what is in them.
+fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut files = Vec::new();
+    for name in names(folder).into_iter().filter(|name| name != "packets.bin" && name != ".foveate")
+    {
+        let path = folder.join(&name);
+        if path.is_dir() {
+            let inside = |(inner, bytes)| (format!("{name}/{inner}"), bytes);
+            files.extend(self::files(&path).into_iter().map(inside));
+        } else {
+            files.push((name, fs::read(path).unwrap()));
+        }
+    }
+    files
+}
+
+/// The column of names, which no packet has.
+fn without_names(table: &[u8]) -> Vec<String> {
+    let text = String::from_utf8(table.to_vec()).unwrap();
+    let cut = |line: &str| {
+        let fields = line.split(',').enumerate().filter(|(at, _)| *at != 2);
+        fields.map(|(_, field)| field).collect::<Vec<_>>().join(",")
+    };
+    text.lines().map(cut).collect()
+}
+
+#[test]
+fn what_comes_back_is_what_was_simulated() {
+    for (number, overrides) in DESIGNS.into_iter().enumerate() {
+        let folder = tempfile::tempdir().unwrap();
+        let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+        let heat = RunOptions { heatmap: Some(Medium::Png), ..options(Some(Packets::WithScores)) };
+        let summary = street(&sent, overrides, &heat);
+        let stream = fs::read(sent.join("packets.bin")).unwrap();
+        let decoded =
+            decode(&stream, overrides, &seen, &RunOptions { packets: None, ..heat }).unwrap();
+        assert_eq!((decoded.loss_count, &decoded.summary), (0, &summary), "design {number}");
+        let (sent, seen) = (files(&sent), files(&seen));
+        assert_eq!(sent.len(), seen.len());
+        for ((name, sent), (also, seen)) in sent.iter().zip(&seen) {
+            assert_eq!(name, also);
+            if name == "frames.csv" {
+                assert_eq!(without_names(sent), without_names(seen), "design {number}");
+            } else {
+                assert!(sent == seen, "design {number}: {name} differs");
+            }
+        }
+    }
+}
+
+#[test]
+fn without_scores_all_else_is_the_same() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, DESIGNS[5], &options(Some(Packets::Plain)));
+    let stream = fs::read(sent.join("packets.bin")).unwrap();
+    decode(&stream, DESIGNS[5], &seen, &options(None)).unwrap();
+    let lost: Vec<String> =
+        names(&sent).into_iter().filter(|name| !names(&seen).contains(name)).collect();
+    assert_eq!(lost, ["packets.bin", "score_edge.npy", "t_count.npy"]);
+    let events = fs::read_to_string(seen.join("events.csv")).unwrap();
+    assert!(events.starts_with("frame,t_us,x,y,x0,y0,srs,trs,action\n"), "{events:.80}");
+    for name in ["srs.npy", "trs.npy", "active.npy", "summary.npy", "rendered/000004.png"] {
+        assert!(fs::read(sent.join(name)).unwrap() == fs::read(seen.join(name)).unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn a_lost_region_stays_as_it_was_and_is_listed() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, DESIGNS[0], &options(Some(Packets::Plain)));
+    let mut stream = fs::read(sent.join("packets.bin")).unwrap();
+    // The first REGION of the first frame, behind FRAME (56) and ROW (24).
+    let is_region = |at: &usize| stream[*at] == 0xFA && stream[at + 1] & 15 == 4;
+    let at = (56..stream.len()).step_by(8).find(is_region).unwrap();
+    stream[at + 20] ^= 1;
+    let decoded = decode(&stream, DESIGNS[0], &seen, &options(None)).unwrap();
+    assert_eq!(decoded.loss_count, 2);
+    assert!(!decoded.summary.complete);
+    assert_eq!(decoded.summary.frames, 5);
+    let row = u16::from_le_bytes([stream[at + 4], stream[at + 5]]);
+    let column = u16::from_le_bytes([stream[at + 6], stream[at + 7]]);
+    let losses = fs::read_to_string(seen.join("losses.csv")).unwrap();
+    let expected = [
+        "what,frame,row,column,count,offset".to_owned(),
+        format!("bytes,,,,80,{at}"),
+        format!("region,0,{row},{column},,"),
+    ];
+    assert_eq!(losses.lines().collect::<Vec<_>>(), expected);
+    let events = fs::read_to_string(seen.join("events.csv")).unwrap();
+    let held = format!("0,0,{column},{row},{},{},1,1,hold", 8 * column, 8 * row);
+    assert!(events.lines().any(|line| line == held), "{held}");
+}
+
+#[test]
+fn what_cannot_be_is_refused_with_both_sides() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
+    street(&sent, DESIGNS[0], &options(Some(Packets::Plain)));
+    let stream = fs::read(sent.join("packets.bin")).unwrap();
+    let refused = |stream: &[u8], overrides: &[&str], options: &RunOptions| {
+        let message = decode(stream, overrides, &seen, options).unwrap_err().to_string();
+        assert!(!seen.exists(), "{message}");
+        message
+    };
+    let plain = options(None);
+    let other = refused(&stream, &["region.size=4"], &plain);
+    let resized = |overrides: &[&str]| design(&[DESIGNS[0], overrides].concat()).fingerprint();
+    assert!(
+        other.contains(&resized(&[])) && other.contains(&resized(&["region.size=4"])),
+        "{other}"
+    );
+    let fixed = refused(&stream, &["frame.width=46"], &plain);
+    assert!(fixed.contains("46") && fixed.contains("45"), "{fixed}");
+    assert!(refused(b"", DESIGNS[0], &plain).contains("0 bytes"));
+    assert!(refused(&[7; 5000], DESIGNS[0], &plain).contains("no FRAME packet"));
+    let heat = RunOptions { heatmap: Some(Medium::Png), ..plain };
+    assert!(refused(&stream, DESIGNS[0], &heat).contains("without scores"));
+    let pixel_events = PixelEvents { csv: true, ..PixelEvents::default() };
+    let events = RunOptions { pixel_events, ..plain };
+    assert!(refused(&stream, DESIGNS[0], &events).contains("pixel events"));
+    let mut newer = stream.clone();
+    newer[4] = 2;
+    let check = crc(&newer[..52]);
+    newer[52..56].copy_from_slice(&check.to_le_bytes());
+    assert!(refused(&newer, DESIGNS[0], &plain).contains("version 2"));
+}
