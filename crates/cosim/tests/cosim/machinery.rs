@@ -150,10 +150,11 @@ fn differences_are_told_until_the_sequence_ends() {
         "reg [11:0] count;",
         "reg [11:0] count;\n    integer clock = 0;\n    always @(posedge clk_i) clock <= clock + 1;",
     );
-    for simulator in Simulator::ALL {
+    // With waves the bench goes on to the last clock.
+    for (simulator, trace) in Simulator::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]) {
         if require_tools(simulator.tools()) {
             let found = |frames| -> Vec<(String, u64)> {
-                let outcome = run(simulator, &faulty, &sequences(200, frames), false).unwrap();
+                let outcome = run(simulator, &faulty, &sequences(200, frames), trace).unwrap();
                 outcome.differences.into_iter().map(|found| (found.port, found.clock)).collect()
             };
             let all = [("b_o".to_owned(), 60), ("c_o".to_owned(), 110), ("d_o".to_owned(), 160)];
@@ -182,9 +183,13 @@ fn waves_are_written_when_asked_for() {
     for simulator in Simulator::ALL {
         if require_tools(simulator.tools()) {
             let recording = recording(100);
-            let outcome = run(simulator, TINY, &recording, true).unwrap();
-            let waves = std::fs::read(outcome.waves.unwrap()).unwrap();
-            assert!(waves.len() > 100, "{simulator}");
+            // Each run of a recording has its own.
+            let waves = || run(simulator, TINY, &recording, true).unwrap().waves.unwrap();
+            let both = [waves(), waves()];
+            assert_ne!(both[0], both[1]);
+            for waves in both {
+                assert!(std::fs::read(waves).unwrap().len() > 100, "{simulator}");
+            }
         }
     }
 }
