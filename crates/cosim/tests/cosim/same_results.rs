@@ -196,7 +196,7 @@ fn raster(design: &Design, recording: &Recording) -> Results {
             assert_eq!(result.next_position(design, Place::First), says(PortRole::ForwardPosition));
             let is_first = result.sent.is_empty();
             let words = common::vectors::field(outputs, PortRole::ForwardPixel);
-            let words: Vec<u64> = words.words(&output, word).into_iter().collect();
+            let words: Vec<u64> = words.words(&output, word).collect();
             if says(PortRole::ForwardSummary) == 1 {
                 assert_eq!(words, vec![words[0]; word], "a mean is on all pixels of a word");
                 result.sent.push(words[0]);
