@@ -63,12 +63,33 @@ choice! {
     }
 }
 choice! {
+    /// How a core is connected to what is around it.
+    #[derive(Default)]
+    Bus {
+        /// By ports of its own.
+        #[default]
+        Ports = "ports",
+        /// By AXI4-Stream video, packets on AXI4-Stream, and registers on AXI4-Lite.
+        Axi = "axi",
+    }
+}
+choice! {
     /// Where the thresholds of a core come from.
     Thresholds {
         /// Input ports.
         Runtime = "runtime",
         /// Constants of the design.
         Constant = "constant",
+    }
+}
+
+impl Bus {
+    /// The key where it is not the default.
+    pub(crate) fn if_any(self) -> Option<Self> {
+        match self {
+            Self::Ports => None,
+            Self::Axi => Some(self),
+        }
     }
 }
 

@@ -2,7 +2,9 @@
 //! The configuration file as serde types: that of a camera, and what computes it. The defaults are the paper's
 //! design.
 
-use crate::{Feed, MemoryKind, Organization, Pipelining, Store, Thresholds, keys::HARDWARE_KEYS};
+use crate::{
+    Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds, keys::HARDWARE_KEYS,
+};
 use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, Key, text};
 use serde::{Deserialize, Serialize};
 use toml::Table;
@@ -109,6 +111,10 @@ pub struct HardwareConfig {
     /// they do not.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub forward: Option<bool>,
+    /// How the core is connected to what is around it; left out it is by ports. A design has it only where it is by a
+    /// bus.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interface: Option<Bus>,
     /// Whether the core is told where frames start, and finds them again; left out it is not. A design has it only
     /// where it is.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -128,6 +134,7 @@ impl Default for HardwareConfig {
             pipelining: None,
             store: None,
             forward: None,
+            interface: None,
             sync: None,
             thresholds: Thresholds::Runtime,
         }

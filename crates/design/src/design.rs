@@ -3,7 +3,9 @@
 
 use std::ops::Deref;
 
-use crate::{Config, Hardware, HardwareConfig, Organization, Pipelining, Thresholds, fingerprint};
+use crate::{
+    Bus, Config, Hardware, HardwareConfig, Organization, Pipelining, Thresholds, fingerprint,
+};
 use foveate_camera::Camera;
 
 /// A design: a camera and the hardware that computes it. It answers every question that its camera answers.
@@ -80,6 +82,12 @@ impl Design {
     #[must_use]
     pub fn forwards(&self) -> bool {
         self.hardware.forwards()
+    }
+
+    /// How the array is connected to what is around it; see `docs/axi.md`.
+    #[must_use]
+    pub fn bus(&self) -> Bus {
+        self.hardware.bus()
     }
 
     /// Whether the array is told where frames start, and finds them again; see `docs/sync.md`.

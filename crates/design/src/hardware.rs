@@ -4,7 +4,7 @@
 use crate::pipelined::Pipelined;
 use crate::raster::Raster;
 use crate::serial::Serial;
-use crate::{HardwareConfig, Organization, Pipelining};
+use crate::{Bus, HardwareConfig, Organization, Pipelining};
 
 /// What computes a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -44,6 +44,15 @@ impl Hardware {
         match self {
             Self::Pipelined(_) | Self::Serial(_) => true,
             Self::Raster(own) => own.forwards,
+        }
+    }
+
+    /// How the core is connected to what is around it.
+    #[must_use]
+    pub fn bus(&self) -> Bus {
+        match self {
+            Self::Pipelined(_) | Self::Serial(_) => Bus::Ports,
+            Self::Raster(own) => own.bus,
         }
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The keys of `[hardware]`, to refuse unknown ones by name and with the nearest known one.
 
-use crate::{Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
+use crate::{Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
 use foveate_camera::Key;
 use foveate_camera::Takes::{Names, Text};
 
@@ -15,6 +15,7 @@ pub(crate) const HARDWARE_KEYS: &[Key] = &[
     ("hardware.pipelining", Names(Pipelining::one_of)),
     ("hardware.store", Names(Store::one_of)),
     ("hardware.forward", Text("true or false")),
+    ("hardware.interface", Names(Bus::one_of)),
     ("hardware.sync", Text("true or false")),
     ("hardware.thresholds", Names(Thresholds::one_of)),
 ];

@@ -25,7 +25,7 @@ mod timing;
 mod validate;
 mod view;
 
-pub use choice::{Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
+pub use choice::{Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
 pub use config::{Config, HardwareConfig};
 pub use design::Design;
 pub use foveate_camera::{

@@ -146,6 +146,7 @@ impl HardwareConfig {
         words.extend(self.pipelining.map(|pipelining| format!("{pipelining} pipelining")));
         words.extend(self.store.map(|store| format!("{store} store")));
         words.extend((self.forward == Some(false)).then(|| "no forwarding".to_owned()));
+        words.extend(self.interface.map(|bus| format!("interface {bus}")));
         words.extend((self.sync == Some(true)).then(|| "frame sync".to_owned()));
         words.join(", ")
     }

@@ -2,7 +2,7 @@
 //! Checks every range and combination of a configuration, and makes it a design.
 
 use crate::takes::taken;
-use crate::{Config, Design, Hardware, HardwareConfig, Organization};
+use crate::{Bus, Config, Design, Hardware, HardwareConfig, Organization};
 use foveate_camera::{ConfigError, MAX_SIDE};
 
 impl Config {
@@ -45,6 +45,7 @@ impl HardwareConfig {
             ("hardware.pixels_per_clock", self.pixels_per_clock.map(|pixels| pixels.to_string())),
             ("hardware.store", self.store.map(|store| format!("\"{store}\""))),
             ("hardware.forward", self.forward.map(|forward| forward.to_string())),
+            ("hardware.interface", self.bus_beside_ports().map(|bus| format!("\"{bus}\""))),
         ];
         match given.into_iter().find_map(|(key, value)| Some((key, value?))) {
             None => Ok(()),
@@ -53,6 +54,11 @@ impl HardwareConfig {
                 Err(self.clash(key, value, remedy))
             }
         }
+    }
+
+    /// The interface, where it is another than ports, which every organization has.
+    fn bus_beside_ports(&self) -> Option<Bus> {
+        self.interface.filter(|&bus| bus != Bus::Ports)
     }
 
     /// The error for a `key` whose value the organization does not take.

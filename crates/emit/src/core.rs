@@ -2,6 +2,7 @@
 //! The files of a core beside its Verilog: file lists, FuseSoC, constraints, Vivado, the benches' script.
 //! Its README is in [`crate::readme`].
 
+use crate::axi::{self, AXI_TOP};
 use crate::organization::emitter;
 use crate::text::text_of;
 use crate::{Prefix, SourceFile, Top, banner, synth, verilog};
@@ -51,9 +52,10 @@ const ICARUS_CLOCKS: u64 = 40_000;
 #[must_use]
 pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
     let (mut files, mut lists) = (Vec::<SourceFile>::new(), Vec::new());
-    for &top in Top::all_of(design).iter().rev() {
-        let sources = prefix.apply(verilog(design, top));
-        let path = prefix.name(&format!("{}.f", top.module()));
+    let tops = Top::all_of(design).iter().rev().map(|&top| (top.module(), verilog(design, top)));
+    for (module, sources) in tops.chain(axi::on_bus(design).map(|sources| (AXI_TOP, sources))) {
+        let sources = prefix.apply(sources);
+        let path = prefix.name(&format!("{module}.f"));
         lists.push(SourceFile { path, contents: file_list(&sources) });
         // A serial array has no RPU inside.
         let is_new = |file: &SourceFile| files.iter().all(|known| known.path != file.path);

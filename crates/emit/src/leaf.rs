@@ -118,6 +118,13 @@ leaves! {
         "raster_moments", "raster_ring", "raster_deviation", "raster_decision", "raster_forward", "raster_line",
         "raster_repeat", "raster_summary"
     ],
+    "packet_crc" => [],
+    "packet_place" => [],
+    "packet_rows" => ["raster_memory"],
+    "packet_regions" => ["packet_place", "raster_memory"],
+    "packet_frames" => [],
+    "packet_writer" => ["packet_crc"],
+    "axi_video" => ["raster_memory"],
     "serial_array" => [
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
         "serial_group", "serial_sides", "serial_lane", "serial_decision", "serial_summary"

@@ -5,6 +5,7 @@
 //! hold structure only. Emission is deterministic: the text has no dates and no paths, and only
 //! what the design needs.
 
+mod axi;
 mod branch;
 mod camera;
 mod core;
@@ -26,6 +27,7 @@ mod thresholds;
 mod top;
 mod verilog;
 
+pub use crate::axi::{AXI_TOP, registers};
 pub use crate::core::core;
 pub use error::EmitError;
 pub use leaf::{LEAVES, Leaf};

@@ -53,6 +53,7 @@ impl Takes for Pipelined {
             pixels_per_clock: _,
             store: _,
             forward: _,
+            interface: _,
             organization: _,
             sync: _,
             thresholds: _,

@@ -2,7 +2,7 @@
 //! What a raster core has of its own, and which frames and keys of a configuration it takes.
 
 use crate::takes::Takes;
-use crate::{HardwareConfig, Organization, Pipelining, Store, Thresholds};
+use crate::{Bus, HardwareConfig, Organization, Pipelining, Store, Thresholds};
 use foveate_camera::{
     Camera, ConfigError, FeatureKind, Irrelevant, Periphery, Reference, in_range,
 };
@@ -27,6 +27,8 @@ pub struct Raster {
     pub store: Store,
     /// Whether the pixels of active regions leave.
     pub forwards: bool,
+    /// How the core is connected to what is around it.
+    pub bus: Bus,
 }
 
 impl Takes for Raster {
@@ -67,6 +69,7 @@ impl Takes for Raster {
             pipelining,
             store,
             forward,
+            interface,
             fold: _,
             feed: _,
             memory: _,
@@ -77,6 +80,7 @@ impl Takes for Raster {
         refuse_lanes(asked)?;
         let pixels = pixels_per_clock.unwrap_or(WORDS[0]);
         check_word(asked, pixels, camera.region_size())?;
+        check_bus(asked)?;
         check_reference(asked, camera.temporal().reference)?;
         if let Some(periphery) = camera.periphery() {
             check_summaries(asked, pixels, periphery)?;
@@ -98,12 +102,13 @@ impl Takes for Raster {
             pipelining: pipelining.unwrap_or_default(),
             store: store.unwrap_or_default(),
             forwards: forward.unwrap_or(true),
+            bus: interface.unwrap_or_default(),
         })
     }
 }
 
 impl Raster {
-    /// `[hardware]`. That pixels leave is left out, so that designs have the fingerprints from before there was the key.
+    /// `[hardware]`. That pixels leave by ports is left out, so that designs have the fingerprints from before there was the key.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {
             organization: Organization::Raster,
@@ -111,6 +116,7 @@ impl Raster {
             pipelining: Some(self.pipelining),
             store: Some(self.store),
             forward: (!self.forwards).then_some(false),
+            interface: self.bus.if_any(),
             ..HardwareConfig::default()
         }
     }
@@ -149,6 +155,21 @@ fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), Conf
     }
     let remedy = format!("it must divide region.size = {}; use fewer pixels", size);
     Err(asked.clash(key, pixels.to_string(), &remedy))
+}
+
+/// Refuses packets without pixels.
+fn check_bus(asked: &HardwareConfig) -> Result<(), ConfigError> {
+    match asked.interface.unwrap_or_default() {
+        Bus::Axi if asked.forward == Some(false) => Err(ConfigError::Combination {
+            key: "hardware.forward".to_owned(),
+            value: false.to_string(),
+            with: format!("interface = \"{}\"", Bus::Axi),
+            remedy: "its packets carry the pixels of active regions; leave the key out, or use \
+                     interface = \"ports\""
+                .to_owned(),
+        }),
+        Bus::Ports | Bus::Axi => Ok(()),
+    }
 }
 
 /// Refuses stores that cannot keep the reference.

@@ -62,6 +62,7 @@ impl Takes for Serial {
             pixels_per_clock: _,
             store: _,
             forward: _,
+            interface: _,
             organization: _,
             sync: _,
             thresholds: _,

@@ -310,8 +310,8 @@ fn way(
     organization: Organization,
     own: &HardwareConfig,
 ) -> Option<Design> {
-    let (thresholds, sync) = (asked.thresholds, asked.sync);
-    let hardware = HardwareConfig { organization, thresholds, sync, ..*own };
+    let (thresholds, sync, interface) = (asked.thresholds, asked.sync, asked.interface);
+    let hardware = HardwareConfig { organization, thresholds, sync, interface, ..*own };
     Config { camera: look.clone(), hardware }.validate().ok()
 }
 

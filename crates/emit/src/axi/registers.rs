@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The registers of a core on AXI4-Lite: the one table from which Verilog, C, Markdown and SystemRDL are made.
+
+use crate::thresholds::threshold_value;
+use foveate_camera::Irrelevant;
+use foveate_design::{Design, Interface, Port, RasterDesign};
+
+/// Bits of a register.
+pub const REGISTER_BITS: u32 = 32;
+/// Bits of an address: 4 KiB, the smallest page that a bus maps.
+pub const ADDRESS_BITS: u32 = 12;
+/// The version of this map.
+pub const MAP_VERSION: u32 = 1;
+/// Where the thresholds begin.
+const THRESHOLDS: u32 = 0x100;
+
+/// What a field does.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// It always reads as this.
+    Constant(u32),
+    /// It reads as the core says.
+    Status,
+    /// What was written last, at first `reset`.
+    Control {
+        /// Its value after a reset.
+        reset: u32,
+    },
+    /// As `Control`, but the core takes it over when a frame begins.
+    Threshold {
+        /// Its value after a reset.
+        reset: u32,
+    },
+    /// Writing 1 does something once; it reads as 0.
+    Command,
+    /// It becomes 1 by itself, and 0 when 1 is written.
+    Event,
+}
+
+/// Some bits of a register that say one thing.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Field {
+    /// Its name.
+    pub name: String,
+    /// Its lowest bit.
+    pub low: u32,
+    /// How many bits it has.
+    pub width: u32,
+    /// What it does.
+    pub kind: Kind,
+    /// What it means.
+    pub doc: String,
+}
+
+/// A word that a processor reads or writes.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Register {
+    /// Its name.
+    pub name: String,
+    /// Its address in bytes, below the base of the core.
+    pub address: u32,
+    /// Its fields, from low bits to high ones.
+    pub fields: Vec<Field>,
+    /// What it is.
+    pub doc: String,
+}
+
+/// What may happen, in the order of the bits of `EVENTS`.
+const EVENTS: [(&str, &str); 8] = [
+    ("eol_early", "a line was too short, and went on with its last pixel"),
+    ("eol_late", "a line was too long; what was too much is left out"),
+    ("sof_early", "a frame was too short, and went on with its last line"),
+    ("sof_late", "pixels came between two frames, and were left out"),
+    ("frame_skipped", "a frame came while two were under way, and was skipped"),
+    ("region_dropped", "pixels or means of a region were dropped, as the sink stalled"),
+    ("row_dropped", "decisions of a row were dropped, as the sink stalled"),
+    ("frame_done", "the last packet of a frame has left"),
+];
+
+/// Names of the events, from bit 0 of `EVENTS` on.
+#[must_use]
+pub fn events() -> impl Iterator<Item = &'static str> {
+    EVENTS.iter().map(|(name, _)| *name)
+}
+
+/// The registers of the core of a design, by address.
+#[must_use]
+pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
+    let fingerprint = fingerprint(&design);
+    let low = u32::try_from(fingerprint & 0xFFFF_FFFF).expect("32 bits");
+    let high = u32::try_from(fingerprint >> REGISTER_BITS).expect("32 bits");
+    let mut list = Vec::new();
+    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<Field>| {
+        list.push(Register { name: name.to_owned(), address, fields, doc: doc.to_owned() });
+    };
+    let constant = |name: &str, low: u32, width: u32, value: u32, doc: &str| {
+        field(name, low, width, Kind::Constant(value), doc)
+    };
+    let all = |value: u32, doc: &str| vec![constant("value", 0, REGISTER_BITS, value, doc)];
+    let status = |width: u32, doc: &str| vec![field("value", 0, width, Kind::Status, doc)];
+    let magic = u32::from_le_bytes(*b"FOVE");
+    add(0x000, "identity", "says that this is a Foveate core", all(magic, "ASCII `FOVE`"));
+    add(
+        0x004,
+        "version",
+        "version of this map",
+        all(MAP_VERSION, "grows with what is not compatible"),
+    );
+    add(0x008, "fingerprint_low", "fingerprint of the design", all(low, "its last 8 digits"));
+    add(0x00C, "fingerprint_high", "fingerprint of the design", all(high, "its first 8 digits"));
+    add(
+        0x010,
+        "frame",
+        "size of a frame",
+        vec![
+            constant("width", 0, 16, design.width(), "W, pixels"),
+            constant("height", 16, 16, design.height(), "H, rows"),
+        ],
+    );
+    add(
+        0x014,
+        "grid",
+        "regions of a frame",
+        vec![
+            constant("columns", 0, 16, design.columns(), "C"),
+            constant("rows", 16, 16, design.rows(), "R"),
+        ],
+    );
+    let means = design.periphery().map_or(0, |periphery| periphery.blocks);
+    add(
+        0x018,
+        "region",
+        "a region",
+        vec![
+            constant("size", 0, 8, design.region_size(), "N, pixels of a side"),
+            constant("pixel_bits", 8, 8, design.pixel_bits(), "P"),
+            constant("means", 16, 8, means, "q, means of a side; 0 without summaries"),
+            constant("irrelevant", 24, 4, irrelevant(&design), "0 `zero`, 1 `hold`, 2 `mean`"),
+            constant("raw", 28, 1, u32::from(design.keeps_raw()), "1: raw pixels leave"),
+        ],
+    );
+    add(
+        0x01C,
+        "tick_rate",
+        "ticks of time in packets",
+        status(32, "ticks per second: the clock of the core in Hz"),
+    );
+    add(
+        0x020,
+        "control",
+        "what the core does",
+        vec![
+            field(
+                "enable",
+                0,
+                1,
+                Kind::Control { reset: 1 },
+                "0: no frame begins; those that come are left out",
+            ),
+            field(
+                "wait",
+                1,
+                1,
+                Kind::Control { reset: 0 },
+                "1: a frame that may not begin yet holds up its source; 0: it is skipped",
+            ),
+            field(
+                "restart",
+                2,
+                1,
+                Kind::Command,
+                "forgets all references once no frame is under way",
+            ),
+        ],
+    );
+    add(
+        0x024,
+        "status",
+        "what goes on",
+        vec![
+            field("busy", 0, 1, Kind::Status, "a frame is under way"),
+            field("restarting", 1, 1, Kind::Status, "a restart waits for the frames under way"),
+        ],
+    );
+    let each = |kind: &Kind| {
+        let event =
+            |(bit, (name, doc)): (u32, &(&str, &str))| field(name, bit, 1, kind.clone(), doc);
+        (0..).zip(&EVENTS).map(event).collect::<Vec<_>>()
+    };
+    add(0x028, "events", "what has happened, until 1 is written", each(&Kind::Event));
+    add(
+        0x02C,
+        "interrupt_enable",
+        "events that raise `interrupt_o`",
+        each(&Kind::Control { reset: 0 }),
+    );
+    add(0x030, "interrupt_test", "as if that happened", each(&Kind::Command));
+    add(
+        0x034,
+        "frames",
+        "frames that came, skipped ones included",
+        status(32, "modulo 2^32; the number of the next"),
+    );
+    for (address, name, doc) in [
+        (0x038, "repaired", "frames that were damaged"),
+        (0x03C, "skipped", "frames that were skipped"),
+        (0x040, "dropped", "regions that were dropped"),
+    ] {
+        add(address, name, doc, status(16, "modulo 2^16"));
+    }
+    let mut address = THRESHOLDS;
+    for threshold in thresholds(&design) {
+        for part in threshold.parts() {
+            let reset = Kind::Threshold { reset: part.reset };
+            let value = field("value", 0, part.width, reset, &threshold.port.doc);
+            add(address, &part.name, "threshold, from the next frame on", vec![value]);
+            address += 4;
+        }
+    }
+    list
+}
+
+/// A threshold that is an input of the array.
+pub(crate) struct Threshold {
+    pub(crate) port: Port,
+    value: u64,
+}
+
+/// As much of a threshold as fits into a register.
+pub(crate) struct Part {
+    pub(crate) name: String,
+    pub(crate) width: u32,
+    reset: u32,
+}
+
+impl Threshold {
+    /// The registers that have it, the one with the lowest bits first.
+    pub(crate) fn parts(&self) -> Vec<Part> {
+        let name = self.port.name.trim_end_matches("_i");
+        let width = self.port.width;
+        let low = u32::try_from(self.value & 0xFFFF_FFFF).expect("32 bits");
+        if width <= REGISTER_BITS {
+            return vec![Part { name: name.to_owned(), width, reset: low }];
+        }
+        let high =
+            u32::try_from(self.value >> REGISTER_BITS).expect("a threshold has at most 64 bits");
+        vec![
+            Part { name: format!("{name}_low"), width: REGISTER_BITS, reset: low },
+            Part { name: format!("{name}_high"), width: width - REGISTER_BITS, reset: high },
+        ]
+    }
+}
+
+/// The thresholds that are inputs of the array.
+pub(crate) fn thresholds(design: &Design) -> Vec<Threshold> {
+    let value =
+        |port: &Port| threshold_value(design, port).expect("a control of an array is a threshold");
+    let Interface { controls, .. } = design.rcm_interface();
+    controls.into_iter().map(|port| Threshold { value: value(&port), port }).collect()
+}
+
+/// The fingerprint as a number.
+pub(crate) fn fingerprint(design: &Design) -> u64 {
+    u64::from_str_radix(&design.fingerprint(), 16).expect("a fingerprint is hexadecimal")
+}
+
+/// What irrelevant regions show, as packets and registers say it.
+pub(crate) fn irrelevant(design: &Design) -> u32 {
+    match design.irrelevant() {
+        Irrelevant::Zero => 0,
+        Irrelevant::Hold => 1,
+        Irrelevant::Mean => 2,
+    }
+}
+
+fn field(name: &str, low: u32, width: u32, kind: Kind, doc: &str) -> Field {
+    Field { name: name.to_owned(), low, width, kind, doc: doc.to_owned() }
+}

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fills `axi.v`, the top of a core on a bus.
+
+use super::registers::{fingerprint, irrelevant, thresholds};
+use crate::banner;
+use crate::text::PortLine;
+use askama::Template;
+use foveate_design::{Port, PortRole, RasterDesign, StreamRole, index_bits};
+
+/// Bits of a word of a packet.
+const WORD: u32 = 64;
+/// Words of a packet beside what it carries: its head and its tail.
+const ENDS: u32 = 2;
+/// What a FRAME carries.
+const FRAME_WORDS: u32 = 5;
+/// What an END carries.
+const END_WORDS: u32 = 1;
+
+#[derive(Template)]
+#[template(path = "axi.v")]
+pub(super) struct Axi {
+    banner: String,
+    lanes: u32,
+    pixel_bits: u32,
+    word_bits: u32,
+    video_bits: u32,
+    width: u32,
+    height: u32,
+    words: u32,
+    words_bits: u32,
+    lines_bits: u32,
+    columns: u32,
+    rows: u32,
+    column_bits: u32,
+    region_bits: u32,
+    side: u32,
+    pixels: u32,
+    means_side: u32,
+    means: u32,
+    has_means: bool,
+    decision_bits: u32,
+    bits: u32,
+    part_bits: u32,
+    row_words: u32,
+    pixel_words: u32,
+    mean_words: u32,
+    pending_bits: u32,
+    irrelevant: u32,
+    raw: u32,
+    fingerprint: String,
+    syncs: bool,
+    thresholds: Vec<Port>,
+    /// Outputs of the array that nothing here looks at.
+    unused: Vec<Port>,
+    /// Ports that no bus has.
+    outside: Vec<PortLine>,
+    /// The ports of the array, and what they are connected to.
+    connections: Vec<(String, String)>,
+}
+
+/// What the packets of a design carry, in words.
+struct Packets {
+    row: u32,
+    pixels: u32,
+    means: u32,
+    decision_bits: u32,
+}
+
+impl Packets {
+    fn of(design: RasterDesign<'_>) -> Self {
+        let lane = lane_bits(design);
+        let values = |count: u32| (count * lane).div_ceil(WORD);
+        let blocks = design.periphery().map(|periphery| periphery.blocks);
+        let decision_bits = if blocks.is_some() { 4 } else { 2 };
+        Self {
+            row: (design.columns() * decision_bits).div_ceil(WORD),
+            pixels: values(design.region_size().pow(2)),
+            means: blocks.map_or(0, |blocks| values(blocks * blocks)),
+            decision_bits,
+        }
+    }
+
+    /// Bits of a packet that are made at a clock: 16 where all regions can leave at full rate with them, else 32.
+    fn bits(&self, design: RasterDesign<'_>) -> u32 {
+        let clocks = |words: u32| u64::from((words + ENDS) * (WORD / 16) + 1);
+        let frame = u64::from(design.rows())
+            * (u64::from(design.columns()) * clocks(self.pixels) + clocks(self.row))
+            + clocks(FRAME_WORDS)
+            + clocks(END_WORDS);
+        let region = u64::from(design.region_size().pow(2) / design.pixels_per_clock());
+        if frame <= u64::from(design.regions()) * region { 16 } else { 32 }
+    }
+}
+
+/// Bits of a pixel in a packet.
+fn lane_bits(design: RasterDesign<'_>) -> u32 {
+    if design.pixel_bits() <= 8 { 8 } else { 16 }
+}
+
+pub(super) fn view(design: RasterDesign<'_>) -> Axi {
+    let packets = Packets::of(design);
+    let bits = packets.bits(design);
+    let parts = WORD / bits;
+    let most = [packets.row, packets.pixels, packets.means, FRAME_WORDS].into_iter().max();
+    let word_bits = design.pixels_per_clock() * design.pixel_bits();
+    let words = design.width().div_ceil(design.pixels_per_clock());
+    let means_side = design.periphery().map_or(0, |periphery| periphery.blocks);
+    let ports = design.rcm_ports();
+    let outside: Vec<Port> =
+        ports.iter().filter(|port| is_outside(design, port)).cloned().collect();
+    Axi {
+        banner: banner(&design),
+        lanes: design.pixels_per_clock(),
+        pixel_bits: design.pixel_bits(),
+        word_bits,
+        video_bits: word_bits.next_multiple_of(8),
+        width: design.width(),
+        height: design.height(),
+        words,
+        words_bits: index_bits(words.into()),
+        lines_bits: index_bits(design.height().into()),
+        columns: design.columns(),
+        rows: design.rows(),
+        column_bits: index_bits(design.columns().into()),
+        region_bits: index_bits(design.regions().into()),
+        side: design.region_size(),
+        pixels: design.region_size().pow(2),
+        means_side,
+        means: means_side * means_side,
+        has_means: means_side > 0,
+        decision_bits: packets.decision_bits,
+        bits,
+        part_bits: index_bits(u64::from(most.unwrap_or(1) * parts)).max(parts.ilog2() + 3),
+        row_words: packets.row,
+        pixel_words: packets.pixels,
+        mean_words: packets.means,
+        // All regions in the buffer of three rows may wait.
+        pending_bits: index_bits(u64::from(3 * design.columns() + 1)) + 1,
+        irrelevant: irrelevant(&design),
+        raw: u32::from(design.keeps_raw()),
+        fingerprint: format!("{:016x}", fingerprint(&design)),
+        syncs: design.syncs(),
+        thresholds: thresholds(&design).into_iter().map(plain).collect(),
+        unused: ports
+            .iter()
+            .filter(|port| signal(design, port).starts_with("unused_"))
+            .cloned()
+            .collect(),
+        outside: PortLine::all(&outside, |_| None),
+        connections: ports.iter().map(|port| (port.name.clone(), signal(design, port))).collect(),
+    }
+}
+
+/// A threshold without the ending of a port.
+fn plain(threshold: super::registers::Threshold) -> Port {
+    let name = threshold.port.name.trim_end_matches("_i").to_owned();
+    Port { name, ..threshold.port }
+}
+
+/// Whether a port of the array is one of the core on a bus, too: those of a frame store outside.
+fn is_outside(design: RasterDesign<'_>, port: &Port) -> bool {
+    let interface = design.rcm_interface();
+    let stream = interface.stream_of(port.role).map(|stream| stream.role);
+    matches!(stream, Some(StreamRole::References | StreamRole::Stored))
+}
+
+/// What a port of the array is connected to.
+fn signal(design: RasterDesign<'_>, port: &Port) -> String {
+    let own = match port.role {
+        PortRole::Clock => "aclk",
+        PortRole::Reset => "rst || forget",
+        PortRole::Valid => "word_valid",
+        PortRole::StartOfFrame => "word_first",
+        PortRole::Pixel => "word",
+        PortRole::Ready => "word_ready",
+        PortRole::DecisionValid => "decision_valid",
+        PortRole::Srs => "srs",
+        PortRole::Trs => "trs",
+        PortRole::Active => "active",
+        PortRole::Summary => "summary",
+        PortRole::ForwardValid => "forward_valid",
+        PortRole::ForwardReady => "forward_ready",
+        PortRole::ForwardRegion => "forward_region",
+        PortRole::ForwardPixel => "forward_pixel",
+        PortRole::ForwardFirst => "forward_first",
+        PortRole::ForwardLast => "forward_last",
+        PortRole::ForwardAbort => "forward_abort",
+        PortRole::ForwardFrame => "forward_frame",
+        PortRole::ForwardSummary => "forward_summary",
+        PortRole::LostValid => "lost_valid",
+        PortRole::LostFrame => "lost_frame",
+        // Decisions come in the order of the regions, and what else is said is counted here, or is not sent.
+        PortRole::Region
+        | PortRole::SyncError
+        | PortRole::Score(_)
+        | PortRole::TemporalCount
+        | PortRole::ForwardPosition
+        | PortRole::Lost
+        | PortRole::LostCount
+        | PortRole::LostRegion => return format!("unused_{}", port.name),
+        _ if is_outside(design, port) => &port.name,
+        _ => port.name.trim_end_matches("_i"),
+    };
+    own.to_owned()
+}

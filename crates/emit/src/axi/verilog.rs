@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Fills `axi_registers.v` from the table of registers.
+
+use super::registers::{Field, Kind, REGISTER_BITS, Register, thresholds};
+use crate::banner;
+use askama::Template;
+use foveate_design::Design;
+
+#[derive(Template)]
+#[template(path = "axi_registers.v")]
+pub(super) struct Registers {
+    banner: String,
+    ports: Vec<Line>,
+    state: Vec<State>,
+    /// What thresholds become when a frame begins.
+    taken: Vec<(String, String)>,
+    /// Commands, which last for a clock.
+    commands: Vec<String>,
+    writes: Vec<Write>,
+    events: Vec<Event>,
+    reads: Vec<(u32, String)>,
+    outputs: Vec<(String, String)>,
+}
+
+struct Line {
+    declaration: String,
+    doc: String,
+}
+
+struct State {
+    name: String,
+    range: String,
+    reset: String,
+}
+
+/// A byte, or a part of one, that is written.
+struct Write {
+    word: u32,
+    byte: u32,
+    target: String,
+    range: String,
+}
+
+struct Event {
+    name: String,
+    word: u32,
+    byte: u32,
+    bit: u32,
+}
+
+pub(super) fn view(design: &Design, registers: &[Register]) -> Registers {
+    let mut view = Registers {
+        banner: banner(design),
+        ports: Vec::new(),
+        state: Vec::new(),
+        taken: Vec::new(),
+        commands: Vec::new(),
+        writes: Vec::new(),
+        events: Vec::new(),
+        reads: Vec::new(),
+        outputs: Vec::new(),
+    };
+    for register in registers {
+        for field in &register.fields {
+            view.add(register, field);
+        }
+        view.reads.push((register.address / 4, read(register)));
+    }
+    for threshold in thresholds(design) {
+        // Parts are listed from the lowest on, and put together from the highest on.
+        let mut parts: Vec<_> =
+            threshold.parts().iter().map(|part| format!("{}_taken_q", part.name)).collect();
+        parts.reverse();
+        let name = threshold.port.name.trim_end_matches("_i");
+        view.port("output", threshold.port.width, format!("{name}_o"), &threshold.port.doc);
+        view.outputs.push((name.to_owned(), format!("{{{}}}", parts.join(", "))));
+    }
+    view.port("output", 1, "interrupt_o".to_owned(), "an enabled event has happened");
+    if let Some(last) = view.ports.last_mut() {
+        last.declaration = last.declaration.replace(',', "");
+    }
+    view
+}
+
+impl Registers {
+    fn add(&mut self, register: &Register, field: &Field) {
+        let name = name(register, field);
+        let is_test = register.name == "interrupt_test";
+        match field.kind {
+            Kind::Constant(_) => {}
+            Kind::Status => self.port("input ", field.width, format!("{name}_i"), &field.doc),
+            Kind::Control { reset } => {
+                self.state(name.clone(), field.width, reset);
+                self.write(register, field, &name);
+                // What enables an event stays inside.
+                if register.name != "interrupt_enable" {
+                    self.output(&name, field);
+                }
+            }
+            Kind::Threshold { reset } => {
+                self.state(name.clone(), field.width, reset);
+                self.state(format!("{name}_taken"), field.width, reset);
+                self.write(register, field, &name);
+                self.taken.push((format!("{name}_taken"), format!("{name}_q")));
+            }
+            Kind::Command => {
+                self.state(name.clone(), field.width, 0);
+                self.write(register, field, &name);
+                self.commands.push(name.clone());
+                if !is_test {
+                    self.output(&name, field);
+                }
+            }
+            Kind::Event => {
+                self.state(name, 1, 0);
+                self.port("input ", 1, format!("{}_i", field.name), &field.doc);
+                self.events.push(Event {
+                    name: field.name.clone(),
+                    word: register.address / 4,
+                    byte: field.low / 8,
+                    bit: field.low,
+                });
+            }
+        }
+    }
+
+    fn state(&mut self, name: String, width: u32, reset: u32) {
+        self.state.push(State { name, range: range(width), reset: format!("{width}'d{reset}") });
+    }
+
+    fn output(&mut self, name: &str, field: &Field) {
+        self.port("output", field.width, format!("{name}_o"), &field.doc);
+        self.outputs.push((name.to_owned(), format!("{name}_q")));
+    }
+
+    fn port(&mut self, direction: &str, width: u32, name: String, doc: &str) {
+        let declaration = format!("{direction} wire {:6} {name},", range(width));
+        self.ports.push(Line { declaration, doc: doc.to_owned() });
+    }
+
+    /// Each byte of a field has a strobe of its own.
+    fn write(&mut self, register: &Register, field: &Field, name: &str) {
+        let end = field.low + field.width;
+        let mut low = field.low;
+        while low < end {
+            let high = end.min(low / 8 * 8 + 8);
+            let bits = |from: u32| match (high - low, field.width) {
+                (1, 1) => String::new(),
+                (1, _) => format!("[{from}]"),
+                (width, _) => format!("[{}:{from}]", from + width - 1),
+            };
+            self.writes.push(Write {
+                word: register.address / 4,
+                byte: low / 8,
+                target: format!("{name}_q{}", bits(low - field.low)),
+                range: if high - low == 1 { format!("[{low}]") } else { bits(low) },
+            });
+            low = high;
+        }
+    }
+}
+
+/// A field as a signal: by the name of its register, too, unless it is all that the register has.
+fn name(register: &Register, field: &Field) -> String {
+    match field.name.as_str() {
+        "value" => register.name.clone(),
+        own => format!("{}_{own}", register.name),
+    }
+}
+
+/// The 32 bits that a register reads as, the highest first.
+fn read(register: &Register) -> String {
+    let mut parts = Vec::new();
+    let mut end = 0;
+    for field in &register.fields {
+        if field.low > end {
+            parts.push(zeros(field.low - end));
+        }
+        end = field.low + field.width;
+        let name = name(register, field);
+        parts.push(match field.kind {
+            Kind::Constant(value) => format!("{}'d{value}", field.width),
+            Kind::Status => format!("{name}_i"),
+            Kind::Control { .. } | Kind::Threshold { .. } | Kind::Event => format!("{name}_q"),
+            Kind::Command => zeros(field.width),
+        });
+    }
+    if end < REGISTER_BITS {
+        parts.push(zeros(REGISTER_BITS - end));
+    }
+    parts.reverse();
+    parts.join(", ")
+}
+
+fn zeros(width: u32) -> String {
+    format!("{width}'d0")
+}
+
+fn range(width: u32) -> String {
+    if width == 1 { String::new() } else { format!("[{}:0]", width - 1) }
+}

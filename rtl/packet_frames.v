@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Which frames are under way, and what of them has not left yet. At most two are: one whose packets leave, and one that is
+// taken; the FRAME packet of this one waits for the END of the other.
+`default_nettype none
+
+module packet_frames #(
+    parameter PENDING_BITS = 10,  // bits of the number of regions of a frame that wait to leave
+    parameter REGION_BITS = 15,   // bits of the number of a region
+    parameter ROW_BITS = 8        // bits of the number of a row of regions
+) (
+    input  wire                 clk_i,            // clock, rising edge
+    input  wire                 rst_i,            // synchronous reset, active high
+    input  wire                 forget_i,         // as rst_i, but frames are counted on
+    input  wire [         63:0] time_i,           // now, in ticks
+    input  wire                 begin_i,          // a frame begins
+    input  wire                 skip_i,           // a frame comes, and is skipped
+    input  wire                 decided_frame_i,  // lowest bit of the number of the frame that is decided, since reset
+    input  wire                 decided_last_i,   // its last region is decided at this edge
+    input  wire                 sends_i,          // at this edge a region of it is decided that sends something
+    input  wire                 row_dropped_i,    // at this edge a row of it is dropped
+    input  wire                 whole_i,          // a region has come whole
+    input  wire                 whole_frame_i,    // lowest bit of the number of its frame
+    input  wire                 lost_i,           // a region was lost
+    input  wire                 lost_frame_i,     // lowest bit of the number of its frame
+    input  wire                 opened_i,         // the FRAME packet has left
+    input  wire                 ended_i,          // the END packet has left
+    output wire                 admit_o,          // a frame may begin
+    output wire                 behind_o,         // packets of two frames wait, so that none may begin for long
+    output wire                 busy_o,           // a frame is under way
+    output wire                 announced_o,      // a FRAME packet waits, or leaves
+    output wire                 first_o,          // the next FRAME is the first since reset
+    output wire [         63:0] time_o,           // when the frame began that is announced
+    output wire [         31:0] number_o,         // its number; then that of the frame that leaves
+    output wire [         31:0] frames_o,         // frames that came
+    output wire                 frame_o,          // lowest bit of the number of the frame that leaves, since reset
+    output wire                 closed_o,         // all its decisions are known, and none of its regions is on the way
+    output wire [REGION_BITS:0] dropped_o,        // its regions that were lost
+    output wire [   ROW_BITS:0] dropped_rows_o    // its rows that were dropped
+);
+
+    reg announced_q, open_q, deciding_q, first_q, frame_q;
+    reg [1:0] decided_q;  // by frame: all its regions are decided
+    reg [63:0] time_q;
+    reg [31:0] count_q, announced_number_q, number_q;
+    reg [2*PENDING_BITS-1:0] pending_q;
+    reg [2*REGION_BITS+1:0] dropped_q;
+    reg [2*ROW_BITS+1:0] dropped_rows_q;
+
+    always @(posedge clk_i) begin
+        if (decided_last_i) begin
+            deciding_q                 <= 1'b0;
+            decided_q[decided_frame_i] <= 1'b1;
+        end
+        if (opened_i) begin
+            announced_q <= 1'b0;
+            open_q      <= 1'b1;
+            first_q     <= 1'b0;
+        end
+        if (ended_i) begin
+            open_q             <= 1'b0;
+            frame_q            <= !frame_q;
+            decided_q[frame_q] <= 1'b0;
+        end
+        if (begin_i) begin
+            announced_q        <= 1'b1;
+            deciding_q         <= 1'b1;
+            time_q             <= time_i;
+            announced_number_q <= count_q;
+        end
+        if (begin_i || skip_i) count_q <= count_q + 1'b1;
+        // While FRAME leaves, no END does: so the number is that of the frame in its packets.
+        if (announced_q && !open_q) number_q <= announced_number_q;
+        if (rst_i || forget_i) begin
+            announced_q <= 1'b0;
+            open_q      <= 1'b0;
+            deciding_q  <= 1'b0;
+            first_q     <= 1'b1;
+            frame_q     <= 1'b0;
+            decided_q   <= 2'd0;
+        end
+        if (rst_i) count_q <= 32'd0;
+    end
+
+    genvar frame;
+    generate
+        for (frame = 0; frame < 2; frame = frame + 1) begin : g_frame
+            wire sends = sends_i && decided_frame_i == frame;
+            wire whole = whole_i && whole_frame_i == frame;
+            wire lost = lost_i && lost_frame_i == frame;
+            wire [PENDING_BITS-1:0] pending = pending_q[frame*PENDING_BITS+:PENDING_BITS];
+            wire [REGION_BITS:0] dropped = dropped_q[frame*(REGION_BITS+1)+:REGION_BITS+1];
+            wire [ROW_BITS:0] dropped_rows = dropped_rows_q[frame*(ROW_BITS+1)+:ROW_BITS+1];
+            wire clear = rst_i || forget_i || ended_i && frame_q == frame;
+            always @(posedge clk_i) begin
+                pending_q[frame*PENDING_BITS+:PENDING_BITS] <=
+                    rst_i || forget_i ? {PENDING_BITS{1'b0}} :
+                    pending + {{(PENDING_BITS - 1) {1'b0}}, sends} - {{(PENDING_BITS - 1) {1'b0}}, whole} - {{(PENDING_BITS - 1) {1'b0}}, lost};
+                if (lost) dropped_q[frame*(REGION_BITS+1)+:REGION_BITS+1] <= dropped + 1'b1;
+                if (row_dropped_i && decided_frame_i == frame) dropped_rows_q[frame*(ROW_BITS+1)+:ROW_BITS+1] <= dropped_rows + 1'b1;
+                if (clear) begin
+                    dropped_q[frame*(REGION_BITS+1)+:REGION_BITS+1] <= {(REGION_BITS + 1) {1'b0}};
+                    dropped_rows_q[frame*(ROW_BITS+1)+:ROW_BITS+1]  <= {(ROW_BITS + 1) {1'b0}};
+                end
+            end
+        end
+    endgenerate
+
+    assign admit_o = !announced_q && !deciding_q;
+    assign behind_o = announced_q && !deciding_q;
+    assign busy_o = announced_q || open_q || deciding_q;
+    assign announced_o = announced_q;
+    assign first_o = first_q;
+    assign time_o = time_q;
+    assign number_o = number_q;
+    assign frames_o = count_q;
+    assign frame_o = frame_q;
+    assign closed_o = decided_q[frame_q] && pending_q[frame_q*PENDING_BITS+:PENDING_BITS] == {PENDING_BITS{1'b0}};
+    assign dropped_o = dropped_q[frame_q*(REGION_BITS+1)+:REGION_BITS+1];
+    assign dropped_rows_o = dropped_rows_q[frame_q*(ROW_BITS+1)+:ROW_BITS+1];
+
+endmodule
+
+`default_nettype wire

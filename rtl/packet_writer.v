@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Writes packets (docs/packets.md): chooses which is next, and puts its words together, BITS bits at a clock. A word is on the
+// port from a register, so that nothing runs through between the stream and its source.
+`default_nettype none
+
+module packet_writer #(
+    parameter BITS = 16,                  // bits of a part: 16 or 32, a quarter or a half of a word
+    parameter PART_BITS = 6,              // bits of the number of a part of what a packet carries
+    parameter ROW_WORDS = 8,              // words that a ROW carries
+    parameter PIXEL_WORDS = 8,            // words that a REGION carries with pixels
+    parameter MEAN_WORDS = 0,             // and with means; 0: there are none
+    parameter REGION_BITS = 15,           // bits of the number of a region
+    parameter COLUMN_BITS = 8,            // bits of the number of a column of regions
+    parameter ROW_BITS = 8,               // bits of the number of a row of regions
+    parameter COLUMNS = 240,              // regions side by side
+    parameter ROWS = 135,                 // regions one below the other
+    parameter FRAME_WIDTH = 1920,         // pixels of a row of the frame
+    parameter FRAME_HEIGHT = 1080,        // rows of the frame
+    parameter SIDE = 8,                   // rows of a region
+    parameter WIDTH = 8,                  // bits of a pixel
+    parameter MEANS_SIDE = 0,             // means side by side in a summary; 0: there are none
+    parameter IRRELEVANT = 0,             // what an irrelevant region shows: 0 zero, 1 hold, 2 mean
+    parameter RAW = 0,                    // 1: raw pixels leave
+    parameter [63:0] FINGERPRINT = 64'd0  // of the design
+) (
+    input  wire                   clk_i,           // clock, rising edge
+    input  wire                   rst_i,           // synchronous reset, active high
+    // the frame that leaves or is announced
+    input  wire                   announced_i,     // its FRAME waits
+    input  wire                   first_i,         // it is the first since reset
+    input  wire [           63:0] time_i,          // when it began
+    input  wire [           31:0] rate_i,          // ticks per second
+    input  wire [           31:0] number_i,        // its number
+    input  wire                   frame_i,         // the lowest bit of its number since reset
+    input  wire                   closed_i,        // all is known of it, and nothing of it is on the way
+    input  wire [  REGION_BITS:0] dropped_i,       // its regions that were dropped
+    input  wire [     ROW_BITS:0] dropped_rows_i,  // its rows that were dropped
+    output wire                   opened_o,        // its FRAME has left
+    output wire                   ended_o,         // its END has left
+    output wire                   idle_o,          // no packet is under way
+    // the row of regions that waits
+    input  wire                   row_valid_i,
+    input  wire                   row_frame_i,
+    input  wire [   ROW_BITS-1:0] row_i,
+    input  wire [       BITS-1:0] row_part_i,
+    output wire                   row_take_o,
+    // the region that waits
+    input  wire                   region_valid_i,
+    input  wire                   region_frame_i,
+    input  wire                   region_summary_i,
+    input  wire [   ROW_BITS-1:0] region_row_i,
+    input  wire [COLUMN_BITS-1:0] region_column_i,
+    input  wire [       BITS-1:0] region_part_i,
+    output wire                   region_take_o,
+    output wire                   read_o,          // a part of what waits is read
+    output wire [  PART_BITS-1:0] part_o,          // which
+    // the stream
+    output wire [           63:0] data_o,
+    output wire                   valid_o,
+    output wire                   last_o,          // the last word of a packet
+    input  wire                   ready_i
+);
+
+    // Limits: out of them elaboration stops at a module that does not exist.
+    generate
+        if (BITS != 16 && BITS != 32) begin : g_bits BITS_must_be_16_or_32 u_refused (); end
+    endgenerate
+
+    localparam PARTS = 64 / BITS;
+    localparam IN_WORD_BITS = $clog2(PARTS);
+    localparam [63:0] MAGIC = {8'h0A, "ETAEVOF"};  // in the order of bytes
+    localparam [1:0] IDLE = 2'd0, HEAD = 2'd1, BODY = 2'd2, TAIL = 2'd3;
+    localparam [3:0] FRAME = 4'd1, ROW = 4'd2, REGION = 4'd4, END = 4'd5;
+    localparam [3:0] MEANS = 4'd0;  // a REGION with means, here only
+    localparam [63:0] FRAME_5 = {
+        ROWS[15:0], COLUMNS[15:0], 3'd0, RAW != 0, IRRELEVANT[3:0], MEANS_SIDE[7:0], WIDTH[7:0], SIDE[7:0]
+    };
+
+    wire step = !valid_o || ready_i;  // what is behind the stream's register moves on
+
+    // Which packet, and which part of it. FRAME and END begin and end what belongs together.
+    reg [1:0] phase_q;
+    reg [3:0] kind_q;
+    reg [PART_BITS-1:0] part_q;
+    reg open_q;
+    reg [REGION_BITS:0] sent_q;
+    wire [IN_WORD_BITS-1:0] in_word = part_q[IN_WORD_BITS-1:0];
+    wire word_end = &in_word;
+    wire row_fits = row_valid_i && row_frame_i == frame_i;
+    wire region_fits = region_valid_i && region_frame_i == frame_i;
+
+    reg [15:0] body_words;
+    always @* begin
+        case (kind_q)
+            FRAME: body_words = 16'd5;
+            ROW: body_words = ROW_WORDS[15:0];
+            REGION: body_words = PIXEL_WORDS[15:0];
+            MEANS: body_words = MEAN_WORDS[15:0];
+            default: body_words = 16'd1;
+        endcase
+    end
+    wire [15:0] words = body_words + 16'd2;
+    wire [15:0] body_parts = body_words << IN_WORD_BITS;
+    wire [PART_BITS-1:0] body_last = body_parts[PART_BITS-1:0] - 1'b1;
+    wire unused_parts = |body_parts;
+    wire body_end = phase_q == BODY && part_q == body_last;
+    wire packet_end = phase_q == TAIL && word_end;
+    wire is_region = kind_q == REGION || kind_q == MEANS;
+
+    assign read_o = step;
+    assign part_o = part_q;
+    assign row_take_o = step && body_end && kind_q == ROW;
+    assign region_take_o = step && body_end && is_region;
+    assign opened_o = step && packet_end && kind_q == FRAME;
+    assign ended_o = step && packet_end && kind_q == END;
+
+    always @(posedge clk_i) begin
+        if (step) begin
+            part_q <= part_q + 1'b1;
+            case (phase_q)
+                IDLE: begin
+                    part_q <= {PART_BITS{1'b0}};
+                    if (open_q ? row_fits || region_fits || closed_i : announced_i) phase_q <= HEAD;
+                    kind_q <= !open_q ? FRAME : row_fits ? ROW : !region_fits ? END : MEAN_WORDS != 0 && region_summary_i ? MEANS : REGION;
+                end
+                HEAD: if (word_end) begin
+                    phase_q <= BODY;
+                    part_q  <= {PART_BITS{1'b0}};
+                end
+                BODY: if (body_end) begin
+                    phase_q <= TAIL;
+                    part_q  <= {PART_BITS{1'b0}};
+                end
+                default: if (word_end) phase_q <= IDLE;
+            endcase
+        end
+        if (opened_o) open_q <= 1'b1;
+        if (region_take_o) sent_q <= sent_q + 1'b1;
+        if (ended_o) begin
+            open_q <= 1'b0;
+            sent_q <= {(REGION_BITS + 1) {1'b0}};
+        end
+        if (rst_i) begin
+            phase_q <= IDLE;
+            open_q  <= 1'b0;
+            sent_q  <= {(REGION_BITS + 1) {1'b0}};
+        end
+    end
+
+    // That part, where it is not read from a memory.
+    wire any_dropped = dropped_i != {(REGION_BITS + 1) {1'b0}} || dropped_rows_i != {(ROW_BITS + 1) {1'b0}};
+    wire flag_0 = kind_q == FRAME ? first_i : kind_q == END && any_dropped;
+    wire [3:0] flags = {1'b0, kind_q == MEANS, is_region && RAW != 0, flag_0};
+    wire [15:0] row = kind_q == FRAME ? 16'd1
+                    : kind_q == ROW ? {{(16 - ROW_BITS) {1'b0}}, row_i}
+                    : kind_q == END ? {{(15 - ROW_BITS) {1'b0}}, dropped_rows_i} : {{(16 - ROW_BITS) {1'b0}}, region_row_i};
+    wire [15:0] column = kind_q == ROW ? COLUMNS[15:0] : is_region ? {{(16 - COLUMN_BITS) {1'b0}}, region_column_i} : 16'd0;
+    wire [63:0] head = {column, row, words, flags, is_region ? REGION : kind_q, 8'hFA};
+    wire [63:0] end_1 = {{(31 - REGION_BITS) {1'b0}}, dropped_i, {(31 - REGION_BITS) {1'b0}}, sent_q};
+    wire [63:0] frame_4 = {FRAME_HEIGHT[15:0], FRAME_WIDTH[15:0], rate_i};
+    wire [63:0] tail = {32'd0, number_i};
+    wire [2:0] word = part_q[IN_WORD_BITS+:3];
+    reg [BITS-1:0] other;
+    always @* begin
+        other = end_1[in_word*BITS+:BITS];
+        if (kind_q == FRAME)
+            case (word)
+                3'd0: other = MAGIC[in_word*BITS+:BITS];
+                3'd1: other = FINGERPRINT[in_word*BITS+:BITS];
+                3'd2: other = time_i[in_word*BITS+:BITS];
+                3'd3: other = frame_4[in_word*BITS+:BITS];
+                default: other = FRAME_5[in_word*BITS+:BITS];
+            endcase
+        if (phase_q == HEAD) other = head[in_word*BITS+:BITS];
+        if (phase_q == TAIL) other = tail[in_word*BITS+:BITS];
+    end
+
+    // A clock later what was read is there, and a clock after that the part is chosen.
+    localparam [1:0] OTHER = 2'd0, OF_ROW = 2'd1, OF_REGION = 2'd2;
+    reg [BITS-1:0] other_q, chosen_q;
+    reg [1:0] source_q;
+    reg read_valid_q, read_word_q, read_crc_q, read_last_q;
+    reg valid_q, word_q, crc_part_q, last_q;
+    reg read_high_q, high_q;  // the upper half of the CRC, if it takes two parts
+    always @(posedge clk_i) begin
+        if (step) begin
+            other_q        <= other;
+            source_q       <= phase_q != BODY ? OTHER : kind_q == ROW ? OF_ROW : is_region ? OF_REGION : OTHER;
+            read_valid_q   <= phase_q != IDLE;
+            read_word_q    <= word_end;
+            read_high_q    <= in_word[0];
+            read_crc_q     <= phase_q == TAIL && in_word[IN_WORD_BITS-1];
+            read_last_q    <= packet_end;
+            chosen_q       <= source_q == OF_ROW ? row_part_i : source_q == OF_REGION ? region_part_i : other_q;
+            valid_q        <= read_valid_q;
+            word_q         <= read_word_q;
+            high_q         <= read_high_q;
+            crc_part_q     <= read_crc_q;
+            last_q         <= read_last_q;
+        end
+        if (rst_i) begin
+            read_valid_q <= 1'b0;
+            valid_q      <= 1'b0;
+        end
+    end
+
+    // The CRC, and the word on the port.
+    reg [31:0] crc_q;
+    wire [31:0] crc;
+    packet_crc #(.BITS(BITS)) u_crc (.crc_i(crc_q), .data_i(chosen_q), .crc_o(crc));
+    wire [31:0] inverted = ~crc_q;
+    wire [BITS-1:0] shown = !crc_part_q ? chosen_q : high_q ? inverted[31-:BITS] : inverted[BITS-1:0];
+
+    reg [63:0] data_q;
+    reg data_valid_q, data_last_q;
+    always @(posedge clk_i) begin
+        if (step) begin
+            data_valid_q <= valid_q && word_q;
+            if (valid_q) begin
+                data_q      <= {shown, data_q[63:BITS]};
+                data_last_q <= last_q;
+                if (!crc_part_q) crc_q <= crc;
+                if (last_q) crc_q <= 32'hFFFFFFFF;
+            end
+        end
+        if (rst_i) begin
+            data_valid_q <= 1'b0;
+            crc_q        <= 32'hFFFFFFFF;
+        end
+    end
+
+    assign idle_o = phase_q == IDLE && !read_valid_q && !valid_q && !data_valid_q;
+    assign data_o = data_q;
+    assign valid_o = data_valid_q;
+    assign last_o = data_last_q;
+
+endmodule
+
+`default_nettype wire

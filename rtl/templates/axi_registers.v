@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// {= banner =}
+//
+// The registers of the core on AXI4-Lite; REGISTERS.md says what they mean. A register that is not there reads as 0, and
+// writing it does nothing. What a source waits for does not depend on what another one does: no output follows an input in the
+// same clock.
+`default_nettype none
+
+module axi_registers (
+    input  wire        clk_i,    // clock, rising edge
+    input  wire        rst_i,    // synchronous reset, active high
+    input  wire [11:0] awaddr_i,
+    input  wire        awvalid_i,
+    output wire        awready_o,
+    input  wire [31:0] wdata_i,
+    input  wire [ 3:0] wstrb_i,
+    input  wire        wvalid_i,
+    output wire        wready_o,
+    output wire        bvalid_o,
+    input  wire        bready_i,
+    input  wire [11:0] araddr_i,
+    input  wire        arvalid_i,
+    output wire        arready_o,
+    output wire [31:0] rdata_o,
+    output wire        rvalid_o,
+    input  wire        rready_i,
+    input  wire        begin_i,  // thresholds are taken over at this edge
+{%- for port in ports %}
+    {= port.declaration =}  // {= port.doc =}
+{%- endfor %}
+);
+{%- for register in state %}
+    reg {= register.range =} {= register.name =}_q;
+{%- endfor %}
+
+    // Address and data of a write are taken together, one write after the answer to the one before; a read likewise.
+    reg write_q, answered_q, read_q, found_q;
+    wire [9:0] written = awaddr_i[11:2];
+    wire [9:0] asked = araddr_i[11:2];
+    wire unused_bits = |awaddr_i[1:0] || |araddr_i[1:0] || |wdata_i || |wstrb_i;
+    always @(posedge clk_i) begin
+        write_q    <= awvalid_i && wvalid_i && !write_q && !(answered_q && !bready_i);
+        answered_q <= write_q || (answered_q && !bready_i);
+        read_q     <= arvalid_i && !read_q && !(found_q && !rready_i);
+        found_q    <= read_q || (found_q && !rready_i);
+        if (rst_i) begin
+            write_q    <= 1'b0;
+            answered_q <= 1'b0;
+            read_q     <= 1'b0;
+            found_q    <= 1'b0;
+        end
+    end
+    assign awready_o = write_q;
+    assign wready_o = write_q;
+    assign bvalid_o = answered_q;
+    assign arready_o = read_q;
+    assign rvalid_o = found_q;
+
+    // What is written.
+    always @(posedge clk_i) begin
+{%- for taken in taken %}
+        if (begin_i) {= taken.0 =}_q <= {= taken.1 =};
+{%- endfor %}
+{%- for command in commands %}
+        {= command =}_q <= 1'b0;
+{%- endfor %}
+        if (write_q) begin
+{%- for write in writes %}
+            if (written == 10'd{= write.word =} && wstrb_i[{= write.byte =}]) {= write.target =} <= wdata_i{= write.range =};
+{%- endfor %}
+        end
+{%- for event in events %}
+        if ({= event.name =}_i || interrupt_test_{= event.name =}_q) events_{= event.name =}_q <= 1'b1;
+        else if (write_q && written == 10'd{= event.word =} && wstrb_i[{= event.byte =}] && wdata_i[{= event.bit =}]) events_{= event.name =}_q <= 1'b0;
+{%- endfor %}
+        if (rst_i) begin
+{%- for register in state %}
+            {= register.name =}_q <= {= register.reset =};
+{%- endfor %}
+        end
+    end
+
+    // What is read.
+    reg [31:0] found;
+    reg [31:0] found_data_q;
+    always @* begin
+        case (asked)
+{%- for read in reads %}
+            10'd{= read.0 =}: found = { {= read.1 =} };
+{%- endfor %}
+            default: found = 32'd0;
+        endcase
+    end
+    always @(posedge clk_i) if (read_q) found_data_q <= found;
+    assign rdata_o = found_data_q;
+{% for output in outputs %}
+    assign {= output.0 =}_o = {= output.1 =};
+{%- endfor %}
+    assign interrupt_o = {% for event in events %}{% if !loop.first %} || {% endif %}events_{= event.name =}_q && interrupt_enable_{= event.name =}_q{% endfor %};
+
+endmodule
+
+`default_nettype wire
