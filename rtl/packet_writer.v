@@ -23,42 +23,38 @@ module packet_writer #(
     parameter RAW = 0,                    // 1: raw pixels leave
     parameter [63:0] FINGERPRINT = 64'd0  // of the design
 ) (
-    input  wire                   clk_i,           // clock, rising edge
-    input  wire                   rst_i,           // synchronous reset, active high
-    // the frame that leaves or is announced
-    input  wire                   announced_i,     // its FRAME waits
-    input  wire                   first_i,         // it is the first since reset
-    input  wire [           63:0] time_i,          // when it began
-    input  wire [           31:0] rate_i,          // ticks per second
-    input  wire [           31:0] number_i,        // its number
-    input  wire                   frame_i,         // the lowest bit of its number since reset
-    input  wire                   closed_i,        // all is known of it, and nothing of it is on the way
-    input  wire [  REGION_BITS:0] dropped_i,       // its regions that were dropped
-    input  wire [     ROW_BITS:0] dropped_rows_i,  // its rows that were dropped
-    output wire                   opened_o,        // its FRAME has left
-    output wire                   ended_o,         // its END has left
-    output wire                   idle_o,          // no packet is under way
-    // the row of regions that waits
-    input  wire                   row_valid_i,
-    input  wire                   row_frame_i,
-    input  wire [   ROW_BITS-1:0] row_i,
-    input  wire [       BITS-1:0] row_part_i,
-    output wire                   row_take_o,
-    // the region that waits
-    input  wire                   region_valid_i,
-    input  wire                   region_frame_i,
-    input  wire                   region_summary_i,
-    input  wire [   ROW_BITS-1:0] region_row_i,
-    input  wire [COLUMN_BITS-1:0] region_column_i,
-    input  wire [       BITS-1:0] region_part_i,
-    output wire                   region_take_o,
-    output wire                   read_o,          // a part of what waits is read
-    output wire [  PART_BITS-1:0] part_o,          // which
-    // the stream
-    output wire [           63:0] data_o,
-    output wire                   valid_o,
-    output wire                   last_o,          // the last word of a packet
-    input  wire                   ready_i
+    input  wire                   clk_i,               // clock, rising edge
+    input  wire                   rst_i,               // synchronous reset, active high
+    input  wire                   announced_i,         // its FRAME waits
+    input  wire                   first_i,             // it is the first since reset
+    input  wire [           63:0] time_i,              // when it began
+    input  wire [           31:0] rate_i,              // ticks per second
+    input  wire [           31:0] number_i,            // its number
+    input  wire                   frame_i,             // the lowest bit of its number since reset
+    input  wire                   closed_i,            // all is known of it, and nothing of it is on the way
+    input  wire [  REGION_BITS:0] dropped_i,           // its regions that were dropped
+    input  wire [     ROW_BITS:0] dropped_rows_i,      // its rows that were dropped
+    output wire                   opened_o,            // its FRAME has left
+    output wire                   ended_o,             // its END has left
+    output wire                   idle_o,              // no packet is under way
+    input  wire                   row_valid_i,         // decisions of a row wait
+    input  wire                   row_frame_i,         // the lowest bit of the number of its frame
+    input  wire [   ROW_BITS-1:0] row_i,               // its number
+    input  wire [       BITS-1:0] row_part_i,          // the part of it that was read
+    output wire                   row_take_o,          // all of its parts have been read
+    input  wire                   region_valid_i,      // a region waits
+    input  wire                   region_frame_i,      // the lowest bit of the number of its frame
+    input  wire                   region_summary_i,    // it is a summary
+    input  wire [   ROW_BITS-1:0] region_row_i,        // its row
+    input  wire [COLUMN_BITS-1:0] region_column_i,     // its column
+    input  wire [       BITS-1:0] region_part_i,       // the part of it that was read
+    output wire                   region_take_o,       // all of its parts have been read
+    output wire                   read_o,              // a part of what waits is read
+    output wire [  PART_BITS-1:0] part_o,              // which
+    output wire [           63:0] data_o,              // a word of a packet
+    output wire                   valid_o,             // there is one
+    output wire                   last_o,              // the last word of its packet
+    input  wire                   ready_i              // it is taken
 );
 
     // Limits: out of them elaboration stops at a module that does not exist.

@@ -16,9 +16,9 @@ module rcm_axi #(
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TDATA" *)
     input  wire [{= video_bits - 1 =}:0] s_axis_video_tdata,    // {= lanes =} pixels, the left one in the lowest bits
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TVALID" *)
-    input  wire        s_axis_video_tvalid,
+    input  wire        s_axis_video_tvalid,   // they are there
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TREADY" *)
-    output wire        s_axis_video_tready,
+    output wire        s_axis_video_tready,   // they are taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TUSER" *)
     input  wire        s_axis_video_tuser,    // the first pixels of a frame
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TLAST" *)
@@ -28,49 +28,49 @@ module rcm_axi #(
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TKEEP" *)
     output wire [ 7:0] m_axis_packets_tkeep,  // always all ones
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TVALID" *)
-    output wire        m_axis_packets_tvalid,
+    output wire        m_axis_packets_tvalid, // it is there
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TREADY" *)
-    input  wire        m_axis_packets_tready,
+    input  wire        m_axis_packets_tready, // it is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TLAST" *)
     output wire        m_axis_packets_tlast,  // the last word of a packet
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWADDR" *)
-    input  wire [11:0] s_axi_awaddr,
+    input  wire [11:0] s_axi_awaddr,          // address of a write, in bytes
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWPROT" *)
     input  wire [ 2:0] s_axi_awprot,          // not looked at
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWVALID" *)
-    input  wire        s_axi_awvalid,
+    input  wire        s_axi_awvalid,         // it is there
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWREADY" *)
-    output wire        s_axi_awready,
+    output wire        s_axi_awready,         // it is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WDATA" *)
-    input  wire [31:0] s_axi_wdata,
+    input  wire [31:0] s_axi_wdata,           // what is written
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WSTRB" *)
-    input  wire [ 3:0] s_axi_wstrb,
+    input  wire [ 3:0] s_axi_wstrb,           // which bytes of it
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WVALID" *)
-    input  wire        s_axi_wvalid,
+    input  wire        s_axi_wvalid,          // it is there
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WREADY" *)
-    output wire        s_axi_wready,
+    output wire        s_axi_wready,          // it is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi BRESP" *)
     output wire [ 1:0] s_axi_bresp,           // always OKAY
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi BVALID" *)
-    output wire        s_axi_bvalid,
+    output wire        s_axi_bvalid,          // what was written has arrived
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi BREADY" *)
-    input  wire        s_axi_bready,
+    input  wire        s_axi_bready,          // this answer is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARADDR" *)
-    input  wire [11:0] s_axi_araddr,
+    input  wire [11:0] s_axi_araddr,          // address of a read, in bytes
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARPROT" *)
     input  wire [ 2:0] s_axi_arprot,          // not looked at
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARVALID" *)
-    input  wire        s_axi_arvalid,
+    input  wire        s_axi_arvalid,         // it is there
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARREADY" *)
-    output wire        s_axi_arready,
+    output wire        s_axi_arready,         // it is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RDATA" *)
-    output wire [31:0] s_axi_rdata,
+    output wire [31:0] s_axi_rdata,           // what was read
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RRESP" *)
     output wire [ 1:0] s_axi_rresp,           // always OKAY
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RVALID" *)
-    output wire        s_axi_rvalid,
+    output wire        s_axi_rvalid,          // it is there
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RREADY" *)
-    input  wire        s_axi_rready,
+    input  wire        s_axi_rready,          // it is taken
 {%- for port in outside %}
     {= port.declaration =},  // {= port.doc =}
 {%- endfor %}

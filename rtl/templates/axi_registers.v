@@ -7,24 +7,24 @@
 `default_nettype none
 
 module axi_registers (
-    input  wire        clk_i,    // clock, rising edge
-    input  wire        rst_i,    // synchronous reset, active high
-    input  wire [11:0] awaddr_i,
-    input  wire        awvalid_i,
-    output wire        awready_o,
-    input  wire [31:0] wdata_i,
-    input  wire [ 3:0] wstrb_i,
-    input  wire        wvalid_i,
-    output wire        wready_o,
-    output wire        bvalid_o,
-    input  wire        bready_i,
-    input  wire [11:0] araddr_i,
-    input  wire        arvalid_i,
-    output wire        arready_o,
-    output wire [31:0] rdata_o,
-    output wire        rvalid_o,
-    input  wire        rready_i,
-    input  wire        begin_i,  // thresholds are taken over at this edge
+    input  wire        clk_i,     // clock, rising edge
+    input  wire        rst_i,     // synchronous reset, active high
+    input  wire [11:0] awaddr_i,   // address of a write
+    input  wire        awvalid_i,  // it is there
+    output wire        awready_o,  // it is taken
+    input  wire [31:0] wdata_i,    // what is written
+    input  wire [ 3:0] wstrb_i,    // which bytes of it
+    input  wire        wvalid_i,   // it is there
+    output wire        wready_o,   // it is taken
+    output wire        bvalid_o,   // what was written has arrived
+    input  wire        bready_i,   // this answer is taken
+    input  wire [11:0] araddr_i,   // address of a read
+    input  wire        arvalid_i,  // it is there
+    output wire        arready_o,  // it is taken
+    output wire [31:0] rdata_o,    // what was read
+    output wire        rvalid_o,   // it is there
+    input  wire        rready_i,   // it is taken
+    input  wire        begin_i,   // thresholds are taken over at this edge
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
@@ -37,7 +37,7 @@ module axi_registers (
     reg write_q, answered_q, read_q, found_q;
     wire [9:0] written = awaddr_i[11:2];
     wire [9:0] asked = araddr_i[11:2];
-    wire unused_bits = |awaddr_i[1:0] || |araddr_i[1:0] || |wdata_i || |wstrb_i;
+    wire unused_bits = |awaddr_i[1:0] || |araddr_i[1:0] || |wdata_i || |wstrb_i || begin_i;
     always @(posedge clk_i) begin
         write_q    <= awvalid_i && wvalid_i && !write_q && !(answered_q && !bready_i);
         answered_q <= write_q || (answered_q && !bready_i);

@@ -5,9 +5,7 @@ mod registers;
 mod top;
 mod verilog;
 
-pub use registers::{
-    ADDRESS_BITS, Field, Kind, MAP_VERSION, REGISTER_BITS, Register, events, registers,
-};
+pub use registers::{Field, Kind, Register, registers};
 
 use crate::text::{file, text_of};
 use crate::{SourceFile, Top, leaf, verilog as array};
@@ -17,7 +15,8 @@ use foveate_design::{Bus, Design, Hardware, RasterDesign};
 pub const AXI_TOP: &str = "rcm_axi";
 
 /// The modules of a core on a bus, the array included, each after those it instantiates; none without a bus.
-pub(crate) fn on_bus(design: &Design) -> Option<Vec<SourceFile>> {
+#[must_use]
+pub fn on_bus(design: &Design) -> Option<Vec<SourceFile>> {
     let around = match (design.bus(), design.hardware()) {
         (Bus::Ports, _) | (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => return None,
         (Bus::Axi, Hardware::Raster(own)) => around(design.on(own)),

@@ -6,11 +6,9 @@ use foveate_camera::Irrelevant;
 use foveate_design::{Design, Interface, Port, RasterDesign};
 
 /// Bits of a register.
-pub const REGISTER_BITS: u32 = 32;
-/// Bits of an address: 4 KiB, the smallest page that a bus maps.
-pub const ADDRESS_BITS: u32 = 12;
+pub(crate) const REGISTER_BITS: u32 = 32;
 /// The version of this map.
-pub const MAP_VERSION: u32 = 1;
+const MAP_VERSION: u32 = 1;
 /// Where the thresholds begin.
 const THRESHOLDS: u32 = 0x100;
 
@@ -76,12 +74,6 @@ const EVENTS: [(&str, &str); 8] = [
     ("row_dropped", "decisions of a row were dropped, as the sink stalled"),
     ("frame_done", "the last packet of a frame has left"),
 ];
-
-/// Names of the events, from bit 0 of `EVENTS` on.
-#[must_use]
-pub fn events() -> impl Iterator<Item = &'static str> {
-    EVENTS.iter().map(|(name, _)| *name)
-}
 
 /// The registers of the core of a design, by address.
 #[must_use]

@@ -5,9 +5,9 @@
 use std::collections::BTreeSet;
 use std::fs;
 
-use crate::common::{design, every_design};
+use crate::common::{design, every_design, every_design_on_a_bus};
 use foveate_design::{Design, Organization};
-use foveate_emit::{LEAVES, SourceFile, Top, verilog};
+use foveate_emit::{AXI_TOP, LEAVES, SourceFile, Top, on_bus, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, ToolError, Toolchain};
@@ -37,15 +37,19 @@ fn elaborated(files: &[SourceFile], top: &str) -> Result<BTreeSet<String>, ToolE
 
 /// A warning, or what is shipped for a top and not elaborated, or the other way round.
 fn problem(design: &Design, top: Top) -> Option<String> {
-    let files = verilog(design, top);
-    let shipped = shipped(&files);
-    match elaborated(&files, top.module()) {
+    problem_of(&verilog(design, top), top.module())
+}
+
+/// The same of these files and the module on top of them.
+fn problem_of(files: &[SourceFile], top: &str) -> Option<String> {
+    let shipped = shipped(files);
+    match elaborated(files, top) {
         Ok(found) if found == shipped => None,
         Ok(found) => {
             let unused: Vec<_> = shipped.difference(&found).collect();
-            Some(format!("{top:?} never elaborates {unused:?}"))
+            Some(format!("{top} never elaborates {unused:?}"))
         }
-        Err(warning) => Some(format!("{top:?}: {warning}")),
+        Err(warning) => Some(format!("{top}: {warning}")),
     }
 }
 
@@ -63,6 +67,20 @@ fn every_shipped_module_is_elaborated_without_a_warning_of_icarus() {
             problems.map(|problem| format!("{problem}\n{toml}")).collect::<Vec<_>>()
         })
         .collect();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+#[test]
+fn every_shipped_module_around_an_array_is_elaborated_without_a_warning_of_icarus() {
+    if !require_tools(&[Tool::Iverilog]) {
+        return;
+    }
+    let check = |toml: &String| {
+        let files = on_bus(&design(toml)).unwrap();
+        let problem = problem_of(&files, AXI_TOP)?;
+        Some(format!("{problem}\n{toml}"))
+    };
+    let found: Vec<String> = every_design_on_a_bus().par_iter().filter_map(check).collect();
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
@@ -92,8 +110,12 @@ fn smaller_grids_need_no_other_modules() {
 #[test]
 fn every_leaf_is_in_some_design() {
     let designs: Vec<Design> = every_design().iter().map(|toml| design(toml)).collect();
-    let all: BTreeSet<String> =
-        designs.iter().flat_map(|design| shipped(&verilog(design, Top::Rcm))).collect();
+    let on_buses: Vec<Design> = every_design_on_a_bus().iter().map(|toml| design(toml)).collect();
+    let arrays = designs.iter().map(|design| verilog(design, Top::Rcm));
+    let all: BTreeSet<String> = arrays
+        .chain(on_buses.iter().filter_map(on_bus))
+        .flat_map(|files| shipped(&files))
+        .collect();
     for leaf in LEAVES {
         assert!(all.contains(leaf.name), "{}", leaf.name);
     }

@@ -2,6 +2,7 @@
 //! Emitted Verilog: its form, and that no tool warns of it.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod axi;
 mod common;
 mod ecp5;
 mod elaborated;

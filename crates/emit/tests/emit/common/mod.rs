@@ -195,3 +195,10 @@ pub(crate) fn every_design() -> Vec<String> {
     let more = MORE.iter().map(|toml| (*toml).to_owned());
     [matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
 }
+
+/// Raster designs on AXI: those of the matrix whose pixels leave.
+pub(crate) fn every_design_on_a_bus() -> Vec<String> {
+    let leaves = |toml: &String| design(toml).forwards();
+    let on_axi = |toml: String| toml.replacen("[hardware]\n", "[hardware]\ninterface = 'axi'\n", 1);
+    raster_matrix().into_iter().filter(leaves).map(on_axi).collect()
+}
