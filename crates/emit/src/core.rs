@@ -73,6 +73,7 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         ("tb/replay.sh".to_owned(), text_of(&replay(design, prefix))),
         ("README.md".to_owned(), emitter(design).readme(prefix)),
     ];
+    files.extend(axi::register_files(design));
     files.extend(lists);
     files.extend(synth::files(design, prefix));
     files.extend(beside.map(|(path, contents)| SourceFile { path, contents }));

@@ -39,8 +39,6 @@ pub struct Scores {
 /// What is special about a REGION.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RegionFlags {
-    /// There was no valid reference.
-    pub no_reference: bool,
     /// Pixels, or those of the means, are raw.
     pub raw: bool,
     /// Means in place of pixels.
@@ -153,11 +151,11 @@ impl Head {
 
 impl RegionFlags {
     pub(crate) fn of(bits: u8) -> Self {
-        Self { no_reference: bits & 1 != 0, raw: bits & 2 != 0, summary: bits & 4 != 0 }
+        Self { raw: bits & 2 != 0, summary: bits & 4 != 0 }
     }
 
     pub(crate) fn bits(self) -> u8 {
-        u8::from(self.no_reference) | u8::from(self.raw) << 1 | u8::from(self.summary) << 2
+        u8::from(self.raw) << 1 | u8::from(self.summary) << 2
     }
 }
 

@@ -72,10 +72,10 @@ pub(super) fn view(design: &Design, registers: &[Register]) -> Registers {
             threshold.parts().iter().map(|part| format!("{}_taken_q", part.name)).collect();
         parts.reverse();
         let name = threshold.port.name.trim_end_matches("_i");
-        view.port("output", threshold.port.width, format!("{name}_o"), &threshold.port.doc);
+        view.port("output", threshold.port.width, &format!("{name}_o"), &threshold.port.doc);
         view.outputs.push((name.to_owned(), format!("{{{}}}", parts.join(", "))));
     }
-    view.port("output", 1, "interrupt_o".to_owned(), "an enabled event has happened");
+    view.port("output", 1, "interrupt_o", "an enabled event has happened");
     if let Some(last) = view.ports.last_mut() {
         last.declaration = last.declaration.replace(',', "");
     }
@@ -88,7 +88,7 @@ impl Registers {
         let is_test = register.name == "interrupt_test";
         match field.kind {
             Kind::Constant(_) => {}
-            Kind::Status => self.port("input ", field.width, format!("{name}_i"), &field.doc),
+            Kind::Status => self.port("input ", field.width, &format!("{name}_i"), &field.doc),
             Kind::Control { reset } => {
                 self.state(name.clone(), field.width, reset);
                 self.write(register, field, &name);
@@ -113,7 +113,7 @@ impl Registers {
             }
             Kind::Event => {
                 self.state(name, 1, 0);
-                self.port("input ", 1, format!("{}_i", field.name), &field.doc);
+                self.port("input ", 1, &format!("{}_i", field.name), &field.doc);
                 self.events.push(Event {
                     name: field.name.clone(),
                     word: register.address / 4,
@@ -129,11 +129,11 @@ impl Registers {
     }
 
     fn output(&mut self, name: &str, field: &Field) {
-        self.port("output", field.width, format!("{name}_o"), &field.doc);
+        self.port("output", field.width, &format!("{name}_o"), &field.doc);
         self.outputs.push((name.to_owned(), format!("{name}_q")));
     }
 
-    fn port(&mut self, direction: &str, width: u32, name: String, doc: &str) {
+    fn port(&mut self, direction: &str, width: u32, name: &str, doc: &str) {
         let declaration = format!("{direction} wire {:6} {name},", range(width));
         self.ports.push(Line { declaration, doc: doc.to_owned() });
     }

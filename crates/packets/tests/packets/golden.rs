@@ -40,9 +40,9 @@ fn a_frame_is_what_the_page_says() {
     write::row(&mut bytes, &layout, number, 1, &row);
     let scores = [[4, 3, 0x1234], [1, 0, 0], [0, 4, 5]];
     write::scores(&mut bytes, &layout, number, 1, scores.into_iter());
-    let flags = RegionFlags { no_reference: true, raw: false, summary: false };
+    let flags = RegionFlags { raw: false, summary: false };
     write::region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4]));
-    let flags = RegionFlags { no_reference: false, raw: false, summary: true };
+    let flags = RegionFlags { raw: false, summary: true };
     write::region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155]));
     let end = End { regions_sent: 2, regions_dropped: 3, rows_dropped: 1 };
     write::end(&mut bytes, number, end);
@@ -70,7 +70,7 @@ fn a_frame_is_what_the_page_says() {
             ],
             number,
         ),
-        packet(&[0x0000_0001_0003_14FA, 0x0004_03FF_0002_0001], number),
+        packet(&[0x0000_0001_0003_04FA, 0x0004_03FF_0002_0001], number),
         packet(&[0x0001_0001_0003_44FA, 0x0155], number),
         packet(&[0x0000_0001_0003_15FA, 0x0000_0003_0000_0002], number),
     ];

@@ -50,7 +50,7 @@ pub(crate) fn random(rng: &mut Rng, count: u32) -> Stream {
                     let summary = decision.summary;
                     let values: Vec<u16> =
                         (0..layout.values(summary)).map(|_| rng.u16(..) >> (16 - bits)).collect();
-                    let flags = RegionFlags { no_reference: rng.bool(), raw: false, summary };
+                    let flags = RegionFlags { raw: false, summary };
                     write::region(&mut bytes, &layout, number, (row, column), (flags, &values));
                     regions_sent += 1;
                 }

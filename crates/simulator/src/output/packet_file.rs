@@ -4,7 +4,7 @@
 use std::path::Path;
 
 use foveate_camera::{Action, Camera, Payload};
-use foveate_design::{Design, Reference};
+use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
 use foveate_frame::Raster;
 use foveate_packets::{Decision, End, Layout, RegionFlags, write};
@@ -21,8 +21,6 @@ const TICKS_PER_SECOND: u32 = 1_000_000;
 pub(super) struct PacketFile {
     file: GrowingFile,
     layout: Layout,
-    /// Regions that have a valid reference.
-    valid: Vec<bool>,
 }
 
 impl PacketFile {
@@ -35,13 +33,12 @@ impl PacketFile {
         Ok(Self {
             file: GrowingFile::create(&folder.join("packets.bin"))?,
             layout: Layout::new(design, has_scores, TICKS_PER_SECOND),
-            valid: vec![false; design.regions() as usize],
         })
     }
 
     /// Appends the packets of a row of regions, whose first region is `start`; returns how many were REGION.
     fn row(&mut self, step: &Step<'_>, engine: &Engine, row: u32, frame: u32) -> u32 {
-        let Self { file, layout, valid } = self;
+        let Self { file, layout } = self;
         let (camera, outcome) = (step.camera, step.outcome);
         let start = row * camera.columns();
         let regions = start..start + camera.columns();
@@ -55,8 +52,6 @@ impl PacketFile {
         let (mut sent, mut values) = (0, Vec::new());
         for region in regions {
             let action = outcome.actions[region as usize];
-            let no_reference = !valid[region as usize];
-            valid[region as usize] = stays_valid(camera, action, !no_reference);
             values.clear();
             let summary = match action {
                 Action::Forward => false,
@@ -70,7 +65,7 @@ impl PacketFile {
                     raw_region(camera, &step.source.frame, region, &mut values);
                 }
             }
-            let flags = RegionFlags { no_reference, raw: layout.info().raw, summary };
+            let flags = RegionFlags { raw: layout.info().raw, summary };
             let place = (row, region - start);
             write::region(file.end(), layout, frame, place, (flags, &values));
             sent += 1;
@@ -94,15 +89,6 @@ fn scores(outcome: &FrameOutcome, region: usize) -> impl Iterator<Item = u64> {
     std::iter::once(outcome.temporal_count[region].into()).chain(scores)
 }
 
-/// Whether a region has a valid reference after a frame with this action.
-fn stays_valid(camera: &Camera, action: Action, valid: bool) -> bool {
-    match (camera.temporal().reference, action) {
-        (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => true,
-        (Reference::LastSent, Action::Hold) => valid,
-        (Reference::LastSent, Action::Blank | Action::Summarize) => false,
-    }
-}
-
 /// Appends the pixels of a region as they came, padded as the contract says.
 fn raw_region(camera: &Camera, frame: &Raster, region: u32, pixels: &mut Vec<u16>) {
     let side = camera.region_size();
@@ -117,9 +103,6 @@ fn raw_region(camera: &Camera, frame: &Raster, region: u32, pixels: &mut Vec<u16
 impl Sink for PacketFile {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let Some(engine) = step.engine else { return Ok(()) };
-        if step.first {
-            self.valid.fill(false);
-        }
         // Numbers wrap around.
         let frame = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
         let time = (step.source.time_us, step.first);

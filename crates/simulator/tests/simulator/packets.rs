@@ -3,7 +3,7 @@
 
 use std::fs;
 
-use foveate_design::{Action, Design, Payload, Reference};
+use foveate_design::{Action, Design, Payload};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_simulator::{EventTables, Medium, Packets, RunOptions};
 
@@ -95,13 +95,7 @@ fn packet([kind, flags, row, column]: [u64; 4], numbers: &[(u64, usize)], frame:
 }
 
 /// The packets of a frame, from the model and the page.
-fn by_the_page(
-    design: &Design,
-    number: u32,
-    time: u64,
-    outcome: &FunctionalOutcome,
-    valid: &mut [bool],
-) -> Vec<u8> {
+fn by_the_page(design: &Design, number: u32, time: u64, outcome: &FunctionalOutcome) -> Vec<u8> {
     let side = u64::from(design.region_size());
     let (columns, rows) = (u64::from(design.columns()), u64::from(design.rows()));
     let periphery = design.periphery();
@@ -152,16 +146,10 @@ fn by_the_page(
             };
             if summary < 2 {
                 let values: Vec<_> = values.iter().map(|&value| (value.into(), lane)).collect();
-                let flags = u64::from(!valid[region]) | raw << 1 | summary << 2;
+                let flags = raw << 1 | summary << 2;
                 stream.extend(packet([4, flags, row, column], &values, number));
                 sent += 1;
             }
-            valid[region] = design.temporal().reference == Reference::Previous
-                || match outcome.actions[region] {
-                    Action::Forward => true,
-                    Action::Hold => valid[region],
-                    Action::Blank | Action::Summarize => false,
-                };
         }
     }
     stream.extend(packet([5, 0, 0, 0], &[(sent, 64)], number));
@@ -179,11 +167,10 @@ fn the_stream_is_what_the_page_says_of_the_model() {
         let time = |line: &str| line.split(',').nth(1).unwrap().parse::<u64>().unwrap();
         let design = design(overrides);
         let mut camera = FunctionalCamera::new(&design);
-        let mut valid = vec![false; design.regions() as usize];
         let mut stream = Vec::new();
         for ((number, frame), line) in (0..).zip(frames(&design)).zip(table.lines().skip(1)) {
             let outcome = camera.step(&frame).unwrap();
-            stream.extend(by_the_page(&design, number, time(line), outcome, &mut valid));
+            stream.extend(by_the_page(&design, number, time(line), outcome));
         }
         assert!(fs::read(output.join("packets.bin")).unwrap() == stream, "design {at}");
     }

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The table of registers for those who read it and write it: Markdown, a C header, SystemRDL.
+
+use std::fmt::Write;
+
+use super::registers::{Field, Kind, Register};
+
+/// What may be done with a field, as documents have it.
+fn access(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::Constant(_) | Kind::Status => "read",
+        Kind::Control { .. } | Kind::Threshold { .. } => "read, write",
+        Kind::Command => "write 1",
+        Kind::Event => "read, write 1 to clear",
+    }
+}
+
+/// What a field reads as after a reset; none where the core says.
+fn reset(kind: &Kind) -> Option<u32> {
+    match *kind {
+        Kind::Constant(value)
+        | Kind::Control { reset: value }
+        | Kind::Threshold { reset: value } => Some(value),
+        Kind::Command | Kind::Event => Some(0),
+        Kind::Status => None,
+    }
+}
+
+fn high(field: &Field) -> u32 {
+    field.low + field.width - 1
+}
+
+/// The page of a core's registers.
+pub(super) fn markdown(banner: &str, registers: &[Register]) -> String {
+    let mut text = format!(
+        "# Registers\n\n{banner}. Addresses are in bytes, values as after a reset.\n\n\
+         | address | register | bits | field | access | value | |\n| --- | --- | --- | --- | --- | --- | --- |\n"
+    );
+    for register in registers {
+        for (index, field) in register.fields.iter().enumerate() {
+            let (address, name) = match index {
+                0 => (format!("0x{:03X}", register.address), format!("`{}`", register.name)),
+                _ => Default::default(),
+            };
+            let value = reset(&field.kind).map_or(String::new(), |value| format!("0x{value:X}"));
+            let bits = format!("[{}:{}]", high(field), field.low);
+            let row =
+                [address, name, bits, format!("`{}`", field.name), access(&field.kind).to_owned()];
+            let doc = match field.name.as_str() {
+                "value" => format!("{}: {}", register.doc, field.doc),
+                _ => field.doc.clone(),
+            };
+            writeln!(text, "| {} | {value} | {doc} |", row.join(" | "))
+                .expect("a string takes all");
+        }
+    }
+    text
+}
+
+/// A header for C99 and C++.
+pub(super) fn header(banner: &str, registers: &[Register]) -> String {
+    let mut text = format!(
+        "/* SPDX-License-Identifier: MIT OR Apache-2.0 */\n/* {banner}. Registers, by their addresses in bytes. */\n\
+         #ifndef FOVEATE_REGISTERS_H\n#define FOVEATE_REGISTERS_H\n"
+    );
+    for register in registers {
+        let name = register.name.to_uppercase();
+        write!(
+            text,
+            "\n/* {} */\n#define FOVEATE_{name} 0x{:03X}u\n",
+            register.doc, register.address
+        )
+        .expect("a string takes all");
+        for field in &register.fields {
+            let name = match field.name.as_str() {
+                "value" => name.clone(),
+                own => format!("{name}_{}", own.to_uppercase()),
+            };
+            let mask = u64::from(u32::MAX) >> (32 - field.width) << field.low;
+            write!(
+                text,
+                "#define FOVEATE_{name}_SHIFT {}\n#define FOVEATE_{name}_MASK 0x{mask:08X}u /* {} */\n",
+                field.low, field.doc
+            )
+            .expect("a string takes all");
+            if let Kind::Constant(value) = field.kind {
+                writeln!(text, "#define FOVEATE_{name}_VALUE 0x{value:X}u")
+                    .expect("a string takes all");
+            }
+        }
+    }
+    text + "\n#endif\n"
+}
+
+/// SystemRDL 2.0.
+pub(super) fn rdl(banner: &str, registers: &[Register]) -> String {
+    let mut text = format!(
+        "// SPDX-License-Identifier: MIT OR Apache-2.0\n// {banner}.\n\naddrmap foveate {{\n    name = \"Foveate core\";\n    \
+         default regwidth = 32;\n    default accesswidth = 32;\n"
+    );
+    for register in registers {
+        write!(text, "\n    reg {{\n        desc = \"{}\";\n", register.doc)
+            .expect("a string takes all");
+        for field in &register.fields {
+            let access = match field.kind {
+                Kind::Constant(_) | Kind::Status => "sw = r; hw = w;",
+                Kind::Control { .. } | Kind::Threshold { .. } => "sw = rw; hw = r;",
+                Kind::Command => "sw = w; hw = r; singlepulse;",
+                Kind::Event => "sw = rw; hw = w; woclr; hwset;",
+            };
+            let reset = match &field.kind {
+                // A value that hardware says has none that software could rely on.
+                Kind::Status => String::new(),
+                kind => format!(" = {}'h{:X}", field.width, reset(kind).unwrap_or_default()),
+            };
+            writeln!(
+                text,
+                "        field {{ desc = \"{}\"; {access} }} {}[{}:{}]{reset};",
+                field.doc.replace('`', ""),
+                field.name,
+                high(field),
+                field.low
+            )
+            .expect("a string takes all");
+        }
+        writeln!(text, "    }} {} @ 0x{:03X};", register.name, register.address)
+            .expect("a string takes all");
+    }
+    text + "};\n"
+}
