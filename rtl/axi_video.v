@@ -67,9 +67,7 @@ module axi_video #(
     reg [WORD_BITS-1:0] word_q;
     reg [LINE_BITS-1:0] line_q;
     reg complete_q;  // all words of a frame have gone (DROP, SEEK)
-    reg cut_q;       // the next frame has come too early (FILL)
     reg damaged_q;   // the frame has been found to be damaged
-    reg copy_q;      // the word of the last line is there (COPY)
     reg [WIDTH-1:0] last_q;
     wire first_word = word_q == {WORD_BITS{1'b0}};
     wire last_word = word_q == LAST_WORD[WORD_BITS-1:0];
@@ -78,7 +76,7 @@ module axi_video #(
     wire early = sof_q && !first;  // a first word within a frame
 
     wire [LANES*WIDTH-1:0] copied;
-    assign valid_o = state_q == LINE ? come_q && !early : state_q == FILL || (state_q == COPY && copy_q);
+    assign valid_o = state_q == LINE ? come_q && !early : state_q == FILL || state_q == COPY;
     assign pixel_o = state_q == LINE ? come_pixel_q : state_q == FILL ? {LANES{last_q}} : copied;
     assign sof_o = first;
     wire pass = valid_o && ready_i;
@@ -108,13 +106,11 @@ module axi_video #(
                     state_q    <= LINE;
                     complete_q <= 1'b0;
                 end else if (take) complete_q <= 1'b0;
-                cut_q <= 1'b0;
             end
             LINE: begin
-                if (too_early) begin
-                    state_q <= first_word ? COPY : FILL;
-                    cut_q   <= 1'b1;
-                end else if (pass) begin
+                // A line that is cut is filled first; then the start of the next frame still stands here.
+                if (too_early) state_q <= first_word ? COPY : FILL;
+                else if (pass) begin
                     if (too_short) state_q <= FILL;
                     else if (too_long) state_q <= DROP;
                     else if (last_word && last_line) state_q <= SEEK;
@@ -123,7 +119,7 @@ module axi_video #(
             end
             FILL:
             if (pass && last_word) begin
-                state_q    <= last_line ? SEEK : cut_q ? COPY : LINE;
+                state_q    <= last_line ? SEEK : LINE;
                 complete_q <= last_line;
             end
             COPY:
@@ -133,7 +129,6 @@ module axi_video #(
             end
             default: if (come_q && (sof_q || eol_q)) state_q <= complete_q ? SEEK : LINE;
         endcase
-        copy_q <= state_q == COPY;
 
         sof_early_o <= state_q == LINE && too_early;
         sof_late_o  <= too_late;
@@ -154,7 +149,8 @@ module axi_video #(
         end
     end
 
-    // The line that passes, for those that are missing.
+    // The line that passes, for those that are missing. Its first word has been read when they begin, as nothing passes at the
+    // clock before.
     raster_memory #(.WIDTH(LANES * WIDTH), .WORDS(WORDS), .ADDRESS_BITS(WORD_BITS)) u_line (
         .clk_i(clk_i), .write_i(pass && state_q != COPY), .write_address_i(word_q), .data_i(pixel_o),
         .read_i(1'b1), .read_address_i(next_word), .output_i(1'b1), .data_o(copied)

@@ -74,6 +74,9 @@ module rcm_axi #(
 {%- for port in outside %}
     {= port.declaration =},  // {= port.doc =}
 {%- endfor %}
+{%- if !outside.is_empty() %}
+    output wire        forget_o,              // at this edge what was stored is to be forgotten
+{%- endif %}
     (* X_INTERFACE_INFO = "xilinx.com:signal:interrupt:1.0 interrupt_o INTERRUPT" *)
     (* X_INTERFACE_PARAMETER = "SENSITIVITY LEVEL_HIGH" *)
     output wire        interrupt_o            // an enabled event has happened
@@ -98,6 +101,9 @@ module rcm_axi #(
     reg restarting_q;
     wire forget = restarting_q && !busy && idle_video && idle_packets;
     always @(posedge aclk) restarting_q <= !rst && !forget && (restarting_q || restart);
+{%- if !outside.is_empty() %}
+    assign forget_o = forget;
+{%- endif %}
 
     // Time.
     reg [63:0] time_q;

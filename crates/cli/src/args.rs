@@ -155,18 +155,20 @@ pub(crate) struct GenerateArgs {
           foveate cosim --level rcm --grid 4x3 photo.png
           foveate cosim --full scene:street
           foveate cosim --config core/design.toml --rtl core/rtl
-          foveate cosim --level rcm --grid 3x2 --netlist")]
+          foveate cosim --level rcm --grid 3x2 --netlist
+          foveate cosim --config core/design.toml --rtl core/rtl clip.mp4 --packets packets.bin")]
 pub(crate) struct CosimArgs {
     /// Frames to run in addition to the directed and random ones: images, folders, globs, scene:NAME
     #[arg(value_name = "INPUT")]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// What to simulate: one RPU that sees every region in turn, or an array. The default is one RPU; with
-    /// --rtl it is both, if the folder has both, and of serial and raster designs the whole frame, too. A file, or a
-    /// module with parameter values, that none of these reaches is then an error
+    /// What to simulate: one RPU that sees every region in turn, an array, or a core on AXI, whose packets are
+    /// compared. The default is one RPU, and the core on AXI if the design is one; with --rtl it is also the array, and
+    /// of serial and raster designs the whole frame. A file, or a module with parameter values, that none of these
+    /// reaches is then an error
     #[arg(long, value_enum)]
-    pub(crate) level: Option<Level>,
+    pub(crate) level: Option<CosimLevel>,
     /// Regions of the array for --level rcm, columns x rows. The default is 3x2, or more if two lanes need
     /// more regions, but at most the grid of the frame
     #[arg(long, value_name = "CxR", value_parser = parse_grid)]
@@ -196,6 +198,9 @@ pub(crate) struct CosimArgs {
     /// the inputs. The default is 3 for one RPU and 1 for an array
     #[arg(long, value_name = "N")]
     pub(crate) rounds: Option<u32>,
+    /// Write the packets that leave a core on AXI while the frames of the inputs come, for `foveate decode`
+    #[arg(long, value_name = "FILE", requires = "inputs")]
+    pub(crate) packets: Option<PathBuf>,
     /// Folder to write if a run fails; it replays the mismatch
     #[arg(long, value_name = "DIR", default_value = "foveate-replay")]
     pub(crate) replay: PathBuf,
@@ -217,6 +222,13 @@ pub(crate) struct CosimArgs {
 pub(crate) enum Level {
     Rpu,
     Rcm,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
+pub(crate) enum CosimLevel {
+    Rpu,
+    Rcm,
+    Axi,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]

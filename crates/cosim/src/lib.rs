@@ -7,6 +7,7 @@
 //! the Verilog is made from the list of ports: the byte [`Layout`] of a clock, the C++ harness and
 //! the replay bench.
 
+mod bus;
 mod cells;
 mod codec;
 mod compare;
@@ -39,6 +40,7 @@ mod testing;
 mod timed;
 
 pub use self::core::{WrittenCore, write_core};
+pub use bus::BusJob;
 pub use cells::{cell_models, wired_wrongly};
 pub use codec::Codec;
 pub use compare::Difference;

@@ -11,12 +11,14 @@ use foveate_staging::{Kind, StagedFolder};
 use std::fs;
 use std::path::{Path, PathBuf};
 
-const SCRIPT: &str = "replay.sh";
-const README: &str = "README.md";
+pub(crate) const SCRIPT: &str = "replay.sh";
+pub(crate) const README: &str = "README.md";
+/// What a core on a bus was given.
+pub(crate) const TRAFFIC_FILE: &str = "traffic.txt";
 /// The first words of the README.
 const TITLE: &str = "# A mismatch, to replay";
 /// What is written, and what makes way for it.
-const REPLAY: Kind = Kind {
+pub(crate) const REPLAY: Kind = Kind {
     what: "a replay (its replay.sh) or waves (its waves.fst)",
     is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
     // What the script builds in it may go with it.
@@ -66,7 +68,8 @@ pub(crate) fn check(folder: &Path) -> Result<(), CosimError> {
 pub(crate) fn remove(folder: &Path) -> Result<(), CosimError> {
     let names = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
     let waves_alone = names.collect::<Vec<_>>() == [WAVES_FILE];
-    let files = [SCRIPT, VECTORS_FILE].iter().all(|name| folder.join(name).is_file());
+    let is_there = |name: &str| folder.join(name).is_file();
+    let files = is_there(SCRIPT) && (is_there(VECTORS_FILE) || is_there(TRAFFIC_FILE));
     let readme = || fs::read_to_string(folder.join(README)).unwrap_or_default();
     if waves_alone || (files && readme().starts_with(TITLE)) {
         fs::remove_dir_all(folder).map_err(CosimError::io("remove the earlier replay", folder))?;
@@ -97,7 +100,7 @@ pub(crate) fn write_waves(folder: &Path, waves: &Path) -> Result<PathBuf, CosimE
     Ok(folder.join(WAVES_FILE))
 }
 
-fn copy_waves(waves: &Path, dir: &Path) -> Result<(), CosimError> {
+pub(crate) fn copy_waves(waves: &Path, dir: &Path) -> Result<(), CosimError> {
     let to = dir.join(WAVES_FILE);
     fs::copy(waves, &to).map(drop).map_err(CosimError::io("write", &to))
 }
@@ -146,7 +149,7 @@ fn fill(
     outcome.waves.as_ref().map_or(Ok(()), |waves| copy_waves(waves, dir))
 }
 
-fn put(dir: &Path, name: &str, contents: &str) -> Result<(), CosimError> {
+pub(crate) fn put(dir: &Path, name: &str, contents: &str) -> Result<(), CosimError> {
     let path = dir.join(name);
     if let Some(parent) = path.parent() {
         fs::create_dir_all(parent).map_err(CosimError::io("create", parent))?;
@@ -155,13 +158,13 @@ fn put(dir: &Path, name: &str, contents: &str) -> Result<(), CosimError> {
 }
 
 #[cfg(unix)]
-fn make_executable(path: &Path) -> Result<(), CosimError> {
+pub(crate) fn make_executable(path: &Path) -> Result<(), CosimError> {
     use std::os::unix::fs::PermissionsExt as _;
     let mode = fs::Permissions::from_mode(0o755);
     fs::set_permissions(path, mode).map_err(CosimError::io("write", path))
 }
 
 #[cfg(not(unix))]
-fn make_executable(_: &Path) -> Result<(), CosimError> {
+pub(crate) fn make_executable(_: &Path) -> Result<(), CosimError> {
     Ok(())
 }

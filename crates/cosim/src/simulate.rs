@@ -18,7 +18,7 @@ use std::time::{Duration, Instant};
 pub(crate) const WAVES_FILE: &str = "waves.fst";
 
 /// Registers that reset forgets must not happen to start at 0: Verilator starts them at random.
-const UNKNOWN_START: [&str; 4] = ["--x-assign", "unique", "--x-initial", "unique"];
+pub(crate) const UNKNOWN_START: [&str; 4] = ["--x-assign", "unique", "--x-initial", "unique"];
 
 /// Which simulator runs the Verilog.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]

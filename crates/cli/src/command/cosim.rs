@@ -5,9 +5,10 @@ mod plan;
 mod text;
 
 use foveate_cosim::{
-    CosimError, CosimReport, Job, Left, Level, Progress, Simulator, Summary, Verdict, junit_error,
+    CosimError, CosimReport, Left, Level, Progress, Simulator, Summary, Verdict, junit_error,
     junit_xml, not_elaborated, not_simulated,
 };
+use foveate_emit::AXI_TOP;
 use foveate_staging::{check_file, write_file};
 use foveate_toolchain::{Cache, Toolchain};
 
@@ -15,14 +16,15 @@ use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, output};
+use plan::{Plan, Work};
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
-    let jobs = plan::jobs(args)?;
+    let plan = plan::plan(args)?;
     if let Some(file) = &args.junit {
         check_file(file)?;
     }
     let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
-    let summary = all(args, jobs, &toolchain, &cache)?;
+    let summary = all(args, plan, &toolchain, &cache)?;
     let written = write_junit(args, &junit_xml(&summary));
     tell(args, &summary)?;
     let complaint = match summary.verdict() {
@@ -42,8 +44,8 @@ fn incomplete(summary: &Summary) -> String {
         format!("no mismatch, but not all of the Verilog was simulated: {}.", summary.left_out());
     if !summary.not_simulated.is_empty() {
         text.push_str(
-            " Foveate simulates `rpu` and `rcm` with the modules that they instantiate; remove other files \
-             from the folder, or choose one of the two with --level.",
+            " Foveate simulates `rpu`, `rcm` and, in Verilator, `rcm_axi` with the modules that they instantiate; remove \
+             other files from the folder, or choose one of the tops with --level.",
         );
     }
     if !summary.not_elaborated.is_empty() {
@@ -54,19 +56,19 @@ fn incomplete(summary: &Summary) -> String {
     text
 }
 
-/// Runs one job after the other, up to one that does not agree.
+/// Runs one after the other, up to one that does not agree.
 fn all(
     args: &CosimArgs,
-    jobs: Vec<Job>,
+    mut plan: Plan,
     toolchain: &Toolchain,
     cache: &Cache,
 ) -> Result<Summary, CliError> {
-    let first = jobs.first().expect("there is at least one").clone();
-    let levels: Vec<Level> = jobs.iter().map(|job| job.stimulus.level).collect();
-    let (mut reports, mut left) = (Vec::new(), jobs.into_iter());
-    for mut job in left.by_ref() {
-        let report = one(args, &mut job, toolchain, cache);
-        let report = told_to_ci(args, &job.name(), report)?;
+    let works = std::mem::take(&mut plan.works);
+    let (levels, has_axi) = reached(&works);
+    let (mut reports, mut left) = (Vec::new(), works.into_iter());
+    for mut work in left.by_ref() {
+        let report = one(args, &mut work, toolchain, cache);
+        let report = told_to_ci(args, &work.name(), report)?;
         let passed = report.passed();
         reports.push(report);
         if !passed {
@@ -76,11 +78,20 @@ fn all(
     // The next run has replaced the waves of the one before it.
     let earlier = reports.len().saturating_sub(1);
     reports.iter_mut().take(earlier).for_each(|report| report.waves = None);
-    let names = left.map(|job| job.name()).collect();
+    let names = left.map(|work| work.name()).collect();
     let agree = reports.iter().all(CosimReport::passed);
-    let left_out = left_out(args, &first, &levels, agree, toolchain);
+    let left_out = left_out(args, &plan, (&levels, has_axi), agree, toolchain);
     let left_out = told_to_ci(args, "what is left out", left_out)?;
-    Ok(Summary::new(first.design.fingerprint(), reports, names, left_out, plan::is_whole(args)))
+    Ok(Summary::new(plan.design.fingerprint(), reports, names, left_out, plan::is_whole(args)))
+}
+
+/// The levels at which arrays are simulated, and whether the core on AXI is.
+fn reached(works: &[Work]) -> (Vec<Level>, bool) {
+    let levels = works.iter().filter_map(|work| match work {
+        Work::Array(job) => Some(job.stimulus.level),
+        Work::Axi(_) => None,
+    });
+    (levels.collect(), works.iter().any(|work| matches!(work, Work::Axi(_))))
 }
 
 /// A result; a CI server is to hear of an error, too: a tool failed, so there is none.
@@ -96,20 +107,21 @@ fn told_to_ci<T>(
     })
 }
 
-/// What jobs of these levels leave out of the Verilog that is given. `agree` says that there is no mismatch: else it is not
+/// What runs at these levels leave out of the Verilog that is given. `agree` says that there is no mismatch: else it is not
 /// asked what else there is.
 fn left_out(
     args: &CosimArgs,
-    first: &Job,
-    levels: &[Level],
+    plan: &Plan,
+    (levels, has_axi): (&[Level], bool),
     agree: bool,
     toolchain: &Toolchain,
 ) -> Result<Left, CosimError> {
-    if args.rtl.is_none() {
+    let Plan { design, rtl: Some(sources), prefix, .. } = plan else {
         return Ok(Left::default());
-    }
-    let Job { design, sources, prefix, .. } = first;
-    let tops: Vec<String> = levels.iter().map(|level| prefix.name(level.top().module())).collect();
+    };
+    let mut tops: Vec<String> =
+        levels.iter().map(|level| prefix.name(level.top().module())).collect();
+    tops.extend(has_axi.then(|| prefix.name(AXI_TOP)));
     let tops: Vec<&str> = tops.iter().map(String::as_str).collect();
     let modules = not_simulated(sources, &tops);
     // Who asks for a part knows that the rest is left out.
@@ -123,17 +135,23 @@ fn left_out(
 
 fn one(
     args: &CosimArgs,
-    job: &mut Job,
+    work: &mut Work,
     toolchain: &Toolchain,
     cache: &Cache,
 ) -> Result<CosimReport, CosimError> {
     let shown = Shown::new(args.quiet);
-    if args.netlist {
-        shown.work("synthesizing with Yosys");
-        job.netlist = Some(job.synthesize(toolchain, cache)?);
-        job.simulator = Simulator::Iverilog;
-    }
-    let report = job.run(toolchain, cache, &mut |step| show(&shown, step));
+    let progress = &mut |step| show(&shown, step);
+    let report = match work {
+        Work::Array(job) => {
+            if args.netlist {
+                shown.work("synthesizing with Yosys");
+                job.netlist = Some(job.synthesize(toolchain, cache)?);
+                job.simulator = Simulator::Iverilog;
+            }
+            job.run(toolchain, cache, progress)
+        }
+        Work::Axi(job) => job.run(toolchain, cache, progress),
+    };
     shown.finish();
     report
 }

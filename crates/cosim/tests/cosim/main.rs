@@ -2,6 +2,7 @@
 //! Co-simulation: model against emitted RTL and netlists, planted faults, the vectors, the machinery.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod bus;
 mod cells;
 mod common;
 mod designs;

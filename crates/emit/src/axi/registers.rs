@@ -2,7 +2,7 @@
 //! The registers of a core on AXI4-Lite: the one table from which Verilog, C, Markdown and SystemRDL are made.
 
 use crate::thresholds::threshold_value;
-use foveate_camera::Irrelevant;
+use foveate_camera::{Irrelevant, Payload};
 use foveate_design::{Design, Interface, Port, RasterDesign};
 
 /// Bits of a register.
@@ -128,7 +128,7 @@ pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
             constant("pixel_bits", 8, 8, design.pixel_bits(), "P"),
             constant("means", 16, 8, means, "q, means of a side; 0 without summaries"),
             constant("irrelevant", 24, 4, irrelevant(&design), "0 `zero`, 1 `hold`, 2 `mean`"),
-            constant("raw", 28, 1, u32::from(design.keeps_raw()), "1: raw pixels leave"),
+            constant("raw", 28, 1, raw(&design), "1: raw pixels leave"),
         ],
     );
     add(
@@ -262,6 +262,14 @@ pub(crate) fn irrelevant(design: &Design) -> u32 {
         Irrelevant::Zero => 0,
         Irrelevant::Hold => 1,
         Irrelevant::Mean => 2,
+    }
+}
+
+/// Whether raw pixels leave, as packets and registers say it; without a filter they are raw in either case.
+pub(crate) fn raw(design: &Design) -> u32 {
+    match design.payload() {
+        Payload::Raw => 1,
+        Payload::Denoised => 0,
     }
 }
 

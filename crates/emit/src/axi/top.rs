@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fills `axi.v`, the top of a core on a bus.
 
-use super::registers::{fingerprint, irrelevant, thresholds};
+use super::registers::{fingerprint, irrelevant, raw, thresholds};
 use crate::banner;
 use crate::text::PortLine;
 use askama::Template;
@@ -137,7 +137,7 @@ pub(super) fn view(design: RasterDesign<'_>) -> Axi {
         // All regions in the buffer of three rows may wait.
         pending_bits: index_bits(u64::from(3 * design.columns() + 1)) + 1,
         irrelevant: irrelevant(&design),
-        raw: u32::from(design.keeps_raw()),
+        raw: raw(&design),
         fingerprint: format!("{:016x}", fingerprint(&design)),
         syncs: design.syncs(),
         thresholds: thresholds(&design).into_iter().map(plain).collect(),

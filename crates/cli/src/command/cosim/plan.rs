@@ -4,7 +4,7 @@
 use std::fs;
 use std::path::Path;
 
-use foveate_cosim::{Job, Level, Simulator, Stimulus, prefixes};
+use foveate_cosim::{BusJob, Job, Level, Simulator, Stimulus, prefixes};
 use foveate_design::Design;
 use foveate_emit::{Prefix, SourceFile, Top};
 
@@ -14,15 +14,39 @@ use crate::error::CliError;
 /// Clocks of the whole frame that are enough where nobody asked for it: some ten seconds of a raster core.
 const ENOUGH: u64 = 40_000_000;
 
-/// The co-simulations, the smallest first; at least one.
-pub(super) fn jobs(args: &CosimArgs) -> Result<Vec<Job>, CliError> {
+/// A co-simulation: of an array clock by clock, or of a core on AXI packet by packet.
+pub(super) enum Work {
+    Array(Box<Job>),
+    Axi(Box<BusJob>),
+}
+
+impl Work {
+    pub(super) fn name(&self) -> String {
+        match self {
+            Self::Array(job) => job.name(),
+            Self::Axi(job) => job.name(),
+        }
+    }
+}
+
+/// What is to be done.
+pub(super) struct Plan {
+    pub(super) design: Design,
+    /// The Verilog that is given.
+    pub(super) rtl: Option<Vec<SourceFile>>,
+    pub(super) prefix: Prefix,
+    /// The co-simulations, the smallest first; at least one.
+    pub(super) works: Vec<Work>,
+}
+
+pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
     let (design, frames) = args.design.with_frames(&args.inputs, args.frames)?;
     let rtl = args.rtl.as_deref().map(read_rtl).transpose()?;
     let prefix = match rtl.as_deref() {
         Some(sources) => prefix_of(args, &design, sources)?,
         None => Prefix::default(),
     };
-    let job = |level| {
+    let array = |level| {
         let rounds = args.rounds.unwrap_or(match level {
             Level::Rpu => 3,
             Level::Rcm { .. } | Level::Full => 1,
@@ -38,9 +62,40 @@ pub(super) fn jobs(args: &CosimArgs) -> Result<Vec<Job>, CliError> {
         job.trace = args.trace;
         job.sources = rtl.clone().unwrap_or(job.sources);
         job.prefix = prefix.clone();
-        Ok(job)
+        Ok(Work::Array(Box::new(job)))
     };
-    levels(args, &design, rtl.as_deref(), &prefix)?.into_iter().map(job).collect()
+    let levels = levels(args, &design, rtl.as_deref(), &prefix)?;
+    let mut works: Vec<Work> = levels.into_iter().map(array).collect::<Result<_, CliError>>()?;
+    if let Some(mut job) = axi(args, &design)? {
+        job.seed = args.seed;
+        job.rounds = args.rounds.unwrap_or(1);
+        job.frames = frames;
+        job.sources = rtl.clone().unwrap_or(job.sources);
+        job.prefix = prefix.clone();
+        works.push(Work::Axi(Box::new(job)));
+    }
+    Ok(Plan { design, rtl, prefix, works })
+}
+
+/// The core on AXI, where it is to be simulated.
+fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
+    let is_part = args.full || args.netlist || args.simulator == SimulatorChoice::Iverilog;
+    let is_asked = args.level == Some(args::CosimLevel::Axi) || args.packets.is_some();
+    let option = if args.packets.is_some() { "--packets" } else { "--level axi" };
+    if is_asked && is_part {
+        let message = format!("{option} goes without --full, --netlist and --simulator iverilog");
+        return Err(CliError::Usage(message));
+    }
+    let wanted = is_asked || (args.level.is_none() && !is_part);
+    match BusJob::new(design, &args.replay) {
+        Some(job) if wanted => {
+            Ok(Some(BusJob { packets: args.packets.clone(), trace: args.trace, ..job }))
+        }
+        None if is_asked => Err(CliError::Usage(format!(
+            "{option} is for a core on AXI; this design has hardware.interface = \"ports\", so set it to \"axi\""
+        ))),
+        _ => Ok(None),
+    }
 }
 
 /// Whether all of the Verilog is to be simulated: it is given, and no part of it was asked for.
@@ -56,13 +111,14 @@ fn levels(
 ) -> Result<Vec<Level>, CliError> {
     let one = match (args.full, args.level, args.grid) {
         (true, ..) => Level::Full,
-        (false, Some(args::Level::Rcm), Some((columns, rows))) => Level::Rcm { columns, rows },
-        (false, Some(args::Level::Rcm), None) => Level::sample(design),
+        (false, Some(args::CosimLevel::Rcm), Some((columns, rows))) => Level::Rcm { columns, rows },
+        (false, Some(args::CosimLevel::Rcm), None) => Level::sample(design),
         (false, _, Some(_)) => {
             let message = "--grid is for --level rcm; add it or leave --grid out";
             return Err(CliError::Usage(message.to_owned()));
         }
-        (false, Some(args::Level::Rpu), None) => Level::Rpu,
+        (false, Some(args::CosimLevel::Rpu), None) => Level::Rpu,
+        (false, Some(args::CosimLevel::Axi), None) => return Ok(Vec::new()),
         (false, None, None) => match rtl {
             Some(sources) => return Ok(Level::all_of(design, sources, prefix)),
             None => Level::Rpu,

@@ -1,0 +1,440 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether packets and registers say what the model says of the frames that came.
+
+use super::heard::{Heard, Parcel, Record};
+use super::traffic::{Answer, Fate, Sent, Session};
+use super::wrong::Wrong;
+use foveate_design::{Action, Camera, RasterDesign, Reference};
+use foveate_emit::Register;
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_packets::{
+    Decision, End, Found, FrameInfo, Layout, Packet, Region, Row, Splitter, write,
+};
+
+/// Frequency of the clock, as the parameter of the core has it.
+pub(super) const TICK_RATE: u32 = 100_000_000;
+/// Counters of skipped frames and dropped regions wrap around behind this.
+const COUNTER_MASK: u32 = 0xFFFF;
+
+/// How much agreed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Agreed {
+    /// Frames that left.
+    pub(super) frames: u64,
+    /// Packets and registers that were compared.
+    pub(super) comparisons: u64,
+}
+
+/// What is known of a core, over all that happens to it.
+pub(super) struct Checker<'a> {
+    layout: Layout,
+    /// The design, and what it is with other thresholds.
+    cameras: &'a [Camera],
+    registers: &'a [Register],
+    /// Whether a dropped region changes what is decided afterwards.
+    remembers: bool,
+}
+
+impl<'a> Checker<'a> {
+    pub(super) fn new(
+        design: RasterDesign<'_>,
+        cameras: &'a [Camera],
+        registers: &'a [Register],
+    ) -> Self {
+        let remembers = match design.temporal().reference {
+            Reference::LastSent => true,
+            Reference::Previous => design.periphery().is_some(),
+        };
+        Self { layout: Layout::new(&design, false, TICK_RATE), cameras, registers, remembers }
+    }
+
+    /// Compares what was heard with what must come of the traffic.
+    pub(super) fn check(&self, sessions: &[Session], record: &Record) -> Result<Agreed, Wrong> {
+        let mut agreed = Agreed::default();
+        let first_breach = record.breaches.first().map(Wrong::from);
+        let end = record.clocks.unwrap_or_default();
+        for (number, session) in sessions.iter().enumerate() {
+            let Some(heard) = record.sessions.get(number) else {
+                let missing = Wrong { clock: end, ..Wrong::presence("the run ended early", false) };
+                return Err(first_breach.unwrap_or(missing));
+            };
+            let found = Receiver::new(self, session).receive(heard, end);
+            let found = found.map_err(|wrong| match &first_breach {
+                Some(breach) if breach.clock <= wrong.clock => breach.clone(),
+                _ => wrong,
+            })?;
+            agreed.frames += found.frames;
+            agreed.comparisons += found.comparisons;
+        }
+        first_breach.map_or(Ok(agreed), Err)
+    }
+
+    /// The bit of an event.
+    fn event(&self, name: &str) -> u32 {
+        let events = self.registers.iter().find(|register| register.name == "events");
+        let field = events.and_then(|events| events.fields.iter().find(|field| field.name == name));
+        field.map_or(0, |field| 1 << field.low)
+    }
+}
+
+/// A frame whose packets come.
+struct Open {
+    number: u32,
+    is_cut: bool,
+    outcome: FunctionalOutcome,
+    /// What the rows that came say.
+    decisions: Vec<Option<Decision>>,
+    next_row: u32,
+    rows: u32,
+    /// Regions that came.
+    came: Vec<bool>,
+}
+
+/// What came between two resets.
+struct Receiver<'a> {
+    checker: &'a Checker<'a>,
+    session: &'a Session,
+    cameras: Vec<FunctionalCamera>,
+    open: Option<Open>,
+    /// The frame that may come next.
+    next: usize,
+    is_first: bool,
+    /// A dropped region has changed what is decided.
+    is_loose: bool,
+    time: u64,
+    skipped: u32,
+    dropped: u32,
+    dropped_rows: u32,
+    agreed: Agreed,
+}
+
+impl<'a> Receiver<'a> {
+    fn new(checker: &'a Checker<'a>, session: &'a Session) -> Self {
+        Self {
+            checker,
+            session,
+            cameras: checker.cameras.iter().map(FunctionalCamera::new).collect(),
+            open: None,
+            next: 0,
+            is_first: true,
+            is_loose: false,
+            time: 0,
+            skipped: 0,
+            dropped: 0,
+            dropped_rows: 0,
+            agreed: Agreed::default(),
+        }
+    }
+
+    fn receive(mut self, heard: &Heard, end: u64) -> Result<Agreed, Wrong> {
+        for parcel in &heard.parcels {
+            let frame = self.open.as_ref().map_or(self.next as u64, |open| open.number.into());
+            self.parcel(parcel).map_err(|wrong| Wrong { clock: parcel.clock, frame, ..wrong })?;
+        }
+        let wrong = |wrong: Wrong| Wrong { clock: end, ..wrong };
+        if let Some(open) = self.open.take().filter(|open| !open.is_cut) {
+            let missing = Wrong::presence("the END of a frame that began", true);
+            return Err(wrong(Wrong { frame: open.number.into(), ..missing }));
+        }
+        self.pass_over(self.session.sent.len()).map_err(wrong)?;
+        self.registers(heard)?;
+        Ok(self.agreed)
+    }
+
+    fn parcel(&mut self, parcel: &Parcel) -> Result<(), Wrong> {
+        let is_cut = self.session.sent.iter().any(|sent| sent.fate == Fate::Cut);
+        if !parcel.is_whole && is_cut {
+            return Ok(());
+        }
+        let mut splitter = Splitter::default();
+        splitter.feed(&parcel.bytes);
+        splitter.complete();
+        let found = splitter.next(Some(&self.checker.layout));
+        let Found::Packet { frame, packet } = found else {
+            return Err(Wrong::presence("a packet of this design", true));
+        };
+        if !parcel.is_whole || splitter.next(Some(&self.checker.layout)) != Found::Nothing {
+            return Err(Wrong::presence(
+                "tlast with the last word of a packet, and no other",
+                true,
+            ));
+        }
+        let bytes = written(&self.checker.layout, frame, &packet);
+        if let Some(at) = bytes.iter().zip(&parcel.bytes).position(|(own, other)| own != other) {
+            let what = format!("byte {at} of a packet of {} bytes", bytes.len());
+            return Err(Wrong::number(what, bytes[at], parcel.bytes[at]));
+        }
+        self.agreed.comparisons += 1;
+        match packet {
+            Packet::Frame(info) => self.frame(frame, &info),
+            Packet::Row(row) => self.row(frame, &row),
+            Packet::Region(region) => self.region(frame, &region),
+            Packet::End(end) => self.end(frame, end),
+            Packet::Scores(_) => Err(Wrong::presence("a SCORES packet", false)),
+        }
+    }
+
+    fn frame(&mut self, number: u32, info: &FrameInfo) -> Result<(), Wrong> {
+        if let Some(open) = &self.open {
+            return Err(Wrong::number(
+                "the END of the frame before its FRAME",
+                open.number,
+                number,
+            ));
+        }
+        let at = number as usize;
+        if at < self.next {
+            return Err(Wrong::number("the number of a frame", self.next, number));
+        }
+        let sent = self.sent(at)?;
+        self.pass_over(at)?;
+        if sent.fate == Fate::LeftOut {
+            return Err(Wrong::presence("a frame that must be left out", false));
+        }
+        self.next = at + 1;
+        let first = std::mem::take(&mut self.is_first) || sent.first;
+        let expected = FrameInfo { first, time: info.time, ..self.checker.layout.info().clone() };
+        if *info != expected {
+            let at = format!("what FRAME says: {info:?}, expected {expected:?}");
+            return Err(Wrong::presence(at, false));
+        }
+        if info.time < self.time {
+            return Err(Wrong::number("the time of a frame, at least", self.time, info.time));
+        }
+        self.time = info.time + 1;
+        self.is_loose &= !first;
+        let mut outcome = None;
+        for (camera, model) in self.cameras.iter_mut().enumerate() {
+            if first {
+                model.reset();
+            }
+            let stepped = model.step(&sent.frame).expect("frames are of the design");
+            if camera == sent.camera {
+                outcome = Some(stepped.clone());
+            }
+        }
+        let outcome = outcome.expect("there is a camera for all thresholds");
+        let regions = outcome.srs.len();
+        self.open = Some(Open {
+            number,
+            is_cut: sent.fate == Fate::Cut,
+            outcome,
+            decisions: vec![None; regions],
+            next_row: 0,
+            rows: 0,
+            came: vec![false; regions],
+        });
+        Ok(())
+    }
+
+    fn sent(&self, at: usize) -> Result<&'a Sent, Wrong> {
+        let all = &self.session.sent;
+        all.get(at).ok_or_else(|| Wrong::number("the number of a frame, below", all.len(), at))
+    }
+
+    /// Frames up to `at` have not come.
+    fn pass_over(&mut self, at: usize) -> Result<(), Wrong> {
+        for number in self.next..at {
+            let sent = self.sent(number)?;
+            self.is_first |= sent.first;
+            match sent.fate {
+                Fate::Either => self.skipped += 1,
+                Fate::LeftOut | Fate::Cut => {}
+                Fate::Taken => {
+                    let missing = Wrong::presence(format!("the packets of frame {number}"), true);
+                    return Err(Wrong { frame: number as u64, ..missing });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn opened(&mut self, number: u32) -> Result<(&mut Open, bool), Wrong> {
+        let is_loose = self.is_loose;
+        let Some(open) = &mut self.open else {
+            return Err(Wrong::presence("a packet between END and FRAME", false));
+        };
+        if open.number != number {
+            return Err(Wrong::number("the number of the frame", open.number, number));
+        }
+        Ok((open, is_loose))
+    }
+
+    fn row(&mut self, number: u32, row: &Row) -> Result<(), Wrong> {
+        let columns = self.checker.layout.columns();
+        let (open, is_loose) = self.opened(number)?;
+        if row.row < open.next_row {
+            return Err(Wrong::number("the row, at least", open.next_row, row.row));
+        }
+        open.next_row = row.row + 1;
+        open.rows += 1;
+        for (region, &decision) in (row.row * columns..).zip(&row.decisions) {
+            let (at, code) = (region as usize, |decision: Decision| {
+                u8::from(decision.srs)
+                    | u8::from(decision.trs) << 1
+                    | u8::from(decision.summary) << 2
+            });
+            let expected = open.outcome.decision(at);
+            if !is_loose && decision != expected {
+                let what = "srs, trs and summary, from the lowest bit on";
+                return Err(Wrong::number(what, code(expected), code(decision)).of_region(region));
+            }
+            if open.came[at] && !sends(decision) {
+                return Err(
+                    Wrong::presence("pixels of a region that sends none", false).of_region(region)
+                );
+            }
+            open.decisions[at] = Some(decision);
+        }
+        Ok(())
+    }
+
+    fn region(&mut self, number: u32, region: &Region) -> Result<(), Wrong> {
+        let columns = self.checker.layout.columns();
+        let raw = self.checker.layout.info().raw;
+        let camera = &self.checker.cameras[0];
+        let (open, is_loose) = self.opened(number)?;
+        let name = region.row * columns + region.column;
+        let at = name as usize;
+        let wrong = |wrong: Wrong| wrong.of_region(name);
+        if std::mem::replace(&mut open.came[at], true) {
+            return Err(wrong(Wrong::presence("its REGION a second time", false)));
+        }
+        let known = open.decisions[at].or((!is_loose).then(|| open.outcome.decision(at)));
+        if known.is_some_and(|decision| !sends(decision)) {
+            return Err(wrong(Wrong::presence("pixels of a region that sends none", false)));
+        }
+        if known.is_some_and(|decision| decision.summary != region.flags.summary) {
+            return Err(wrong(Wrong::presence("the flag `summary`", !region.flags.summary)));
+        }
+        if raw != region.flags.raw {
+            return Err(wrong(Wrong::presence("the flag `raw`", raw)));
+        }
+        let expected = match region.flags.summary {
+            true => open.outcome.means[at].clone(),
+            false => pixels(camera, &open.outcome, region.row, region.column),
+        };
+        let differs = expected.iter().zip(&region.values).position(|(own, other)| own != other);
+        match differs {
+            None => Ok(()),
+            Some(place) => {
+                let what = format!("value {place} of its {}", expected.len());
+                Err(wrong(Wrong::number(what, expected[place], region.values[place])))
+            }
+        }
+    }
+
+    fn end(&mut self, number: u32, end: End) -> Result<(), Wrong> {
+        let (rows, remembers) = (self.checker.layout.rows(), self.checker.remembers);
+        let is_lossless = self.session.is_lossless;
+        let (open, is_loose) = self.opened(number)?;
+        let sent: u32 = open.came.iter().map(|&came| u32::from(came)).sum();
+        if end.regions_sent != sent {
+            return Err(Wrong::number("REGION packets that END counts", sent, end.regions_sent));
+        }
+        let lost_rows = rows - open.rows;
+        if end.rows_dropped != lost_rows {
+            return Err(Wrong::number("dropped rows that END counts", lost_rows, end.rows_dropped));
+        }
+        let all = (0..open.came.len()).map(|at| match open.decisions[at] {
+            Some(decision) => Some(sends(decision)),
+            None => (!is_loose).then(|| sends(open.outcome.decision(at))),
+        });
+        let wanted: Option<u32> = all.map(|sends| sends.map(u32::from)).sum();
+        let dropped = wanted.map_or(end.regions_dropped, |wanted| wanted - sent);
+        if end.regions_dropped != dropped {
+            let what = "dropped regions that END counts";
+            return Err(Wrong::number(what, dropped, end.regions_dropped));
+        }
+        if is_lossless && (end.regions_dropped > 0 || end.rows_dropped > 0) {
+            return Err(Wrong::number("dropped regions", 0, end.regions_dropped));
+        }
+        self.open = None;
+        self.is_loose |= remembers && end.regions_dropped > 0;
+        self.dropped += end.regions_dropped;
+        self.dropped_rows += end.rows_dropped;
+        self.agreed.frames += 1;
+        Ok(())
+    }
+
+    fn registers(&mut self, heard: &Heard) -> Result<(), Wrong> {
+        let mut reads = heard.reads.iter();
+        for &(address, answer) in &self.session.answers {
+            let name = self.checker.registers.iter().find(|register| register.address == address);
+            let name = name.map_or("nothing", |register| &register.name);
+            let wrong = |clock, at: String, expected: u32, got: u32| {
+                let port = "s_axi".to_owned();
+                Wrong { clock, port, ..Wrong::number(at, expected, got) }
+            };
+            let Some(&(clock, at, value)) = reads.next() else {
+                return Err(wrong(0, format!("an answer to a read of {name}"), 1, 0));
+            };
+            let expected = self.answer(answer);
+            if (at, value) != (address, expected) {
+                let what = format!("the register {name} at 'h{address:03x}");
+                return Err(wrong(clock, what, expected, value));
+            }
+            self.agreed.comparisons += 1;
+        }
+        Ok(())
+    }
+
+    fn answer(&self, answer: Answer) -> u32 {
+        let event = |name, happened: bool| if happened { self.checker.event(name) } else { 0 };
+        match answer {
+            Answer::Is(value) => value,
+            Answer::Skipped => self.skipped & COUNTER_MASK,
+            Answer::Dropped => self.dropped & COUNTER_MASK,
+            Answer::Events(others) => {
+                others
+                    | event("frame_skipped", self.skipped > 0)
+                    | event("region_dropped", self.dropped > 0)
+                    | event("row_dropped", self.dropped_rows > 0)
+            }
+        }
+    }
+}
+
+/// The bytes of a packet: what no field names is 0 in them, though nobody reads it.
+fn written(layout: &Layout, frame: u32, packet: &Packet) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    match packet {
+        Packet::Frame(info) => write::frame(&mut bytes, layout, frame, (info.time, info.first)),
+        Packet::Row(row) => write::row(&mut bytes, layout, frame, row.row, &row.decisions),
+        Packet::Region(Region { row, column, flags, values }) => {
+            write::region(&mut bytes, layout, frame, (*row, *column), (*flags, values));
+        }
+        Packet::End(end) => write::end(&mut bytes, frame, *end),
+        // A core sends none, which is found where the packet is looked at.
+        Packet::Scores(_) => {}
+    }
+    bytes
+}
+
+/// What a ROW says of a region.
+trait Decided {
+    fn decision(&self, region: usize) -> Decision;
+}
+
+impl Decided for FunctionalOutcome {
+    fn decision(&self, region: usize) -> Decision {
+        let summary = match self.actions[region] {
+            Action::Summarize => true,
+            Action::Forward | Action::Hold | Action::Blank => false,
+        };
+        Decision { srs: self.srs[region], trs: self.trs[region], summary }
+    }
+}
+
+/// Whether pixels or means follow from a decision.
+fn sends(decision: Decision) -> bool {
+    (decision.srs && decision.trs) || decision.summary
+}
+
+/// The pixels that an active region sends.
+fn pixels(camera: &Camera, outcome: &FunctionalOutcome, row: u32, column: u32) -> Vec<u16> {
+    let (side, payload) = (camera.region_size(), outcome.payload(camera));
+    let (left, top) = ((column * side) as usize, row * side);
+    let line = |y: u32| payload.row(y).iter().skip(left).take(side as usize).copied();
+    (top..top + side).flat_map(line).collect()
+}

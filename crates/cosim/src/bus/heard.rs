@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What was heard on the ports of a core, out of the lines of the program.
+
+use std::io::BufRead;
+
+/// A packet that has left.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Parcel {
+    /// The clock at which its last word was taken.
+    pub(super) clock: u64,
+    pub(super) bytes: Vec<u8>,
+    /// Whether its last word was marked; otherwise a reset came first.
+    pub(super) is_whole: bool,
+}
+
+/// Something that no core on a bus may do.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Breach {
+    pub(super) clock: u64,
+    pub(super) port: String,
+    pub(super) what: String,
+}
+
+/// What was heard between two resets.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Heard {
+    pub(super) parcels: Vec<Parcel>,
+    /// Registers that were read: clock, address and value.
+    pub(super) reads: Vec<(u64, u32, u32)>,
+}
+
+/// All that was heard.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Record {
+    pub(super) sessions: Vec<Heard>,
+    pub(super) breaches: Vec<Breach>,
+    /// Clocks of the run; nothing if the program ended early.
+    pub(super) clocks: Option<u64>,
+}
+
+impl Record {
+    /// Out of lines; one that is none of the program's is an error.
+    pub(super) fn read(lines: impl BufRead) -> std::io::Result<Self> {
+        let mut record = Self::default();
+        for line in lines.lines() {
+            let line = line?;
+            record.take(&line).ok_or_else(|| {
+                std::io::Error::new(std::io::ErrorKind::InvalidData, format!("`{line}`"))
+            })?;
+        }
+        Ok(record)
+    }
+
+    fn take(&mut self, line: &str) -> Option<()> {
+        let (kind, rest) = line.split_once(' ')?;
+        let (clock, rest) = rest.split_once(' ').unwrap_or((rest, ""));
+        let clock = clock.parse().ok()?;
+        match kind {
+            "reset" => {
+                self.sessions.push(Heard::default());
+                Some(())
+            }
+            "packet" => self.word(clock, rest),
+            "read" => {
+                let (address, value) = rest.split_once(' ')?;
+                let hex = |digits| u32::from_str_radix(digits, 16).ok();
+                self.sessions.last_mut()?.reads.push((clock, hex(address)?, hex(value)?));
+                Some(())
+            }
+            "wrong" => {
+                let (port, what) = rest.split_once(' ')?;
+                let (port, what) = (port.to_owned(), what.to_owned());
+                self.breaches.push(Breach { clock, port, what });
+                Some(())
+            }
+            "end" => {
+                self.clocks = Some(clock);
+                Some(())
+            }
+            _ => None,
+        }
+    }
+
+    fn word(&mut self, clock: u64, rest: &str) -> Option<()> {
+        let (word, last) = rest.split_once(' ')?;
+        let parcels = &mut self.sessions.last_mut()?.parcels;
+        if parcels.last().is_none_or(|parcel| parcel.is_whole) {
+            parcels.push(Parcel { clock, bytes: Vec::new(), is_whole: false });
+        }
+        let parcel = parcels.last_mut()?;
+        parcel.bytes.extend(u64::from_str_radix(word, 16).ok()?.to_le_bytes());
+        parcel.clock = clock;
+        parcel.is_whole = last == "1";
+        Some(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lines_become_packets_by_session() {
+        let text = "reset 4\npacket 9 00000000000000fa 0\npacket 11 0000000000000001 1\npacket 12 2 0\nreset 20\n\
+                    read 25 1c 5f5e100\nwrong 30 s_axi_b nothing was written\nend 40 3\n";
+        let record = Record::read(text.as_bytes()).unwrap();
+        let [first, second] = record.sessions.as_slice() else { panic!("{record:?}") };
+        let bytes = [250, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0].to_vec();
+        assert_eq!(first.parcels[0], Parcel { clock: 11, bytes, is_whole: true });
+        assert!(first.parcels.len() == 2 && !first.parcels[1].is_whole);
+        assert_eq!(second.reads, [(25, 0x1c, 100_000_000)]);
+        assert_eq!((record.breaches.len(), record.clocks), (1, Some(40)));
+        assert!(Record::read("hello\n".as_bytes()).is_err());
+    }
+}

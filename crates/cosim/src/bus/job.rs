@@ -1,0 +1,309 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A run of a core on its buses, from the scenes to a report.
+
+use super::check::{Agreed, Checker};
+use super::heard::Record;
+use super::program::program;
+use super::replay::Replay;
+use super::scenes::{Scene, Stage, cameras, with_other_thresholds};
+use super::traffic::Traffic;
+use crate::error::CosimError;
+use crate::job::Progress;
+use crate::level::Level;
+use crate::replay;
+use crate::report::{CosimReport, Seconds};
+use crate::simulate::{Simulator, UNKNOWN_START, WAVES_FILE};
+use foveate_design::{Bus, Design, Hardware, RasterDesign};
+use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, on_bus, registers};
+use foveate_frame::Frame;
+use foveate_toolchain::verilator::{self, Lint, Optimize, VerilatorJob};
+use foveate_toolchain::{Cache, Invocation, Source, Tool, Toolchain, sources_sha256};
+use std::fs::{self, File};
+use std::io::BufReader;
+use std::path::{Path, PathBuf};
+use std::time::{Duration, Instant};
+
+/// Name of the scene with the frames of the caller.
+const FRAMES: &str = "frames of the inputs";
+
+/// A core on AXI to run in Verilator.
+#[derive(Clone, Debug)]
+pub struct BusJob {
+    /// The design, which is on a bus.
+    pub design: Design,
+    /// The Verilog: what the emitter makes of the design, or what a user made of that.
+    pub sources: Vec<SourceFile>,
+    /// What the names of its modules begin with.
+    pub prefix: Prefix,
+    /// Seed of all that is random.
+    pub seed: u64,
+    /// How often the directed scenes are played, each time with other data; 0 leaves only the frames.
+    pub rounds: u32,
+    /// Frames of the caller, of the size and depth of the design. They come after the scenes, and none of them may be lost.
+    pub frames: Vec<Frame>,
+    /// A file for the packets that leave of the frames.
+    pub packets: Option<PathBuf>,
+    /// Whether to write waves of a scene that fails.
+    pub trace: bool,
+    /// The folder for what a failing run leaves.
+    pub output: PathBuf,
+    /// The longest that the simulation of a scene may take.
+    pub limit: Duration,
+}
+
+/// The program of a job and what it was made from.
+struct Built {
+    top: String,
+    sources: Vec<Source>,
+    program: String,
+    executable: PathBuf,
+}
+
+/// What a scene came to.
+struct Played {
+    record: Record,
+    heard: PathBuf,
+    waves: Option<PathBuf>,
+}
+
+impl BusJob {
+    /// A job with the Verilog that the emitter makes; none if the design is not on a bus.
+    #[must_use]
+    pub fn new(design: &Design, output: &Path) -> Option<Self> {
+        Some(Self {
+            sources: on_bus(design)?,
+            design: design.clone(),
+            prefix: Prefix::default(),
+            seed: 1,
+            rounds: 1,
+            frames: Vec::new(),
+            packets: None,
+            trace: false,
+            output: output.to_owned(),
+            limit: Duration::from_secs(3600),
+        })
+    }
+
+    /// Name for people.
+    #[must_use]
+    pub fn name(&self) -> String {
+        format!("axi {}", Simulator::Verilator)
+    }
+
+    /// The module that is simulated.
+    #[must_use]
+    pub fn top(&self) -> String {
+        self.prefix.name(AXI_TOP)
+    }
+
+    /// Runs it to a report; a mismatch is a result and no error.
+    ///
+    /// # Errors
+    /// When there is no result: a tool is missing or fails, a frame does not fit, a folder cannot be written, or the
+    /// toolchain's flag has stopped it.
+    ///
+    /// # Panics
+    /// When the design is not on a bus.
+    pub fn run(
+        &self,
+        toolchain: &Toolchain,
+        cache: &Cache,
+        progress: &mut dyn FnMut(Progress),
+    ) -> Result<CosimReport, CosimError> {
+        let own = match (self.design.bus(), self.design.hardware()) {
+            (Bus::Axi, Hardware::Raster(own)) => own,
+            _ => panic!("the design is not on a bus"),
+        };
+        let design = self.design.on(own);
+        self.check_frames()?;
+        replay::check(&self.output)?;
+        let version = toolchain.find(Tool::Verilator)?.banner;
+        replay::remove(&self.output)?;
+
+        let start = Instant::now();
+        let other = with_other_thresholds(&self.design);
+        let registers = registers(design);
+        let others = other.as_ref().and_then(registers_of);
+        let cameras = cameras(&self.design, other.as_ref());
+        let scenes = self.scenes(design, &registers, others.as_deref());
+        let vectors = start.elapsed();
+        if scenes.is_empty() {
+            return Err(CosimError::Nothing);
+        }
+
+        let clocks = scenes.iter().map(|(_, traffic)| traffic.text().lines().count() as u64).sum();
+        progress(Progress::Simulation { clocks });
+        let start = Instant::now();
+        let built = self.build(design, toolchain, cache)?;
+        let build = start.elapsed();
+
+        let start = Instant::now();
+        let checker = Checker::new(design, &cameras, &registers);
+        let (mut clocks, mut agreed, mut mismatch, mut left) = (0, Agreed::default(), None, None);
+        for (name, traffic) in &scenes {
+            let folder = tempfile::tempdir()
+                .map_err(CosimError::temporary("create a folder in", &std::env::temp_dir()))?;
+            let played = self.play(&built, traffic, folder.path(), toolchain)?;
+            clocks += played.record.clocks.unwrap_or_default();
+            if *name == FRAMES {
+                self.keep_packets(&played.record)?;
+            }
+            match checker.check(traffic.sessions(), &played.record) {
+                Ok(more) => {
+                    agreed.frames += more.frames;
+                    agreed.comparisons += more.comparisons;
+                }
+                Err(wrong) => {
+                    let found = wrong.mismatch(name);
+                    let replay = Replay {
+                        top: &built.top,
+                        sources: &built.sources,
+                        program: &built.program,
+                        traffic: traffic.text(),
+                        heard: &played.heard,
+                        waves: played.waves.as_deref(),
+                        mismatch: &found,
+                        version: &version,
+                        seed: self.seed,
+                        fingerprint: &self.design.fingerprint(),
+                    };
+                    left = Some(replay.write(&self.output)?);
+                    mismatch = Some(found);
+                    break;
+                }
+            }
+        }
+        Ok(CosimReport {
+            name: self.name(),
+            design: self.design.fingerprint(),
+            level: Level::Full,
+            grid: (design.columns(), design.rows()),
+            simulator: Simulator::Verilator,
+            simulator_version: version,
+            rtl_sha256: sources_sha256(&built.sources),
+            netlist: None,
+            seed: self.seed,
+            sequences: scenes.len() as u64,
+            frames: agreed.frames,
+            clocks,
+            comparisons: agreed.comparisons,
+            mismatch,
+            replay: left,
+            waves: None,
+            seconds: Seconds {
+                vectors: vectors.as_secs_f64(),
+                build: build.as_secs_f64(),
+                run: start.elapsed().as_secs_f64(),
+            },
+        })
+    }
+
+    fn scenes<'a>(
+        &self,
+        design: RasterDesign<'a>,
+        registers: &'a [Register],
+        others: Option<&'a [Register]>,
+    ) -> Vec<Scene<'a>> {
+        let mut scenes = Vec::new();
+        for round in 0..u64::from(self.rounds) {
+            let seed = self.seed.wrapping_add(round << 32);
+            scenes.extend(Stage::new(design, registers, others, seed).scenes());
+        }
+        if !self.frames.is_empty() {
+            let mut stage = Stage::new(design, registers, others, self.seed);
+            scenes.push((FRAMES, stage.frames(&self.frames)));
+        }
+        scenes
+    }
+
+    fn check_frames(&self) -> Result<(), CosimError> {
+        let wanted =
+            Frame::filled(self.design.width(), self.design.height(), self.design.pixel_bits(), 0)
+                .map_err(|error| CosimError::Model { reason: error.to_string() })?
+                .kind();
+        match self.frames.iter().position(|frame| frame.kind() != wanted) {
+            None => Ok(()),
+            Some(index) => {
+                Err(CosimError::FrameShape { index, found: self.frames[index].kind(), wanted })
+            }
+        }
+    }
+
+    fn build(
+        &self,
+        design: RasterDesign<'_>,
+        toolchain: &Toolchain,
+        cache: &Cache,
+    ) -> Result<Built, CosimError> {
+        let top = self.top();
+        let sources: Vec<Source> =
+            self.sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
+        if !crate::hierarchy::declares(&self.sources, &top) {
+            let files: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
+            return Err(CosimError::NoTop { top, files: files.join(", ") });
+        }
+        let program = program(&top, design);
+        let job = VerilatorJob {
+            sources: sources.clone(),
+            top: top.clone(),
+            cpp_main: program.clone(),
+            trace: self.trace,
+            optimize: Optimize::Build,
+            lint: Lint::Lenient,
+            extra_args: UNKNOWN_START.map(str::to_owned).into(),
+            ..VerilatorJob::default()
+        };
+        let executable = verilator::build(toolchain, cache, &job)?;
+        Ok(Built { top, sources, program, executable })
+    }
+
+    fn play(
+        &self,
+        built: &Built,
+        traffic: &Traffic<'_>,
+        folder: &Path,
+        toolchain: &Toolchain,
+    ) -> Result<Played, CosimError> {
+        let [script, heard, waves] =
+            ["traffic.txt", "heard.txt", WAVES_FILE].map(|name| folder.join(name));
+        fs::write(&script, traffic.text()).map_err(CosimError::temporary("write", &script))?;
+        let run = Invocation::new(&built.executable)
+            .arg(self.seed.to_string())
+            .arg(&waves)
+            .dir(folder)
+            .stdin_file(&script)
+            .stdout_file(&heard)
+            .timeout(self.limit);
+        let output = toolchain.run(&run)?;
+        let file = File::open(&heard).map_err(CosimError::temporary("read", &heard))?;
+        let record = Record::read(BufReader::new(file)).unwrap_or_default();
+        if !output.is_success() || record.clocks.is_none() {
+            let log = output.log();
+            let tail = log.lines().rev().find(|line| !line.trim().is_empty());
+            return Err(CosimError::Short {
+                simulator: Simulator::Verilator.to_string(),
+                clocks: traffic.text().lines().count() as u64,
+                got: record.clocks.unwrap_or_default(),
+                status: output.status.clone(),
+                log: tail.map(|line| format!(": {line}")).unwrap_or_default(),
+            });
+        }
+        Ok(Played { record, heard, waves: self.trace.then_some(waves) })
+    }
+
+    /// Writes the packets of a run, one behind the other.
+    fn keep_packets(&self, record: &Record) -> Result<(), CosimError> {
+        let Some(file) = &self.packets else { return Ok(()) };
+        let parcels = record.sessions.iter().flat_map(|heard| &heard.parcels);
+        let bytes: Vec<u8> = parcels.flat_map(|parcel| parcel.bytes.iter().copied()).collect();
+        Ok(foveate_staging::write_file(file, &bytes)?)
+    }
+}
+
+/// The registers of a design on a bus.
+fn registers_of(design: &Design) -> Option<Vec<Register>> {
+    match design.hardware() {
+        Hardware::Raster(own) => Some(registers(design.on(own))),
+        Hardware::Pipelined(_) | Hardware::Serial(_) => None,
+    }
+}

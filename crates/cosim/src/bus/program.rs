@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The program that drives the buses: C++ around what Verilator makes of the Verilog.
+
+use crate::harness::rendered;
+use askama::Template;
+use foveate_design::RasterDesign;
+
+#[derive(Template)]
+#[template(path = "axi.cpp")]
+struct Program<'a> {
+    top: &'a str,
+    video_words: u32,
+    has_store: bool,
+}
+
+/// Its source for module `top`.
+pub(super) fn program(top: &str, design: RasterDesign<'_>) -> String {
+    let bits = (design.pixels_per_clock() * design.pixel_bits()).next_multiple_of(8);
+    let has_store = design.frames_are_kept_outside();
+    rendered(&Program { top, video_words: bits.div_ceil(32), has_store })
+}

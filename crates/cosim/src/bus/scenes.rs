@@ -1,0 +1,461 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is tried on the buses of a core. Every scene is played in a run of its own.
+
+use super::check::TICK_RATE;
+use super::damage::Damage;
+use super::film::Film;
+use super::traffic::{Answer, Fate, Sent, Traffic};
+use crate::stimulus::Random;
+use foveate_design::{Camera, Design, RasterDesign, Reference, Thresholds};
+use foveate_emit::{Kind, Register};
+use foveate_frame::Frame;
+
+/// Clocks that a scene may take, roughly.
+const CLOCKS: u64 = 4_000_000;
+/// Strobes that write nothing, and those of the lowest byte.
+const NONE: u32 = 0;
+const LOWEST: u32 = 1;
+const ALL: u32 = super::traffic::ALL;
+/// The place behind the last register.
+const END: u32 = 0xFFC;
+/// Accesses of a storm.
+const STORM: usize = 60;
+
+/// A scene: its name, and what happens.
+pub(super) type Scene<'a> = (&'static str, Traffic<'a>);
+
+/// All that scenes are made of.
+pub(super) struct Stage<'a> {
+    design: RasterDesign<'a>,
+    registers: &'a [Register],
+    /// Registers of the same core with other thresholds, where it can have them and what it remembers does not
+    /// depend on them.
+    others: Option<&'a [Register]>,
+    random: Random,
+    film: Film,
+}
+
+/// The design with other thresholds, if its hardware is the same and what it remembers does not depend on them.
+pub(super) fn with_other_thresholds(design: &Design) -> Option<Design> {
+    let remembers =
+        design.temporal().reference == Reference::LastSent || design.periphery().is_some();
+    if remembers || design.thresholds() == Thresholds::Constant {
+        return None;
+    }
+    let mut config = design.config();
+    let temporal = &mut config.camera.temporal;
+    let level = temporal.level_at(design.pixel_bits());
+    temporal.level = Some(if level == 0 { 1 } else { level / 2 });
+    temporal.min_count = if temporal.min_count > 1 { 1 } else { 3 };
+    config.validate().ok()
+}
+
+impl<'a> Stage<'a> {
+    pub(super) fn new(
+        design: RasterDesign<'a>,
+        registers: &'a [Register],
+        others: Option<&'a [Register]>,
+        seed: u64,
+    ) -> Self {
+        let mut random = Random::new(seed);
+        let film = Film::new(design, &mut random);
+        Self { design, registers, others, random, film }
+    }
+
+    /// The scenes that every core must pass.
+    pub(super) fn scenes(&mut self) -> Vec<Scene<'a>> {
+        vec![
+            ("video", self.video()),
+            ("full rate", self.full_rate()),
+            ("stalls", self.stalls()),
+            ("damaged video", self.damaged()),
+            ("stopped sink", self.stopped_sink()),
+            ("control", self.control()),
+            ("reset", self.resets()),
+            ("registers", self.register_file()),
+        ]
+    }
+
+    /// Frames of the caller, none of which may be lost.
+    pub(super) fn frames(&mut self, frames: &[Frame]) -> Traffic<'a> {
+        let mut traffic = self.waiting();
+        frames.iter().for_each(|frame| traffic.frame(taken(frame.clone())));
+        self.end(&mut traffic, 0);
+        traffic
+    }
+
+    fn video(&mut self) -> Traffic<'a> {
+        let mut traffic = self.waiting();
+        for _ in 0..self.count() {
+            traffic.frame(taken(self.film.next()));
+        }
+        self.end(&mut traffic, 0);
+        traffic.read(self.address("frames"), Answer::Is(self.count()));
+        traffic.read(self.address("status"), Answer::Is(0));
+        traffic.join();
+        traffic
+    }
+
+    /// No gaps: a core that cannot send all regions at this rate drops some.
+    fn full_rate(&mut self) -> Traffic<'a> {
+        let mut traffic = self.waiting();
+        traffic.gaps(0);
+        traffic.may_drop();
+        for _ in 0..self.count() {
+            traffic.frame(taken(self.film.next()));
+        }
+        self.end(&mut traffic, 0);
+        traffic
+    }
+
+    fn stalls(&mut self) -> Traffic<'a> {
+        let mut traffic = Traffic::new(self.design);
+        traffic.reset();
+        traffic.may_drop();
+        for stalls in [20, 60, 90] {
+            traffic.stalls(stalls);
+            for gaps in [0, 10] {
+                traffic.gaps(gaps);
+                traffic.frame(Sent { fate: Fate::Either, ..taken(self.film.next()) });
+            }
+        }
+        self.end(&mut traffic, 0);
+        traffic
+    }
+
+    fn damaged(&mut self) -> Traffic<'a> {
+        let mut traffic = self.waiting();
+        if !self.is_fast() {
+            // What is missing comes without gaps.
+            traffic.may_drop();
+        }
+        traffic.frame(taken(self.film.next()));
+        let (mut repaired, mut events) = (0, 0);
+        for damage in Damage::ALL {
+            let frame = self.film.next();
+            if let Some(frame) = damage.send(&mut traffic, &mut self.random, &frame) {
+                traffic.expect(taken(frame));
+            }
+            traffic.frame(taken(self.film.next()));
+            repaired += u32::from(damage.is_repaired());
+            events |= self.event(damage.event());
+        }
+        self.end(&mut traffic, events);
+        traffic.read(self.address("repaired"), Answer::Is(repaired));
+        traffic.join();
+        traffic
+    }
+
+    /// The sink takes nothing for some frames. Without `wait` frames are skipped, with it their source waits.
+    fn stopped_sink(&mut self) -> Traffic<'a> {
+        let frame = self.design.timing().clocks_per_frame();
+        let mut traffic = Traffic::new(self.design);
+        traffic.reset();
+        traffic.may_drop();
+        let either = |frame| Sent { fate: Fate::Either, ..taken(frame) };
+        traffic.frame(either(self.film.next()));
+        traffic.hold(3 * frame);
+        for _ in 0..5 {
+            traffic.frame(either(self.film.next()));
+        }
+        traffic.write(self.address("control"), self.control_bits(&["enable", "wait"]));
+        traffic.hold(2 * frame);
+        // One that waited for its turn before may still be skipped.
+        traffic.frame(either(self.film.next()));
+        for _ in 0..2 {
+            traffic.frame(taken(self.film.next()));
+        }
+        self.end(&mut traffic, 0);
+        traffic
+    }
+
+    /// Thresholds, `restart` and `enable` while frames come.
+    fn control(&mut self) -> Traffic<'a> {
+        let control = self.address("control");
+        let mut traffic = self.waiting();
+        let middle = self.design.height() / 2;
+        traffic.frame(taken(self.film.quiet()));
+        let camera = self.other_thresholds(&mut traffic, middle);
+        let next = |film: &mut Film| Sent { camera, ..taken(film.next()) };
+        traffic.frame(next(&mut self.film));
+        traffic.frame(next(&mut self.film));
+        // A restart within a frame waits for its end.
+        let restart = self.control_bits(&["enable", "wait", "restart"]);
+        traffic.frame_around(next(&mut self.film), middle, |traffic| {
+            traffic.write(control, restart);
+        });
+        traffic.frame(Sent { first: true, ..next(&mut self.film) });
+        traffic.frame(next(&mut self.film));
+        // Frames that come while the core is not enabled are left out, and no others.
+        let disabled = self.control_bits(&["wait"]);
+        traffic.frame_around(next(&mut self.film), middle, |traffic| {
+            traffic.write(control, disabled);
+        });
+        let left_out = |film: &mut Film| Sent { fate: Fate::LeftOut, ..taken(film.next()) };
+        traffic.frame(left_out(&mut self.film));
+        let enabled = self.control_bits(&["enable", "wait"]);
+        traffic.frame_around(left_out(&mut self.film), middle, |traffic| {
+            traffic.write(control, enabled);
+        });
+        traffic.frame(next(&mut self.film));
+        traffic.drain();
+        traffic.write(control, restart);
+        traffic.frame(Sent { first: true, ..next(&mut self.film) });
+        traffic.frame(next(&mut self.film));
+        self.end(&mut traffic, 0);
+        traffic
+    }
+
+    /// Writes other thresholds within a frame, which hold from the next one on. Returns the number of their camera.
+    fn other_thresholds(&mut self, traffic: &mut Traffic<'a>, middle: u32) -> usize {
+        let Some(others) = self.others else { return 0 };
+        let written: Vec<(u32, u32)> = others.iter().filter_map(threshold).collect();
+        traffic.frame_around(taken(self.film.quiet()), middle, |traffic| {
+            written.iter().for_each(|&(address, value)| traffic.write(address, value));
+        });
+        1
+    }
+
+    /// Resets at any time: within a frame, while packets leave, and while a word waits for the sink.
+    fn resets(&mut self) -> Traffic<'a> {
+        let mut traffic = self.waiting();
+        let (side, height) = (self.design.region_size(), self.design.height());
+        let decided = (side + side / 2).min(height - 1);
+        for hold in [0, u64::from(u32::MAX), 0] {
+            traffic.frame(taken(self.film.next()));
+            traffic.drain();
+            traffic.may_drop();
+            traffic.hold(hold);
+            let lines = decided + self.random.up_to_u32(height - decided);
+            let cut = Sent { fate: Fate::Cut, ..taken(self.film.noise()) };
+            traffic.torn_frame(cut, lines.min(height));
+            traffic.clocks(self.random.up_to(40));
+            self.begin_waiting(&mut traffic);
+            traffic.frame(taken(self.film.next()));
+            traffic.frame(taken(self.film.next()));
+            traffic.drain();
+            self.begin_waiting(&mut traffic);
+        }
+        traffic.frame(taken(self.film.next()));
+        self.end(&mut traffic, 0);
+        traffic
+    }
+
+    fn register_file(&mut self) -> Traffic<'a> {
+        let mut traffic = Traffic::new(self.design);
+        traffic.reset();
+        for register in self.registers {
+            traffic.read(register.address, Answer::Is(after_reset(register)));
+        }
+        traffic.join();
+        self.strobes(&mut traffic);
+        self.nothing_there(&mut traffic);
+        self.interrupts(&mut traffic);
+        self.storm(&mut traffic);
+        traffic
+    }
+
+    /// Every byte of what can be written, alone and beside others.
+    fn strobes(&mut self, traffic: &mut Traffic<'a>) {
+        for register in self.registers {
+            let mut value = after_reset(register);
+            for strobes in [ALL, NONE, LOWEST, 0b1010, 0b0110, self.random.up_to_u32(ALL), ALL] {
+                let data = self.random.up_to_u32(u32::MAX);
+                let bytes = (0..4).filter(|byte| strobes >> byte & 1 == 1);
+                let bytes = bytes.fold(0_u32, |mask, byte| mask | 0xFF << (8 * byte));
+                let mask = match register.name.as_str() {
+                    "control" | "events" | "interrupt_test" => continue,
+                    _ => writable(register) & bytes,
+                };
+                value = (value & !mask) | (data & mask);
+                traffic.write_bytes(register.address, data, strobes);
+                traffic.read(register.address, Answer::Is(value));
+            }
+            traffic.write_bytes(register.address, after_reset(register), ALL);
+            traffic.read(register.address, Answer::Is(after_reset(register)));
+        }
+        traffic.join();
+    }
+
+    /// Places without a register read as 0, whatever is written.
+    fn nothing_there(&mut self, traffic: &mut Traffic<'a>) {
+        let is_there = |address| self.registers.iter().any(|register| register.address == address);
+        let last = self.registers.last().map_or(0, |register| register.address);
+        for address in [0x044, 0x0FC, last + 4, 0x400 + self.address("control"), END] {
+            if !is_there(address) {
+                traffic.write_bytes(address, u32::MAX, ALL);
+                traffic.read(address, Answer::Is(0));
+            }
+        }
+        traffic.read(self.address("control"), Answer::Is(self.control_bits(&["enable"])));
+        traffic.join();
+    }
+
+    /// Events are set, enabled and taken back one by one.
+    fn interrupts(&mut self, traffic: &mut Traffic<'a>) {
+        let [events, enable, test] =
+            ["events", "interrupt_enable", "interrupt_test"].map(|name| self.address(name));
+        let all = writable(self.register("interrupt_enable"));
+        traffic.interrupt(false);
+        let mut set = 0;
+        for bit in (0..u32::BITS).map(|bit| 1 << bit).filter(|bit| all & bit != 0) {
+            traffic.write_bytes(test, bit, NONE);
+            traffic.read(events, Answer::Is(set));
+            traffic.write(test, bit);
+            set |= bit;
+            traffic.read(events, Answer::Is(set));
+            traffic.write(enable, all & !bit & !set);
+            traffic.interrupt(false);
+            traffic.write(enable, bit);
+            traffic.interrupt(true);
+            traffic.write(enable, 0);
+        }
+        traffic.write_bytes(events, all, NONE);
+        for bit in (0..u32::BITS).map(|bit| 1 << bit).filter(|bit| all & bit != 0) {
+            traffic.write(enable, bit);
+            traffic.interrupt(true);
+            traffic.write(events, bit);
+            traffic.interrupt(false);
+            set &= !bit;
+            traffic.read(events, Answer::Is(set));
+        }
+        traffic.write(enable, 0);
+    }
+
+    /// Reads and writes at the same time, and while a frame passes.
+    fn storm(&mut self, traffic: &mut Traffic<'a>) {
+        let [identity, enable] = ["identity", "interrupt_enable"].map(|name| self.address(name));
+        let identity_value = after_reset(self.register("identity"));
+        let data: Vec<u32> = (0..STORM).map(|_| self.random.up_to_u32(u32::MAX)).collect();
+        traffic.gaps(self.pace());
+        traffic.in_order(false);
+        traffic.frame_around(taken(self.film.next()), 1, |traffic| {
+            for &value in &data {
+                traffic.write_bytes(enable, value, ALL);
+                traffic.read(identity, Answer::Is(identity_value));
+            }
+        });
+        traffic.join();
+        traffic.in_order(true);
+        traffic.write(enable, 0);
+        self.end(traffic, 0);
+    }
+
+    /// A core that was reset, whose source waits where it must, with gaps that let all regions leave.
+    fn waiting(&mut self) -> Traffic<'a> {
+        let mut traffic = Traffic::new(self.design);
+        self.begin_waiting(&mut traffic);
+        traffic
+    }
+
+    fn begin_waiting(&mut self, traffic: &mut Traffic<'a>) {
+        traffic.reset();
+        traffic.stalls(0);
+        traffic.gaps(self.pace());
+        traffic.write(self.address("control"), self.control_bits(&["enable", "wait"]));
+    }
+
+    /// All packets leave, and the counters say what has happened.
+    fn end(&mut self, traffic: &mut Traffic<'a>, events: u32) {
+        traffic.drain();
+        traffic.read(self.address("skipped"), Answer::Skipped);
+        traffic.read(self.address("dropped"), Answer::Dropped);
+        traffic.read(self.address("events"), Answer::Events(events | self.event("frame_done")));
+        traffic.join();
+    }
+
+    /// Gaps, in percent, with which no region is lost: its packet leaves while the pixels of another come.
+    fn pace(&self) -> u32 {
+        let clocks = self.packet_words() * 4 + 1;
+        let share = 100 * self.region_clocks() / (clocks + clocks / 2);
+        100_u32.saturating_sub(share).clamp(25, 95)
+    }
+
+    /// Whether all regions can leave without gaps between the words of the video.
+    fn is_fast(&self) -> bool {
+        let clocks = self.packet_words() * 2 + 1;
+        self.region_clocks() > clocks + clocks / 4
+    }
+
+    /// Words of a REGION with pixels.
+    fn packet_words(&self) -> u32 {
+        let lane = if self.design.pixel_bits() <= 8 { 8 } else { 16 };
+        (self.design.region_size().pow(2) * lane).div_ceil(64) + 2
+    }
+
+    /// Clocks in which the pixels of a region come.
+    fn region_clocks(&self) -> u32 {
+        self.design.region_size().pow(2) / self.design.pixels_per_clock()
+    }
+
+    /// Frames of a scene.
+    fn count(&self) -> u32 {
+        let frames = CLOCKS / self.design.timing().clocks_per_frame().max(1);
+        u32::try_from(frames.clamp(3, 7)).unwrap_or(3)
+    }
+
+    fn register(&self, name: &str) -> &'a Register {
+        let found = self.registers.iter().find(|register| register.name == name);
+        found.expect("every core has this register")
+    }
+
+    fn address(&self, name: &str) -> u32 {
+        self.register(name).address
+    }
+
+    fn control_bits(&self, names: &[&str]) -> u32 {
+        bits(self.register("control"), names)
+    }
+
+    fn event(&self, name: &str) -> u32 {
+        bits(self.register("events"), &[name])
+    }
+}
+
+/// A frame that must leave.
+fn taken(frame: Frame) -> Sent {
+    Sent { frame, fate: Fate::Taken, first: false, camera: 0 }
+}
+
+/// These fields of a register, each of one bit.
+fn bits(register: &Register, names: &[&str]) -> u32 {
+    let named = register.fields.iter().filter(|field| names.contains(&field.name.as_str()));
+    named.fold(0, |bits, field| bits | 1 << field.low)
+}
+
+/// What a register reads as after a reset.
+fn after_reset(register: &Register) -> u32 {
+    register.fields.iter().fold(0, |value, field| {
+        let own = match field.kind {
+            Kind::Constant(own) | Kind::Control { reset: own } | Kind::Threshold { reset: own } => {
+                own
+            }
+            Kind::Status if register.name == "tick_rate" => TICK_RATE,
+            Kind::Status | Kind::Command | Kind::Event => 0,
+        };
+        value | own << field.low
+    })
+}
+
+/// The bits of a register that keep what is written.
+fn writable(register: &Register) -> u32 {
+    register.fields.iter().fold(0, |mask, field| match field.kind {
+        Kind::Control { .. } | Kind::Threshold { .. } => {
+            mask | u32::MAX >> (u32::BITS - field.width) << field.low
+        }
+        Kind::Constant(_) | Kind::Status | Kind::Command | Kind::Event => mask,
+    })
+}
+
+/// Address and value of a register that holds a threshold.
+fn threshold(register: &Register) -> Option<(u32, u32)> {
+    let is_one = |kind: &Kind| matches!(kind, Kind::Threshold { .. });
+    let has = register.fields.iter().any(|field| is_one(&field.kind));
+    has.then(|| (register.address, after_reset(register)))
+}
+
+/// The cameras whose decisions may be asked for: the design's, and the one with other thresholds.
+pub(super) fn cameras(design: &Design, other: Option<&Design>) -> Vec<Camera> {
+    let camera = |design: &Design| Camera::clone(design);
+    std::iter::once(design).chain(other).map(camera).collect()
+}

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The first thing that is wrong on the buses, as a mismatch.
+
+use super::heard::Breach;
+use crate::mismatch::{Mismatch, PortMismatch};
+use std::fmt::LowerHex;
+
+/// The port on which packets leave.
+pub(super) const PACKETS: &str = "m_axis_packets";
+
+/// Something that is not as it must be.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Wrong {
+    pub(super) clock: u64,
+    /// Number of the frame in its packets.
+    pub(super) frame: u64,
+    pub(super) region: Option<u32>,
+    pub(super) port: String,
+    /// What it is about.
+    pub(super) at: String,
+    pub(super) expected: String,
+    pub(super) got: String,
+}
+
+impl Wrong {
+    /// A number on the port of the packets.
+    pub(super) fn number(
+        at: impl Into<String>,
+        expected: impl LowerHex,
+        got: impl LowerHex,
+    ) -> Self {
+        Self {
+            clock: 0,
+            frame: 0,
+            region: None,
+            port: PACKETS.to_owned(),
+            at: at.into(),
+            expected: format!("{expected:x}"),
+            got: format!("{got:x}"),
+        }
+    }
+
+    /// Something that must not be there, or must: 1 is yes, 0 no.
+    pub(super) fn presence(at: impl Into<String>, must: bool) -> Self {
+        Self::number(at, u8::from(must), u8::from(!must))
+    }
+
+    pub(super) fn of_region(self, region: u32) -> Self {
+        Self { region: Some(region), ..self }
+    }
+
+    /// As a mismatch of the scene of this name.
+    pub(super) fn mismatch(self, scene: &str) -> Mismatch {
+        let Self { clock, frame, region, port, at, expected, got } = self;
+        let one = PortMismatch {
+            port: port.clone(),
+            clock,
+            region,
+            score: None,
+            at: at.clone(),
+            expected: expected.clone(),
+            got: got.clone(),
+        };
+        Mismatch {
+            sequence: scene.to_owned(),
+            frame,
+            clock,
+            clock_in_frame: clock,
+            region,
+            port,
+            score: None,
+            at,
+            expected,
+            got,
+            ports: vec![one],
+        }
+    }
+}
+
+impl From<&Breach> for Wrong {
+    fn from(breach: &Breach) -> Self {
+        let Breach { clock, port, what } = breach.clone();
+        Self { clock, port, ..Self::presence(what, false) }
+    }
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Cores on AXI: their packets and registers against the model.
+
+pub(crate) mod faults;
+
+use crate::common::in_parallel;
+use faults::{FAULTS, Fault};
+use foveate_cosim::{BusJob, CosimReport};
+use foveate_design::{Config, Design};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Cache, Tool, Toolchain};
+use std::path::Path;
+
+/// Designs in small frames: words of one pixel and of several, lanes of 8 and of 16 bits, pixels, means and raw ones, all
+/// stores, thresholds as ports and as constants.
+pub(crate) const DESIGNS: &[&[&str]] = &[
+    &["frame={width=64,height=48}"],
+    &["frame={width=70,height=45}", "render.irrelevant='mean'", "hardware.sync=true"],
+    &[
+        "frame={width=101,height=50}",
+        "temporal.reference='last-sent'",
+        "hardware.pixels_per_clock=2",
+        "hardware.pipelining='deep'",
+    ],
+    &[
+        "frame={width=83,height=33,pixel_bits=12}",
+        "region.size=5",
+        "render.payload='raw'",
+        "spatial=[{feature='variance'}]",
+    ],
+    &[
+        "frame={width=130,height=40,pixel_bits=10}",
+        "region.size=4",
+        "spatial=[{feature='mad'},{feature='edge'}]",
+        "render.irrelevant='hold'",
+        "hardware.pixels_per_clock=4",
+    ],
+    &[
+        "frame={width=72,height=33}",
+        "region.size=4",
+        "spatial=[{feature='mad'}]",
+        "hardware.store='external'",
+    ],
+    &[
+        "frame={width=48,height=36}",
+        "region.size=6",
+        "hardware.thresholds='constant'",
+        "hardware.store='single-port'",
+    ],
+    &[
+        "frame={width=96,height=24,pixel_bits=16}",
+        "render={irrelevant='mean',payload='raw'}",
+        "periphery.blocks=4",
+        "hardware.pixels_per_clock=2",
+    ],
+];
+
+pub(crate) fn on_axi(keys: &[&str]) -> Design {
+    let raster = Config::from_toml_with("", &["hardware.organization='raster'"]).unwrap();
+    let config = Config::from_toml_with(&raster.to_toml(), keys).unwrap();
+    Config::from_toml_with(&config.to_toml(), &["hardware.interface='axi'"])
+        .unwrap()
+        .validate()
+        .unwrap_or_else(|error| panic!("{keys:?}: {error}"))
+}
+
+pub(crate) fn run(
+    design: &Design,
+    output: &Path,
+    edit: impl FnOnce(&mut BusJob),
+) -> Result<CosimReport, String> {
+    let mut job = BusJob::new(design, output).unwrap();
+    edit(&mut job);
+    let cache = Cache::from_env().unwrap();
+    job.run(&Toolchain::system(), &cache, &mut |_| {}).map_err(|error| error.to_string())
+}
+
+#[test]
+fn packets_and_registers_of_cores_on_axi_are_those_of_the_model() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let failures = in_parallel(DESIGNS, |keys| {
+        let design = on_axi(keys);
+        let folder = output.path().join(design.fingerprint());
+        let report = run(&design, &folder, |_| {})?;
+        match &report.mismatch {
+            None if report.passed() => Ok(()),
+            _ => Err(format!("{keys:?}: {report}: {:?}", report.mismatch)),
+        }
+    });
+    assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+#[test]
+fn every_planted_fault_of_what_stands_around_an_array_is_caught() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let numbered: Vec<(usize, &Fault)> = FAULTS.iter().enumerate().collect();
+    let failures = in_parallel(&numbered, |(number, fault)| {
+        let Fault { module, from, to, design } = fault;
+        let design = on_axi(design);
+        let path = format!("rtl/{module}.v");
+        let mut found = 0;
+        let report = run(&design, &output.path().join(number.to_string()), |job| {
+            for file in job.sources.iter_mut().filter(|file| file.path == path) {
+                found = file.contents.matches(from).count();
+                file.contents = file.contents.replace(from, to);
+            }
+        });
+        match report {
+            _ if found != 1 => Err(format!("{module}: `{from}` is there {found} times")),
+            Err(error) => Err(format!("{module}, `{from}` -> `{to}`: {error}")),
+            Ok(report) => match &report.mismatch {
+                Some(_) => Ok(()),
+                None => Err(format!("{module}: not caught: `{from}` -> `{to}`")),
+            },
+        }
+    });
+    assert!(
+        failures.is_empty(),
+        "{} of {}:\n{}",
+        failures.len(),
+        FAULTS.len(),
+        failures.join("\n")
+    );
+}
+
+/// Else a fault would be caught that is none.
+#[test]
+fn the_designs_of_the_faults_pass_without_one() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let output = tempfile::tempdir().unwrap();
+    let designs = [faults::SMALL, faults::ODD, faults::MEANS, faults::SHORT];
+    let failures = in_parallel(&designs, |keys| {
+        let design = on_axi(keys);
+        let report = run(&design, &output.path().join(design.fingerprint()), |_| {})?;
+        match &report.mismatch {
+            None if report.passed() => Ok(()),
+            _ => Err(format!("{keys:?}: {report}: {:?}", report.mismatch)),
+        }
+    });
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
