@@ -90,6 +90,15 @@ impl Design {
         self.hardware.bus()
     }
 
+    /// Whether the core stands on AXI.
+    #[must_use]
+    pub fn is_on_axi(&self) -> bool {
+        match self.bus() {
+            Bus::Ports => false,
+            Bus::Axi => true,
+        }
+    }
+
     /// Whether the array is told where frames start, and finds them again; see `docs/sync.md`.
     #[must_use]
     pub fn syncs(&self) -> bool {

@@ -52,6 +52,7 @@ struct Readme {
     /// When the bench for `rpu` compares an output, beside "at every clock".
     compared: &'static str,
     has_rpu: bool,
+    on_axi: bool,
 }
 
 #[derive(Template)]
@@ -103,6 +104,7 @@ struct SerialReadme {
     /// When the bench for `rpu` compares an output, beside "at every clock".
     compared: &'static str,
     has_rpu: bool,
+    on_axi: bool,
 }
 
 /// A stream of the core.
@@ -189,6 +191,7 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
         has_rpu: Top::has_rpu(&design),
+        on_axi: design.is_on_axi(),
         compared: " at which it is valid",
     }
 }
@@ -251,6 +254,7 @@ fn pipelined_view(design: PipelinedDesign<'_>, prefix: &Prefix, timing: Pipeline
         instance: instance(&design, prefix),
         synthesized: crate::synth::top(&design).module(),
         has_rpu: Top::has_rpu(&design),
+        on_axi: design.is_on_axi(),
         compared: "",
     }
 }

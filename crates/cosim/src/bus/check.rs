@@ -10,6 +10,7 @@ use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_packets::{
     Decision, End, Found, FrameInfo, Layout, Packet, Region, Row, Splitter, write,
 };
+use std::ops::AddAssign;
 
 /// Frequency of the clock, as the parameter of the core has it.
 pub(super) const TICK_RATE: u32 = 100_000_000;
@@ -23,6 +24,13 @@ pub(super) struct Agreed {
     pub(super) frames: u64,
     /// Packets and registers that were compared.
     pub(super) comparisons: u64,
+}
+
+impl AddAssign for Agreed {
+    fn add_assign(&mut self, more: Self) {
+        self.frames += more.frames;
+        self.comparisons += more.comparisons;
+    }
 }
 
 /// What is known of a core, over all that happens to it.
@@ -63,8 +71,7 @@ impl<'a> Checker<'a> {
                 Some(breach) if breach.clock <= wrong.clock => breach.clone(),
                 _ => wrong,
             })?;
-            agreed.frames += found.frames;
-            agreed.comparisons += found.comparisons;
+            agreed += found;
         }
         first_breach.map_or(Ok(agreed), Err)
     }

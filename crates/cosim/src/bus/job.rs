@@ -10,10 +10,11 @@ use super::traffic::Traffic;
 use crate::error::CosimError;
 use crate::job::Progress;
 use crate::level::Level;
+use crate::mismatch::Mismatch;
 use crate::replay;
 use crate::report::{CosimReport, Seconds};
 use crate::simulate::{Simulator, UNKNOWN_START, WAVES_FILE};
-use foveate_design::{Bus, Design, Hardware, RasterDesign};
+use foveate_design::{Design, RasterDesign};
 use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, on_bus, registers};
 use foveate_frame::Frame;
 use foveate_toolchain::verilator::{self, Lint, Optimize, VerilatorJob};
@@ -57,6 +58,18 @@ struct Built {
     sources: Vec<Source>,
     program: String,
     executable: PathBuf,
+    /// Version of Verilator.
+    version: String,
+}
+
+/// What all scenes came to.
+#[derive(Default)]
+struct Outcome {
+    clocks: u64,
+    agreed: Agreed,
+    mismatch: Option<Mismatch>,
+    /// The folder that replays it.
+    replay: Option<PathBuf>,
 }
 
 /// What a scene came to.
@@ -110,20 +123,16 @@ impl BusJob {
         cache: &Cache,
         progress: &mut dyn FnMut(Progress),
     ) -> Result<CosimReport, CosimError> {
-        let own = match (self.design.bus(), self.design.hardware()) {
-            (Bus::Axi, Hardware::Raster(own)) => own,
-            _ => panic!("the design is not on a bus"),
-        };
-        let design = self.design.on(own);
+        let design = self.design.raster().expect("only a raster design is on a bus");
         self.check_frames()?;
         replay::check(&self.output)?;
-        let version = toolchain.find(Tool::Verilator)?.banner;
+        toolchain.find(Tool::Verilator)?;
         replay::remove(&self.output)?;
 
         let start = Instant::now();
         let other = with_other_thresholds(&self.design);
+        let others = other.as_ref().and_then(Design::raster).map(registers);
         let registers = registers(design);
-        let others = other.as_ref().and_then(registers_of);
         let cameras = cameras(&self.design, other.as_ref());
         let scenes = self.scenes(design, &registers, others.as_deref());
         let vectors = start.elapsed();
@@ -139,47 +148,15 @@ impl BusJob {
 
         let start = Instant::now();
         let checker = Checker::new(design, &cameras, &registers);
-        let (mut clocks, mut agreed, mut mismatch, mut left) = (0, Agreed::default(), None, None);
-        for (name, traffic) in &scenes {
-            let folder = tempfile::tempdir()
-                .map_err(CosimError::temporary("create a folder in", &std::env::temp_dir()))?;
-            let played = self.play(&built, traffic, folder.path(), toolchain)?;
-            clocks += played.record.clocks.unwrap_or_default();
-            if *name == FRAMES {
-                self.keep_packets(&played.record)?;
-            }
-            match checker.check(traffic.sessions(), &played.record) {
-                Ok(more) => {
-                    agreed.frames += more.frames;
-                    agreed.comparisons += more.comparisons;
-                }
-                Err(wrong) => {
-                    let found = wrong.mismatch(name);
-                    let replay = Replay {
-                        top: &built.top,
-                        sources: &built.sources,
-                        program: &built.program,
-                        traffic: traffic.text(),
-                        heard: &played.heard,
-                        waves: played.waves.as_deref(),
-                        mismatch: &found,
-                        version: &version,
-                        seed: self.seed,
-                        fingerprint: &self.design.fingerprint(),
-                    };
-                    left = Some(replay.write(&self.output)?);
-                    mismatch = Some(found);
-                    break;
-                }
-            }
-        }
+        let Outcome { clocks, agreed, mismatch, replay } =
+            self.play_all(&built, &scenes, &checker, toolchain)?;
         Ok(CosimReport {
             name: self.name(),
             design: self.design.fingerprint(),
             level: Level::Full,
             grid: (design.columns(), design.rows()),
             simulator: Simulator::Verilator,
-            simulator_version: version,
+            simulator_version: built.version,
             rtl_sha256: sources_sha256(&built.sources),
             netlist: None,
             seed: self.seed,
@@ -188,7 +165,7 @@ impl BusJob {
             clocks,
             comparisons: agreed.comparisons,
             mismatch,
-            replay: left,
+            replay,
             waves: None,
             seconds: Seconds {
                 vectors: vectors.as_secs_f64(),
@@ -254,7 +231,61 @@ impl BusJob {
             ..VerilatorJob::default()
         };
         let executable = verilator::build(toolchain, cache, &job)?;
-        Ok(Built { top, sources, program, executable })
+        let version = toolchain.find(Tool::Verilator)?.banner;
+        Ok(Built { top, sources, program, executable, version })
+    }
+
+    /// Plays one scene after the other, up to one that is not as the model says.
+    fn play_all(
+        &self,
+        built: &Built,
+        scenes: &[Scene<'_>],
+        checker: &Checker<'_>,
+        toolchain: &Toolchain,
+    ) -> Result<Outcome, CosimError> {
+        let mut outcome = Outcome::default();
+        for (name, traffic) in scenes {
+            let folder = tempfile::tempdir()
+                .map_err(CosimError::temporary("create a folder in", &std::env::temp_dir()))?;
+            let played = self.play(built, traffic, folder.path(), toolchain)?;
+            outcome.clocks += played.record.clocks.unwrap_or_default();
+            if *name == FRAMES {
+                self.keep_packets(&played.record)?;
+            }
+            match checker.check(traffic.sessions(), &played.record) {
+                Ok(more) => outcome.agreed += more,
+                Err(wrong) => {
+                    let mismatch = wrong.mismatch(name);
+                    outcome.replay = Some(self.leave(built, traffic, &played, &mismatch)?);
+                    outcome.mismatch = Some(mismatch);
+                    break;
+                }
+            }
+        }
+        Ok(outcome)
+    }
+
+    /// Leaves a folder that plays a scene again.
+    fn leave(
+        &self,
+        built: &Built,
+        traffic: &Traffic<'_>,
+        played: &Played,
+        mismatch: &Mismatch,
+    ) -> Result<PathBuf, CosimError> {
+        let replay = Replay {
+            top: &built.top,
+            sources: &built.sources,
+            program: &built.program,
+            traffic: traffic.text(),
+            heard: &played.heard,
+            waves: played.waves.as_deref(),
+            mismatch,
+            version: &built.version,
+            seed: self.seed,
+            fingerprint: &self.design.fingerprint(),
+        };
+        replay.write(&self.output)
     }
 
     fn play(
@@ -297,13 +328,5 @@ impl BusJob {
         let parcels = record.sessions.iter().flat_map(|heard| &heard.parcels);
         let bytes: Vec<u8> = parcels.flat_map(|parcel| parcel.bytes.iter().copied()).collect();
         Ok(foveate_staging::write_file(file, &bytes)?)
-    }
-}
-
-/// The registers of a design on a bus.
-fn registers_of(design: &Design) -> Option<Vec<Register>> {
-    match design.hardware() {
-        Hardware::Raster(own) => Some(registers(design.on(own))),
-        Hardware::Pipelined(_) | Hardware::Serial(_) => None,
     }
 }

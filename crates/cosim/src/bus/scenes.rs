@@ -37,10 +37,15 @@ pub(super) struct Stage<'a> {
 
 /// The design with other thresholds, if its hardware is the same and what it remembers does not depend on them.
 pub(super) fn with_other_thresholds(design: &Design) -> Option<Design> {
-    let remembers =
-        design.temporal().reference == Reference::LastSent || design.periphery().is_some();
-    if remembers || design.thresholds() == Thresholds::Constant {
-        return None;
+    match (design.temporal().reference, design.periphery(), design.thresholds()) {
+        (Reference::Previous, None, Thresholds::Runtime) => {}
+        (
+            Reference::Previous | Reference::LastSent,
+            _,
+            Thresholds::Runtime | Thresholds::Constant,
+        ) => {
+            return None;
+        }
     }
     let mut config = design.config();
     let temporal = &mut config.camera.temporal;

@@ -81,6 +81,7 @@ struct Readme {
     synthesized: &'static str,
     compared: &'static str,
     has_rpu: bool,
+    on_axi: bool,
 }
 
 pub(crate) fn raster_readme(design: RasterDesign<'_>, prefix: &Prefix) -> String {
@@ -145,6 +146,7 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         synthesized: crate::synth::top(&design).module(),
         sync: sync::section(&design, "word", ""),
         has_rpu: Top::has_rpu(&design),
+        on_axi: design.is_on_axi(),
         compared: " at which it is valid",
     }
 }

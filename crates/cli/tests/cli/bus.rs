@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A core on AXI, end to end: generated, simulated, its packets decoded, and broken.
+
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{fail_in, run_in, succeed_in};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Tool, Toolchain};
+
+/// Writes a small core on AXI into `core`.
+fn core(folder: &Path) {
+    let settings = [
+        "hardware.interface=\"axi\"",
+        "frame={width=64,height=48}",
+        "render.irrelevant=\"mean\"",
+        "denoise.filter=\"none\"",
+        "spatial=[{feature=\"variance\"}]",
+    ];
+    let mut args = vec!["generate", "--preset", "raster", "--prefix", "cam0", "-o", "core"];
+    settings.iter().for_each(|setting| args.extend(["--set", setting]));
+    succeed_in(folder, &args);
+}
+
+#[test]
+fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    core(dir.path());
+    let cosim = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl"];
+    let clip = ["scene:street", "--frames", "5"];
+    let text = succeed_in(dir.path(), &[&cosim[..], &clip, &["--packets", "packets.bin"]].concat());
+    assert!(
+        text.contains("axi verilator:") && text.matches("values compared").count() == 3,
+        "{text}"
+    );
+
+    let design = ["--config", "core/design.toml"];
+    succeed_in(dir.path(), &[&["decode", "packets.bin", "-o", "seen"][..], &design].concat());
+    let simulate = [&["simulate", "-o", "sim"][..], &clip, &design].concat();
+    succeed_in(dir.path(), &simulate);
+    let names = ["active.npy", "srs.npy", "trs.npy"].map(str::to_owned);
+    let pictures = (0..5).map(|frame| format!("rendered/{frame:06}.png"));
+    for name in names.into_iter().chain(pictures) {
+        let [seen, sim] =
+            ["seen", "sim"].map(|folder| fs::read(dir.path().join(folder).join(&name)));
+        assert_eq!(seen.unwrap(), sim.unwrap(), "{name}");
+    }
+}
+
+#[test]
+fn edited_verilog_around_an_array_is_caught_and_replayed() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    core(dir.path());
+    let path = dir.path().join("core/rtl/cam0_packet_writer.v");
+    let sound = fs::read_to_string(&path).unwrap();
+    fs::write(&path, sound.replace("last_o = data_last_q", "last_o = 1'b0")).unwrap();
+    let cosim = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl", "--level", "axi"];
+    let outcome = run_in(dir.path(), &[&cosim[..], &["--junit", "cosim.xml", "--trace"]].concat());
+    assert_eq!(outcome.code, 1, "{}", outcome.stderr);
+    for part in ["sequence \"video\"", "m_axis_packets", "foveate-replay/replay.sh"] {
+        assert!(outcome.stdout.contains(part), "{}", outcome.stdout);
+    }
+    let junit = fs::read_to_string(dir.path().join("cosim.xml")).unwrap();
+    assert!(junit.contains("<failure") && junit.contains("m_axis_packets"), "{junit}");
+    let folder = dir.path().join("foveate-replay");
+    assert!(folder.join("waves.fst").is_file() && folder.join("traffic.txt").is_file());
+    let replay = Command::new(folder.join("replay.sh")).output().unwrap();
+    assert_eq!(replay.status.code(), Some(1), "it shows the same");
+
+    fs::write(&path, sound).unwrap();
+    succeed_in(dir.path(), &cosim);
+    assert!(!folder.exists(), "what an earlier run has left is gone");
+    fs::remove_file(dir.path().join("core/rtl/cam0_rcm_axi.v")).unwrap();
+    let missing = run_in(dir.path(), &cosim);
+    assert!(missing.stderr.contains("no module `cam0_rcm_axi`"), "{}", missing.stderr);
+}
+
+#[test]
+fn options_of_cores_on_axi_are_refused_elsewhere() {
+    let dir = tempfile::tempdir().unwrap();
+    let ports = ["hardware.interface", "\"ports\"", "\"axi\""];
+    fail_in(dir.path(), 2, &["cosim", "--preset", "raster", "--level", "axi"], &ports);
+    let packets = ["cosim", "--preset", "raster", "scene:street", "--packets", "p.bin"];
+    fail_in(dir.path(), 2, &packets, &ports);
+    core(dir.path());
+    let part = ["cosim", "--config", "core/design.toml", "--level", "axi", "--netlist"];
+    fail_in(dir.path(), 2, &part, &["--level axi", "--netlist"]);
+    let nothing = run_in(dir.path(), &["cosim", "--packets", "p.bin"]);
+    assert!(nothing.code == 2 && nothing.stderr.contains("<INPUT>"), "{}", nothing.stderr);
+}
+
+/// Every C compiler takes the header, without a warning.
+#[test]
+fn the_registers_of_a_core_are_c() {
+    if !require_tools(&[Tool::Cxx]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    core(dir.path());
+    let source = "#include \"foveate_registers.h\"\n#include \"foveate_registers.h\"\nint main(void) { return 0; }\n";
+    fs::write(dir.path().join("core/software/main.c"), source).unwrap();
+    let compiler = Toolchain::system().find(Tool::Cxx).unwrap().path;
+    let checks = [
+        "-x",
+        "c",
+        "-std=c99",
+        "-Wall",
+        "-Wextra",
+        "-Werror",
+        "-pedantic",
+        "-fsyntax-only",
+        "main.c",
+    ];
+    let folder = dir.path().join("core/software");
+    let output = Command::new(compiler).args(checks).current_dir(folder).output().unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+}
