@@ -54,6 +54,7 @@ step_lint() { scripts/lint.sh && scripts/area_growth.py; }
 step_formal() { scripts/formal.sh; }
 step_coverage() { scripts/coverage.sh; }
 step_sdist() { scripts/sdist.sh; }
+step_buses() { scripts/buses.sh; }
 step_newer() { scripts/newer_tools.sh; }
 step_mutation() { scripts/mutation.sh --table --resume; }
 step_memory() { scripts/memory.sh; }
@@ -61,7 +62,7 @@ step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart cosim benches netlists area lint formal coverage sdist newer mutation memory bench)
+steps=(test quickstart cosim benches netlists area lint formal buses coverage sdist newer mutation memory bench)
 
 case ${1:-} in
 -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;

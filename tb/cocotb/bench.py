@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A core on AXI between parts that we did not write: sources, sinks and masters of cocotbext-axi."""
+
+import json
+import os
+import random
+from pathlib import Path
+
+from cocotb.clock import Clock
+from cocotb.triggers import ClockCycles, RisingEdge
+from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiStreamBus, AxiStreamFrame, AxiStreamSink, AxiStreamSource
+
+# What the runner says of the core: frame size, bits, pixels per clock, clocks of a line, registers.
+CORE = json.loads(Path(os.environ["FOVEATE_CORE"]).read_text())
+# Where each test leaves the frames that a receiver must see, and the packets that left.
+OUT = Path(os.environ["FOVEATE_OUT"])
+WIDTH, HEIGHT, BITS, LANES = (CORE[key] for key in ("width", "height", "bits", "lanes"))
+WORDS = -(-WIDTH // LANES)
+REGISTERS = CORE["registers"]
+
+
+def paused(percent, seed):
+    """Endless: whether there is a pause at a clock."""
+    chance = random.Random(seed)
+    while True:
+        yield chance.randrange(100) < percent
+
+
+class Bench:
+    """The core with its clock, and what is connected to it."""
+
+    def __init__(self, dut, name):
+        self.dut = dut
+        self.folder = OUT / name
+        self.random = random.Random(name)
+        self.expected = []  # frames, as the array sees them
+        reset = {"reset": dut.aresetn, "reset_active_level": False}
+        video = AxiStreamBus.from_prefix(dut, "s_axis_video")
+        # A "byte" of the source is a word of the video.
+        self.video = AxiStreamSource(video, dut.aclk, byte_lanes=1, **reset)
+        self.packets = AxiStreamSink(AxiStreamBus.from_prefix(dut, "m_axis_packets"), dut.aclk, **reset)
+        self.registers = AxiLiteMaster(AxiLiteBus.from_prefix(dut, "s_axi"), dut.aclk, **reset)
+        Clock(dut.aclk, 10, unit="ns").start()
+
+    async def reset(self):
+        """Resets the core; what comes from now on is a new run."""
+        self.dut.aresetn.value = 0
+        await ClockCycles(self.dut.aclk, 5)
+        self.packets.clear()
+        self.video.clear()
+        self.expected.clear()
+        self.dut.aresetn.value = 1
+        await RisingEdge(self.dut.aclk)
+
+    async def write(self, register, value):
+        await self.registers.write_dword(REGISTERS[register], value)
+
+    async def read(self, register):
+        return await self.registers.read_dword(REGISTERS[register])
+
+    def pace(self, gaps, stalls):
+        """Pauses at random, in percent of the clocks."""
+        self.video.set_pause_generator(paused(gaps, 1))
+        self.packets.set_pause_generator(paused(stalls, 2))
+
+    def send(self, pixels, first=False):
+        """A line, however long; `first` says that it begins a frame."""
+        self.send_words(words(pixels), [first] + [False] * (len(words(pixels)) - 1))
+
+    def send_words(self, line, starts):
+        frame = AxiStreamFrame(tdata=list(line), tuser=[int(start) for start in starts])
+        self.video.send_nowait(frame)
+
+    def send_frame(self, frame):
+        for y, row in enumerate(frame):
+            self.send(row, y == 0)
+        self.expected.append(frame)
+
+    async def drain(self):
+        """Until all has been taken, and nothing has left for a while."""
+        await self.video.wait()
+        quiet = 0
+        while quiet < CORE["quiet"]:
+            await ClockCycles(self.dut.aclk, 50)
+            quiet = 0 if self.dut.m_axis_packets_tvalid.value else quiet + 50
+
+    def keep(self):
+        """Writes what came and what must be seen, for `foveate decode` and `foveate simulate`."""
+        frames = self.folder / "frames"
+        frames.mkdir(parents=True)
+        largest = 2**BITS - 1
+        size = 1 if largest < 256 else 2
+        for number, frame in enumerate(self.expected):
+            pixels = b"".join(pixel.to_bytes(size, "big") for row in frame for pixel in row)
+            header = f"P5 {WIDTH} {HEIGHT} {largest}\n".encode()
+            (frames / f"{number:04}.pgm").write_bytes(header + pixels)
+        packets = b""
+        while not self.packets.empty():
+            packets += bytes(self.packets.recv_nowait(compact=False).tdata)
+        (self.folder / "packets.bin").write_bytes(packets)
+        return packets
+
+
+def words(pixels):
+    """The words of a line: the left pixel in the lowest bits."""
+    groups = [pixels[at : at + LANES] for at in range(0, len(pixels), LANES)]
+    return [sum(pixel << (BITS * place) for place, pixel in enumerate(group)) for group in groups]
+
+
+def clip(count, seed):
+    """Frames in which a block of noise moves; the last of three is all noise."""
+    chance = random.Random(seed)
+    grey = 2**BITS - 1
+    tiles = [[chance.randrange(grey) for _ in range(WIDTH // 4 + 1)] for _ in range(HEIGHT // 4 + 1)]
+    frames = []
+    for number in range(count):
+        left, top = number * 5 % (WIDTH - 16), number * 3 % (HEIGHT - 16)
+
+        def pixel(x, y, all_noise=number % 3 == 2, left=left, top=top):
+            inside = left <= x < left + 16 and top <= y < top + 16
+            return chance.randint(0, grey) if inside or all_noise else tiles[y // 4][x // 4]
+
+        frames.append([[pixel(x, y) for x in range(WIDTH)] for y in range(HEIGHT)])
+    return frames
+
+
+def cut(row, count):
+    """A line of which only so many words come, and what the core makes of it: it goes on with its last pixel."""
+    kept = row[: count * LANES]
+    return kept, kept + [kept[-1]] * (len(row) - len(kept))
+
+
+def short(frame, lines):
+    """A frame of which only so many lines come: it goes on with the last."""
+    return frame[:lines] + [frame[lines - 1]] * (len(frame) - lines)

@@ -1,0 +1,181 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""What docs/axi.md promises, played by cocotbext-axi. The runner decodes the packets of each test, and compares what a receiver
+sees with what `simulate` says of the frames that each test expects."""
+
+import cocotb
+from bench import HEIGHT, LANES, REGISTERS, WIDTH, WORDS, Bench, clip, cut, short, words
+from cocotb.triggers import ClockCycles, Combine
+
+ENABLE, WAIT, RESTART = 1, 2, 4
+EOL_EARLY, EOL_LATE, SOF_EARLY, SOF_LATE, SKIPPED, REGION, ROW, DONE = (1 << bit for bit in range(8))
+
+
+async def begin(dut, name, gaps=40, stalls=0):
+    """A core that was reset, whose source waits where it must."""
+    bench = Bench(dut, name)
+    await bench.reset()
+    await bench.write("control", ENABLE | WAIT)
+    bench.pace(gaps, stalls)
+    return bench
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def clean_video(dut):
+    """Pauses on both sides: nothing is lost."""
+    bench = await begin(dut, "clean_video", gaps=50, stalls=15)
+    for frame in clip(5, 1):
+        bench.send_frame(frame)
+    await bench.drain()
+    assert await bench.read("frames") == 5
+    assert await bench.read("events") == DONE
+    bench.keep()
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def damaged_video(dut):
+    """Every kind of damage, each before a whole frame."""
+    bench = await begin(dut, "damaged_video", gaps=60)
+    frames = iter(clip(16, 2))
+
+    # Lines that are too short.
+    frame = [list(row) for row in next(frames)]
+    for y, row in enumerate(frame):
+        kept, frame[y] = cut(row, (y * 7) % (WORDS - 1) + 1) if y % 5 == 0 else (row, row)
+        bench.send(kept, y == 0)
+    bench.expected.append(frame)
+    bench.send_frame(next(frames))
+
+    # Lines that are too long, the last one among them.
+    frame = next(frames)
+    for y, row in enumerate(frame):
+        bench.send(row + [1] * (LANES * (y % 4)) if WIDTH % LANES == 0 else row, y == 0)
+    bench.expected.append(frame)
+    bench.send_frame(next(frames))
+
+    # A frame that ends between two lines.
+    frame = short(next(frames), HEIGHT // 2)
+    for y, row in enumerate(frame[: HEIGHT // 2]):
+        bench.send(row, y == 0)
+    bench.expected.append(frame)
+    bench.send_frame(next(frames))
+
+    # A frame that ends within a line: the start of the next comes without an end of that line.
+    frame, following = next(frames), next(frames)
+    for y, row in enumerate(frame[:3]):
+        bench.send(row, y == 0)
+    kept, last = cut(frame[3], WORDS // 3)
+    line, start = words(kept), words(following[0])
+    bench.send_words(line + start, [False] * len(line) + [True] + [False] * (len(start) - 1))
+    for row in following[1:]:
+        bench.send(row)
+    bench.expected += [short(frame[:3] + [last] + frame[4:], 4), following]
+
+    # Words behind a whole frame, and a frame without a start.
+    bench.send_frame(next(frames))
+    bench.send(next(frames)[0])
+    bench.send_frame(next(frames))
+    for row in next(frames):
+        bench.send(row)
+    bench.send_frame(next(frames))
+
+    await bench.drain()
+    repaired = 4 if WIDTH % LANES == 0 else 3
+    assert await bench.read("repaired") == repaired
+    late = EOL_LATE if WIDTH % LANES == 0 else 0
+    assert await bench.read("events") == EOL_EARLY | late | SOF_EARLY | SOF_LATE | DONE
+    assert await bench.read("skipped") == 0
+    bench.keep()
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def sink_that_stops(dut):
+    """A sink that takes nothing for frames: with `wait` the source waits, and what leaves is whole."""
+    bench = await begin(dut, "sink_that_stops", gaps=20)
+    frames = clip(6, 3)
+    for frame in frames:
+        bench.send_frame(frame)
+    for _ in range(3):
+        await ClockCycles(dut.aclk, WORDS * HEIGHT)
+        bench.packets.pause = True
+        bench.packets.clear_pause_generator()
+        await ClockCycles(dut.aclk, 2 * WORDS * HEIGHT)
+        bench.packets.pause = False
+    await bench.drain()
+    assert await bench.read("skipped") == 0
+    assert await bench.read("frames") == len(frames)
+    assert bool(await bench.read("dropped")) == bool(await bench.read("events") & REGION)
+    bench.keep()
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def register_storm(dut):
+    """Reads and writes by the byte, while video comes: no one disturbs the other."""
+    bench = await begin(dut, "register_storm", gaps=40)
+    for frame in clip(3, 4):
+        bench.send_frame(frame)
+
+    async def reads():
+        for _ in range(300):
+            assert await bench.registers.read(REGISTERS["identity"], 4) is not None
+            assert await bench.read("identity") == int.from_bytes(b"FOVE", "little")
+
+    async def writes():
+        address = REGISTERS["interrupt_enable"]
+        for number in range(300):
+            await bench.registers.write(address + number % 4, bytes([number % 256]))
+        await bench.write("interrupt_enable", 0xA5)
+        # The other bytes of the register are not those of the events.
+        await bench.registers.write(address + 1, bytes([0x5A] * 3))
+
+    await Combine(cocotb.start_soon(reads()), cocotb.start_soon(writes()))
+    assert await bench.read("interrupt_enable") == 0xA5
+    await bench.drain()
+    assert await bench.read("events") == DONE
+    assert dut.interrupt_o.value == 1
+    await bench.write("events", DONE)
+    assert await bench.read("events") == 0
+    assert dut.interrupt_o.value == 0
+    await bench.write("interrupt_test", REGION | DONE)
+    assert await bench.read("events") == REGION | DONE
+    bench.keep()
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def reset_in_the_middle(dut):
+    """A reset while pixels come and packets leave: then all is as at the first day."""
+    bench = await begin(dut, "reset_in_the_middle", gaps=0, stalls=60)
+    for frame in clip(3, 5):
+        bench.send_frame(frame)
+    await ClockCycles(dut.aclk, 2 * WORDS * HEIGHT + 331)
+    await bench.reset()
+    await bench.write("control", ENABLE | WAIT)
+    bench.pace(40, 0)
+    for frame in clip(3, 6):
+        bench.send_frame(frame)
+    await bench.drain()
+    assert await bench.read("frames") == 3
+    assert await bench.read("dropped") == 0
+    bench.keep()
+
+
+@cocotb.test(timeout_time=5, timeout_unit="ms")
+async def not_enabled(dut):
+    """Frames that come while `enable` is 0 are left out, and `restart` forgets those before."""
+    bench = await begin(dut, "not_enabled")
+    frames = clip(5, 7)
+    bench.send_frame(frames[0])
+    await bench.drain()
+    bench.packets.clear()
+    bench.expected.clear()
+    await bench.write("control", WAIT)
+    for y, row in enumerate(frames[1]):
+        bench.send(row, y == 0)
+    await bench.video.wait()
+    await ClockCycles(dut.aclk, 20)
+    await bench.write("control", ENABLE | WAIT | RESTART)
+    for frame in frames[2:]:
+        bench.send_frame(frame)
+    await bench.drain()
+    assert await bench.read("skipped") == 0
+    assert await bench.read("frames") == 5
+    bench.keep()
