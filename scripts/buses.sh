@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Cores on AXI in Icarus, between sources, sinks and masters of cocotbext-axi; see the head of scripts/buses.py. Installs what it
-# needs, but for Icarus and Rust.
+# Cores on AXI between parts that we did not write: their register tables before the compiler of PeakRDL (scripts/registers.py),
+# and themselves in Icarus, between sources, sinks and masters of cocotbext-axi (scripts/buses.py). Installs what it needs, but
+# for Icarus and Rust.
 #
 #   scripts/buses.sh            all designs, and faults that the tests must find
-#   scripts/buses.sh --quick    the first
+#   scripts/buses.sh --quick    the registers, and the first design
 #
 # FOVEATE   the program (default: built here)
 set -euo pipefail
@@ -13,4 +14,5 @@ cd "$(dirname "$0")/.."
 tools=$(scripts/python_tools.sh --buses)
 FOVEATE=${FOVEATE:-$(scripts/foveate.sh)}
 export FOVEATE
+"$tools/python" scripts/registers.py
 exec "$tools/python" scripts/buses.py "$@"

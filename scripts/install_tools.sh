@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, iverilog, a C++
-# compiler, ffmpeg, shellcheck, Python.
+# compiler (with that for 32 bits), ffmpeg, shellcheck, Tcl, Python.
 # Debian 12, Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. Elsewhere it says what to install.
 set -euo pipefail
 
@@ -23,6 +23,9 @@ command -v g++ >/dev/null || missing+=(g++)
 command -v shellcheck >/dev/null || missing+=(shellcheck)
 # FST waves of a Verilator model need zlib's header.
 [ -e /usr/include/zlib.h ] || missing+=(zlib1g-dev)
+command -v tclsh >/dev/null || missing+=(tcl)
+# The C driver of cores is tried on processors of 32 bits, too.
+[ "$(uname -m)" != x86_64 ] || dpkg -s gcc-multilib >/dev/null 2>&1 || missing+=(gcc-multilib)
 # For what comes from PyPI, scripts/python_tools.sh.
 python3 -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3-venv)
 [ ${#missing[@]} -eq 0 ] && exit 0

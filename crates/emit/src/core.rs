@@ -74,7 +74,8 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         ("tb/replay.sh".to_owned(), text_of(&replay(design, prefix))),
         ("README.md".to_owned(), emitter(design).readme(prefix)),
     ];
-    files.extend(axi::register_files(design));
+    files.extend(axi::software(design));
+    files.extend(axi::package_ip(design, prefix));
     files.extend(lists);
     files.extend(synth::files(design, prefix));
     files.extend(beside.map(|(path, contents)| SourceFile { path, contents }));

@@ -136,7 +136,7 @@ impl Head {
                 let flags = RegionFlags::of(self.flags);
                 self.row < rows
                     && self.column < columns
-                    && self.flags < 8
+                    && self.flags == flags.bits()
                     && flags.raw == layout.info().raw
                     && (layout.has_periphery() || !flags.summary)
                     && self.words * WORD == layout.region_bytes(flags.summary)

@@ -96,15 +96,21 @@ fn options_of_cores_on_axi_are_refused_elsewhere() {
     assert!(nothing.code == 2 && nothing.stderr.contains("<INPUT>"), "{}", nothing.stderr);
 }
 
-/// Every C compiler takes the header, without a warning.
+/// Every C compiler takes the header and what the guide does with the driver, without a warning.
 #[test]
-fn the_registers_of_a_core_are_c() {
+fn what_the_guide_shows_of_a_core_is_c() {
     if !require_tools(&[Tool::Cxx]) {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    core(dir.path());
-    let source = "#include \"foveate_registers.h\"\n#include \"foveate_registers.h\"\nint main(void) { return 0; }\n";
+    let bus = "hardware.interface='axi'";
+    let made = run_in(dir.path(), &["generate", "--preset", "raster", "--set", bus, "-o", "core"]);
+    assert!(made.code == 0, "{}", made.stderr);
+    let guide = include_str!("../../../../docs/guides/bus.md");
+    let (_, shown) = guide.split_once("```c\n").unwrap();
+    let (shown, _) = shown.split_once("```").unwrap();
+    let source =
+        format!("#include \"foveate_registers.h\"\n{shown}\nint main(void) {{ return 0; }}\n");
     fs::write(dir.path().join("core/software/main.c"), source).unwrap();
     let compiler = Toolchain::system().find(Tool::Cxx).unwrap().path;
     let checks = [

@@ -7,6 +7,7 @@ mod cells;
 mod common;
 mod designs;
 mod diagram;
+mod driver;
 mod folders;
 mod gates;
 mod large;

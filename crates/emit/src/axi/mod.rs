@@ -9,7 +9,7 @@ mod verilog;
 pub use registers::{Field, Kind, Register, registers};
 
 use crate::text::{file, text_of};
-use crate::{SourceFile, Top, banner, leaf, verilog as array};
+use crate::{Prefix, SourceFile, Top, banner, leaf, verilog as array};
 use foveate_design::{Bus, Design, Hardware, RasterDesign};
 
 /// The module on top of a core on a bus.
@@ -29,21 +29,36 @@ pub fn on_bus(design: &Design) -> Option<Vec<SourceFile>> {
     Some(files)
 }
 
-/// The registers of a core on a bus for those who use them: a page, a C header, SystemRDL; none without a bus.
-pub(crate) fn register_files(design: &Design) -> Vec<SourceFile> {
-    let list = match (design.bus(), design.hardware()) {
-        (Bus::Ports, _) | (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => {
-            return Vec::new();
-        }
-        (Bus::Axi, Hardware::Raster(own)) => registers(design.on(own)),
-    };
+/// What software needs of a core on a bus: its registers as a page, a C header and SystemRDL, and a driver in C; none without
+/// a bus.
+#[must_use]
+pub fn software(design: &Design) -> Vec<SourceFile> {
+    let Some(list) = list(design) else { return Vec::new() };
     let banner = banner(design);
     let files = [
         ("REGISTERS.md", pages::markdown(&banner, &list)),
         ("software/foveate_registers.h", pages::header(&banner, &list)),
         ("software/foveate.rdl", pages::rdl(&banner, &list)),
+        ("software/foveate.h", include_str!("../../templates/software/foveate.h").to_owned()),
+        ("software/foveate.c", include_str!("../../templates/software/foveate.c").to_owned()),
     ];
     files.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }).into()
+}
+
+/// The script that makes IP for Vivado of a core on a bus; none without a bus.
+pub(crate) fn package_ip(design: &Design, prefix: &Prefix) -> Option<SourceFile> {
+    let sources = prefix.apply(on_bus(design)?);
+    let contents =
+        pages::package_ip(&banner(design), &prefix.name(AXI_TOP), &sources, &list(design)?);
+    Some(SourceFile { path: "package_ip.tcl".to_owned(), contents })
+}
+
+/// The registers of a core on a bus; none without a bus.
+fn list(design: &Design) -> Option<Vec<Register>> {
+    match (design.bus(), design.hardware()) {
+        (Bus::Ports, _) | (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
+        (Bus::Axi, Hardware::Raster(own)) => Some(registers(design.on(own))),
+    }
 }
 
 /// What stands around the array.

@@ -4,6 +4,19 @@
 use std::fmt::Write;
 
 use super::registers::{Field, Kind, Register};
+use crate::SourceFile;
+use crate::text::text_of;
+use askama::Template;
+
+#[derive(Template)]
+#[template(path = "package_ip.tcl")]
+struct PackageIp<'a> {
+    banner: &'a str,
+    top: &'a str,
+    description: String,
+    files: Vec<&'a str>,
+    registers: Vec<String>,
+}
 
 /// What may be done with a field, as documents have it.
 fn access(kind: &Kind) -> &'static str {
@@ -127,4 +140,37 @@ pub(super) fn rdl(banner: &str, registers: &[Register]) -> String {
             .expect("a string takes all");
     }
     text + "};\n"
+}
+
+/// The script that makes IP for Vivado of a core: its modules, the top among them, and its registers.
+pub(super) fn package_ip(
+    banner: &str,
+    top: &str,
+    sources: &[SourceFile],
+    registers: &[Register],
+) -> String {
+    text_of(&PackageIp {
+        banner,
+        top,
+        description: format!("Region-based event camera. {banner}."),
+        files: sources.iter().map(|file| file.path.as_str()).collect(),
+        registers: registers.iter().map(tcl_register).collect(),
+    })
+}
+
+/// A register as a list of Tcl.
+fn tcl_register(register: &Register) -> String {
+    let field = |field: &Field| {
+        let (access, written) = match field.kind {
+            Kind::Constant(_) | Kind::Status => ("read-only", "modify"),
+            Kind::Control { .. } | Kind::Threshold { .. } => ("read-write", "modify"),
+            Kind::Command => ("write-only", "modify"),
+            Kind::Event => ("read-write", "oneToClear"),
+        };
+        let Field { name, low, width, doc, .. } = field;
+        format!("{{{name} {low} {width} {access} {written} {{{doc}}}}}")
+    };
+    let fields: Vec<_> = register.fields.iter().map(field).collect();
+    let Register { name, address, doc, .. } = register;
+    format!("{{{name} 0x{address:03X} {{{doc}}} {{{}}}}}", fields.join(" "))
 }

@@ -2,10 +2,12 @@
 //! Cores on AXI: no tool warns of them, and their registers have places of their own.
 
 use std::collections::BTreeSet;
+use std::fs;
+use std::process::{Command, Stdio};
 
 use crate::common::{design, every_design_on_a_bus};
 use foveate_design::Hardware;
-use foveate_emit::{AXI_TOP, Kind, on_bus, registers};
+use foveate_emit::{AXI_TOP, Kind, Prefix, SourceFile, core, on_bus, registers};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Source, Tool, Toolchain, verilator};
 use rayon::prelude::*;
@@ -51,5 +53,61 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
             }
             assert!(end <= 32, "{register:?}");
         }
+    }
+}
+
+/// Runs `package_ip.tcl` of a core, with an edit, where stubs check what it asks Vivado for.
+fn packaged(files: &[SourceFile], fault: Option<(&str, &str)>) -> Result<String, String> {
+    let dir = tempfile::tempdir().unwrap();
+    for file in files {
+        let path = dir.path().join(&file.path);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        let mut contents = file.contents.clone();
+        if let (Some((from, to)), "package_ip.tcl") = (fault, file.path.as_str()) {
+            assert_eq!(contents.matches(from).count(), 1, "`{from}`");
+            contents = contents.replace(from, to);
+        }
+        fs::write(path, contents).unwrap();
+    }
+    let stub = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/emit/vivado_stub.tcl");
+    let run = Command::new("tclsh").args([stub, "package_ip.tcl"]).current_dir(dir.path()).output();
+    let output = run.unwrap();
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    if output.status.success() { Ok(text(&output.stdout)) } else { Err(text(&output.stderr)) }
+}
+
+#[test]
+fn the_script_that_packages_a_core_for_vivado_asks_for_what_is_there() {
+    if Command::new("tclsh").stdin(Stdio::null()).output().is_err() {
+        let is_strict = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
+        assert!(!is_strict, "FOVEATE_REQUIRE_TOOLS is 1, and tclsh is missing (Debian: tcl)");
+        eprintln!("skipped: tclsh is missing");
+        return;
+    }
+    for toml in every_design_on_a_bus() {
+        let files = core(&design(&toml), &Prefix::default());
+        let said = packaged(&files, None).unwrap_or_else(|error| panic!("{toml}{error}"));
+        assert!(said.contains(" 6 interfaces, "), "{said}");
+    }
+    let files = core(&design(&every_design_on_a_bus()[0]), &Prefix::new("left").unwrap());
+    packaged(&files, None).unwrap();
+    // What is wrong must be seen to be wrong.
+    for fault in [
+        ("    rtl/left_adder.v\n", "    rtl/adder.v\n"),
+        ("set top left_rcm_axi", "set top rcm_axi"),
+        ("-import_files", "-import"),
+        ("{s_axis_video m_axis_packets s_axi aclk aresetn interrupt_o}", "{s_axis}"),
+        ("-clock aclk -reset aresetn", "-clock aclk -reset aclk"),
+        ("foreach bus {s_axis_video m_axis_packets s_axi} {", "foreach bus {s_axis_video s_axi} {"),
+        ("{version 0x004", "{version 0x000"),
+        ("{version 0x004", "{identity 0x004"),
+        ("{version 0x004", "{version 0x1004"),
+        ("{height 16 16", "{height 15 16"),
+        ("set_property slave_memory_map_ref", "# set_property"),
+        ("ipx::save_core $core", ""),
+        ("ipx::create_xgui_files", "ipx::create_gui_files"),
+        ("set_property range 4096", "set_property size 4096"),
+    ] {
+        assert!(packaged(&files, Some(fault)).is_err(), "not seen: {fault:?}");
     }
 }

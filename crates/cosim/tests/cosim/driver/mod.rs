@@ -1,0 +1,478 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The C driver of a core on AXI: beside a simulated core, and over damaged streams; for processors of 32 and 64 bits.
+
+use crate::bus::on_axi;
+use crate::common::in_parallel;
+use foveate_design::{Action, Design};
+use foveate_emit::{AXI_TOP, Kind, on_bus, registers, software};
+use foveate_frame::Frame;
+use foveate_model::{FunctionalCamera, region_pixels};
+use foveate_packets::{Decision, End, Found, Layout, Packet, RegionFlags, Splitter, write};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
+use foveate_toolchain::{Cache, Source, Tool, Toolchain};
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+
+const CORE: &str = include_str!("core.cpp");
+const MAIN: &str = include_str!("main.c");
+const STREAM: &str = include_str!("stream.c");
+/// It comes with that of C++.
+const COMPILER: &str = "cc";
+/// What every compiler must be content with.
+const STRICT: &[&str] = &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
+/// A design, and what software makes of its thresholds.
+const DESIGNS: &[(&[&str], &[&str])] = &[
+    (
+        &["frame={width=68,height=37}"],
+        &["spatial=[{feature='edge',level=60,min_score=3}]", "temporal={level=5,min_count=2}"],
+    ),
+    (
+        &[
+            "frame={width=64,height=40,pixel_bits=10}",
+            "render={irrelevant='mean',payload='raw'}",
+            "spatial=[{feature='mad',min_score=60}]",
+            "hardware.pixels_per_clock=2",
+        ],
+        &["spatial=[{feature='mad',min_score=20}]", "temporal={level=20,min_count=3}"],
+    ),
+];
+
+/// What stands in the driver, and what stands there instead.
+type Fault = Option<(&'static str, &'static str)>;
+
+/// A design with other settings.
+fn with(design: &Design, keys: &[&str]) -> Design {
+    let config = foveate_design::Config::from_toml_with(&design.config().to_toml(), keys).unwrap();
+    config.validate().unwrap()
+}
+
+/// Frames in which a block of noise moves before something still; every third is noise.
+fn film(design: &Design, count: u32) -> Vec<Frame> {
+    let mut random = fastrand::Rng::with_seed(7);
+    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
+    let largest = (1_u32 << bits) - 1;
+    let shot = |number: u32| {
+        let mut pixel = |x: u32, y: u32| {
+            let is_inside = x.wrapping_sub(number * 5) < 16 && y.wrapping_sub(number * 3) < 16;
+            let grey = if is_inside || number % 3 == 2 {
+                random.u32(0..=largest)
+            } else {
+                x / 4 * 37 % (largest / 2) + y / 4
+            };
+            u16::try_from(grey).unwrap()
+        };
+        let pixels = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+        let pixels = pixels.map(|(x, y)| pixel(x, y)).collect();
+        Frame::new(width, height, bits, pixels).unwrap()
+    };
+    (0..count).map(shot).collect()
+}
+
+/// Pixels as the C programs and the simulated core have them in files.
+fn bytes_of(frame: &Frame) -> Vec<u8> {
+    frame.pixels().iter().flat_map(|pixel| pixel.to_le_bytes()).collect()
+}
+
+/// Processors of 64 bits; without a fault to find those of 32, too, if the C compiler makes programs for them.
+fn widths(fault: Fault) -> &'static [&'static str] {
+    if fault.is_some() {
+        return &["-m64"];
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let empty = dir.path().join("empty.c");
+    fs::write(&empty, "int main(void) { return 0; }\n").unwrap();
+    let made = Command::new(COMPILER)
+        .args(["-m32", "-o"])
+        .arg(dir.path().join("empty"))
+        .arg(&empty)
+        .output();
+    if made.unwrap().status.success() { &["-m64", "-m32"] } else { &["-m64"] }
+}
+
+/// Compiles a program with the driver of a design, in which a fault may be planted; no compiler may have a word to say.
+fn compile(
+    design: &Design,
+    (name, text): (&str, &str),
+    fault: Fault,
+    dir: &Path,
+    flags: &[&str],
+) -> PathBuf {
+    for file in software(design) {
+        let name = Path::new(&file.path).file_name().unwrap().to_owned();
+        let mut contents = file.contents;
+        if let (Some((from, to)), true) = (fault, name == "foveate.c") {
+            assert_eq!(contents.matches(from).count(), 1, "`{from}`");
+            contents = contents.replace(from, to);
+        }
+        fs::write(dir.join(name), contents).unwrap();
+    }
+    fs::write(dir.join(name), text).unwrap();
+    let program = dir.join(format!("program{}", flags[0]));
+    let made = Command::new(COMPILER)
+        .args(if fault.is_some() { &STRICT[..1] } else { STRICT })
+        .args(flags)
+        .args(["-O1", "foveate.c", name, "-o"])
+        .arg(&program)
+        .current_dir(dir)
+        .output()
+        .unwrap();
+    assert!(made.status.success(), "{flags:?}: {}", String::from_utf8_lossy(&made.stderr));
+    program
+}
+
+/// A simulated core that answers to a processor.
+fn simulated(design: &Design) -> PathBuf {
+    let sources: Vec<Source> = on_bus(design).unwrap().into_iter().map(Source::from).collect();
+    let raster = design.raster().unwrap();
+    let quiet = design.width() * design.region_size() * 3 + 1000;
+    let constants = [
+        ("WIDTH", design.width()),
+        ("HEIGHT", design.height()),
+        ("BITS", design.pixel_bits()),
+        ("LANES", raster.pixels_per_clock()),
+        ("QUIET", quiet),
+    ];
+    let text = |(name, value): &(&str, u32)| format!("#define {name} {value}\n");
+    let cpp_main = constants.iter().map(text).collect::<String>() + CORE;
+    let job = VerilatorJob {
+        sources,
+        top: AXI_TOP.to_owned(),
+        cpp_main,
+        lint: Lint::Lenient,
+        ..VerilatorJob::default()
+    };
+    verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
+}
+
+/// The thresholds of a design as an argument of the C compiler.
+fn thresholds(design: &Design) -> String {
+    let list = registers(design.raster().unwrap());
+    let values = list.iter().filter_map(|register| match register.fields.as_slice() {
+        [field] => match field.kind {
+            Kind::Threshold { reset } => {
+                Some(format!("FOVEATE_THRESHOLD({}, {reset}u)", register.name.to_uppercase()))
+            }
+            _ => None,
+        },
+        _ => None,
+    });
+    format!("-DTHRESHOLDS={}", values.collect::<Vec<_>>().join(","))
+}
+
+/// Software for a core sets it up, lets frames come, and paints what leaves: the screen is that of the model.
+fn play(design: &Design, changed: &Design, fault: Fault) -> Result<(), String> {
+    let dir = tempfile::tempdir().unwrap();
+    let frames = film(design, 7);
+    fs::write(dir.path().join("frames"), frames.iter().flat_map(bytes_of).collect::<Vec<_>>())
+        .unwrap();
+    let mut model = FunctionalCamera::new(changed);
+    let mut expected = Vec::new();
+    for (number, frame) in frames.iter().enumerate() {
+        match number {
+            // It comes while the core is stopped.
+            4 => continue,
+            6 => model.reset(),
+            _ => {}
+        }
+        expected.extend(bytes_of(&model.step(frame).unwrap().rendered));
+    }
+    let core = simulated(design);
+    for width in widths(fault) {
+        let flags = [width, &*thresholds(changed)];
+        let program = compile(design, ("main.c", MAIN), fault, dir.path(), &flags);
+        let screen = dir.path().join("screen");
+        let mut simulation = Command::new(&core)
+            .arg(dir.path().join("frames"))
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let software = Command::new(program)
+            .arg(&screen)
+            .stdin(simulation.stdout.take().unwrap())
+            .stdout(simulation.stdin.take().unwrap())
+            .output()
+            .unwrap();
+        simulation.wait().unwrap();
+        let said = String::from_utf8_lossy(&software.stderr);
+        if !software.status.success() {
+            return Err(format!("{width}: {said}"));
+        }
+        let shown = fs::read(&screen).unwrap();
+        if shown != expected {
+            let at = shown.iter().zip(&expected).position(|(one, other)| one != other);
+            return Err(format!(
+                "{width}: {} bytes, expected {}; they differ from {at:?} on",
+                shown.len(),
+                expected.len()
+            ));
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn software_with_the_driver_runs_a_core_and_shows_what_the_model_shows() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let failures = in_parallel(DESIGNS, |(keys, changes)| {
+        let design = on_axi(keys);
+        play(&design, &with(&design, changes), None).map_err(|error| format!("{keys:?}: {error}"))
+    });
+    assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+/// The packets of some frames.
+fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
+    let mut model = FunctionalCamera::new(design);
+    let mut bytes = Vec::new();
+    let columns = design.columns();
+    for (number, frame) in (0..).zip(film(design, 4)) {
+        let seen = model.step(&frame).unwrap().clone();
+        write::frame(&mut bytes, layout, number, (1000 * u64::from(number), number == 0));
+        let mut sent = 0;
+        for row in 0..design.rows() {
+            let at = |column: u32| (row * columns + column) as usize;
+            let decisions: Vec<Decision> = (0..columns)
+                .map(at)
+                .map(|at| Decision {
+                    srs: seen.srs[at],
+                    trs: seen.trs[at],
+                    summary: seen.actions[at] == Action::Summarize,
+                })
+                .collect();
+            write::row(&mut bytes, layout, number, row, &decisions);
+            for column in 0..columns {
+                let summary = decisions[column as usize].summary;
+                let values = match (summary, seen.active[at(column)]) {
+                    (true, _) => seen.means[at(column)].clone(),
+                    (false, true) => {
+                        let (payload, mut values) = (seen.payload(design), Vec::new());
+                        region_pixels(design, payload, row * columns + column, &mut values);
+                        values
+                    }
+                    (false, false) => continue,
+                };
+                let flags = RegionFlags { raw: layout.info().raw, summary };
+                write::region(&mut bytes, layout, number, (row, column), (flags, &values));
+                sent += 1;
+            }
+        }
+        write::end(
+            &mut bytes,
+            number,
+            End { regions_sent: sent, regions_dropped: number, rows_dropped: number / 2 },
+        );
+    }
+    bytes
+}
+
+/// What the receiver of the packets' crate finds, as `stream.c` says it.
+fn found(layout: &Layout, bytes: &[u8]) -> String {
+    let mut splitter = Splitter::default();
+    splitter.feed(bytes);
+    splitter.complete();
+    let (mut text, mut lost) = (String::new(), 0);
+    let sum = |values: &mut dyn Iterator<Item = u32>| {
+        values.fold(0_u32, |sum, value| sum.wrapping_mul(31).wrapping_add(value))
+    };
+    loop {
+        let line = match splitter.next(Some(layout)) {
+            Found::Nothing => break,
+            Found::Skipped { bytes, .. } => {
+                lost += bytes;
+                continue;
+            }
+            Found::Packet { frame, packet } => match packet {
+                Packet::Frame(info) => format!("1 {frame} {} 0 0 0", info.version),
+                Packet::Row(row) => {
+                    let codes = row.decisions.iter().map(|one| {
+                        u32::from(one.srs) | u32::from(one.trs) << 1 | u32::from(one.summary) << 2
+                    });
+                    format!("2 {frame} {} {} 0 {}", row.row, layout.columns(), sum(&mut { codes }))
+                }
+                Packet::Region(region) => {
+                    let values = region.values.iter().map(|&value| u32::from(value));
+                    let summary = u32::from(region.flags.summary);
+                    format!(
+                        "4 {frame} {} {} {summary} {}",
+                        region.row,
+                        region.column,
+                        sum(&mut { values })
+                    )
+                }
+                Packet::End(end) => {
+                    let sum = end.regions_sent + 31 * end.regions_dropped + 961 * end.rows_dropped;
+                    format!("5 {frame} 0 0 0 {sum}")
+                }
+                Packet::Scores(_) => panic!("a core sends none"),
+            },
+        };
+        text += &line;
+        text.push('\n');
+    }
+    text + &format!("lost {lost}\n")
+}
+
+/// The CRC of the page, bit by bit.
+fn crc(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
+}
+
+/// Words of the packet that begins here, as its head says.
+fn words(bytes: &[u8]) -> usize {
+    usize::from(u16::from_le_bytes([bytes[2], bytes[3]]))
+}
+
+/// Makes of a packet one that no core of this design sends, but with the right CRC: a bit of its head differs, or of the
+/// first word that it carries in a FRAME.
+fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
+    let kind = [1, 2, 4, 5][random.usize(0..4)];
+    let of_kind: Vec<usize> = starts
+        .iter()
+        .copied()
+        .filter(|&at| bytes[at] == 0xFA && bytes[at + 1] & 15 == kind)
+        .collect();
+    let Some(&start) = of_kind.get(random.usize(0..of_kind.len().max(1))) else { return };
+    let true_words = words(&bytes[start..]);
+    let looked_at = if kind == 1 { 16 } else { 8 };
+    bytes[start + random.usize(0..looked_at)] ^= 1 << random.u8(0..8);
+    if kind == 4 && random.bool() {
+        // Means, but none of them.
+        bytes[start + 1] |= 4 << 4;
+        bytes[start + 2..start + 4].copy_from_slice(&[2, 0]);
+    }
+    let words = if random.bool() { true_words } else { words(&bytes[start..]).max(2) };
+    let end = start + 8 * words;
+    if end <= bytes.len() {
+        let crc = crc(&bytes[start..end - 4]);
+        bytes[end - 4..end].copy_from_slice(&crc.to_le_bytes());
+    }
+}
+
+/// Where packets begin in a stream without damage.
+fn starts(bytes: &[u8]) -> Vec<usize> {
+    let next = |&at: &usize| Some(at + 8 * words(&bytes[at..])).filter(|&at| at < bytes.len());
+    std::iter::successors(Some(0), next).collect()
+}
+
+/// Whether the driver finds in damaged streams of a design what the receiver finds.
+fn listen(design: &Design, fault: Fault) -> Result<(), String> {
+    let layout = Layout::new(design, false, 100_000_000);
+    let whole = packets(design, &layout);
+    let starts = starts(&whole);
+    let dir = tempfile::tempdir().unwrap();
+    for width in widths(fault) {
+        // A program of 64 bits ends where it reads outside of its memory.
+        let checked = ["-m64", "-fsanitize=address,undefined", "-fno-sanitize-recover"];
+        let flags = if *width == "-m64" { &checked[..] } else { &[*width][..] };
+        let program = compile(design, ("stream.c", STREAM), fault, dir.path(), flags);
+        let mut random = fastrand::Rng::with_seed(11);
+        for round in 0..40 {
+            let mut bytes = whole.clone();
+            for _ in 0..20 * (round % 2) {
+                forge(&mut bytes, &starts, &mut random);
+            }
+            for _ in 0..round / 2 {
+                let at = random.usize(0..bytes.len() - 9);
+                match random.u8(0..3) {
+                    0 => bytes[at] ^= 1 << random.u8(0..8),
+                    1 => drop(bytes.drain(at..at + random.usize(1..9))),
+                    // A head where none is.
+                    _ => drop(bytes.splice(at..at, whole[..8].to_vec())),
+                }
+            }
+            if round % 4 == 3 {
+                bytes.truncate(bytes.len() - 30);
+            }
+            fs::write(dir.path().join("bytes"), &bytes).unwrap();
+            let stdin = fs::File::open(dir.path().join("bytes")).unwrap();
+            let output = Command::new(&program).stdin(stdin).output().unwrap();
+            let (said, expected) =
+                (String::from_utf8_lossy(&output.stdout), found(&layout, &bytes));
+            if !output.status.success() || said != expected {
+                let first = said.lines().zip(expected.lines()).find(|(one, other)| one != other);
+                let log = String::from_utf8_lossy(&output.stderr);
+                return Err(format!("{width} round {round}: {first:?} {log}"));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[test]
+fn the_driver_finds_in_damaged_streams_what_the_receiver_finds() {
+    if !require_tools(&[Tool::Cxx]) {
+        return;
+    }
+    for (keys, _) in DESIGNS {
+        listen(&on_axi(keys), None).unwrap_or_else(|error| panic!("{keys:?}: {error}"));
+    }
+}
+
+/// Faults of the driver, each of which some of the tests above must find.
+const FAULTS: &[(&str, &str)] = &[
+    ("return ~crc;", "return crc;"),
+    ("head[0] == MARK && u16(head + 2) == carried + 2 ?", "head[0] == MARK ?"),
+    ("flags <= FIRST && column == 0", "flags <= FIRST"),
+    ("flags <= FIRST && column == 0", "column == 0"),
+    ("packet->version = u16(bytes + 4);", "packet->version = FOVEATE_FORMAT;"),
+    ("row < design->rows && column == design->columns", "row < design->rows"),
+    ("flags == 0 && row < design->rows", "flags == 0"),
+    ("== (design->raw ? RAW : 0u)", "== 0u"),
+    ("(!is_summary || design->means > 0) &&", ""),
+    ("row < design->rows && column < design->columns", "column < design->columns"),
+    ("row < design->rows && column < design->columns", "row < design->rows"),
+    ("flags <= 1 && row <= design->rows", "row <= design->rows"),
+    (
+        "if (bytes[WORD + at] != MAGIC[at]) return false;",
+        "if (bytes[at] == 0 && !MAGIC[at]) return false;",
+    ),
+    ("if (size > reader->size && !reader->ended) return false;", ""),
+    ("if (may_begin && reader->size < WORD && !reader->ended) return false;", ""),
+    ("++reader->lost;", "reader->lost += reader->ended;"),
+    ("packet->rows = u16(bytes + 4);", "packet->rows = u16(bytes + 6);"),
+    ("packet->first = (flags & FIRST) != 0;", "packet->first = true;"),
+    ("return design->means > 0 ? 4 : 2;", "return design->means > 9 ? 4 : 2;"),
+    ("if (left >= design->width || top", "if (top"),
+    ("y / block * side + x / block", "y / block * side + x % side"),
+    ("if (!packet->first) return;", ""),
+    ("if (design->irrelevant != FOVEATE_ZERO) return;", ""),
+    ("column) & FOVEATE_SRS) == 0", "column) & FOVEATE_TRS) == 0"),
+    ("is_set ? others | mask : others", "is_set ? mask : others"),
+    ("get(core, FOVEATE_CONTROL) & ~mask", "get(core, FOVEATE_CONTROL)"),
+    (
+        "if ((thresholds[at].value & ~thresholds[at].mask) != 0) return FOVEATE_TOO_LARGE;",
+        "if (!thresholds[at].mask) return FOVEATE_TOO_LARGE;",
+    ),
+    (
+        "if (count > 1) put(core, FOVEATE_CONTROL, before);",
+        "if (count > 1) put(core, FOVEATE_CONTROL, before & 1);",
+    ),
+    ("return FOVEATE_OTHER_DESIGN;", "return FOVEATE_OK;"),
+    ("put(core, FOVEATE_EVENTS, events);", "put(core, FOVEATE_EVENTS, ~events);"),
+    (
+        "put(core, FOVEATE_INTERRUPT_ENABLE, events);",
+        "put(core, FOVEATE_INTERRUPT_ENABLE, ~events);",
+    ),
+];
+
+#[test]
+fn every_planted_fault_of_the_driver_is_caught() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let missed = in_parallel(FAULTS, |&fault| {
+        let is_missed = DESIGNS.iter().all(|(keys, changes)| {
+            let design = on_axi(keys);
+            listen(&design, Some(fault)).is_ok()
+                && play(&design, &with(&design, changes), Some(fault)).is_ok()
+        });
+        if is_missed { Err(format!("`{}` -> `{}`", fault.0, fault.1)) } else { Ok(()) }
+    });
+    assert!(missed.is_empty(), "not caught:\n{}", missed.join("\n"));
+}
