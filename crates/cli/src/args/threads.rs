@@ -58,6 +58,7 @@ impl Command {
             Self::Check(_)
             | Self::Decode(_)
             | Self::Generate(_)
+            | Self::Build(_)
             | Self::Cosim(_)
             | Self::Estimate(_)
             | Self::Explain(_)
