@@ -8,7 +8,7 @@
 
 module clock_crossing #(
     parameter WIDTH = 10,     // bits of a word
-    parameter DEPTH_BITS = 4  // log2 of the words that may wait
+    parameter DEPTH_BITS = 4  // log2 of the words that may wait; at least 2, and 3 for a word at every clock
 ) (
     input  wire             write_clk_i,  // clock of the write side, rising edge; it may stand still
     input  wire             write_i,      // a word comes; if full_o, it is left out

@@ -45,7 +45,7 @@ module i2c_setup #(
     localparam [2:0] BITS = 3'd1;   // bytes, each with its acknowledgement
     localparam [2:0] STOP = 3'd2;   // a stop condition
     localparam [2:0] WAIT = 3'd3;   // a pause
-    localparam [2:0] DONE = 3'd4;   // the end
+    localparam [2:0] DONE = 3'd4;   // the end, from the third quarter on
 
     reg [2:0] state_q;
     reg [1:0] quarter_q;
@@ -84,7 +84,7 @@ module i2c_setup #(
         sda_first_q <= sda_i;
         sda_q       <= sda_first_q;
         time_q      <= !tick ? time_q - 1'b1 : state_q == WAIT ? LAST_PAUSE[TIME_BITS-1:0] : LAST_QUARTER[TIME_BITS-1:0];
-        if (tick && state_q != WAIT) quarter_q <= quarter_q + 1'b1;
+        if (tick && state_q != WAIT && !done_o) quarter_q <= quarter_q + 1'b1;
         case (state_q)
             START: begin
                 count_q   <= 8'd0;
@@ -141,7 +141,7 @@ module i2c_setup #(
     end
 
     assign step_o = step_q;
-    assign done_o = state_q == DONE;
+    assign done_o = state_q == DONE && quarter_q[1];
 
 endmodule
 
