@@ -118,9 +118,13 @@ pub struct I2c {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(rename_all = "snake_case")]
 enum Step {
-    Write(Vec<[u16; 2]>),
+    Write(Vec<Write>),
     PauseMs(u8),
 }
+
+/// Address and value.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+struct Write(u16, u8);
 
 impl Sensor {
     /// The sensor of that name.
@@ -135,6 +139,15 @@ impl Sensor {
         Ok(toml::from_str(text).unwrap_or_else(|error| unreachable!("{name}: {error}")))
     }
 
+    /// Every write, address and value, without the pauses.
+    pub fn writes(&self) -> impl Iterator<Item = (u16, u8)> {
+        let pairs = self.steps.iter().flat_map(|step| match step {
+            Step::Write(pairs) => pairs.as_slice(),
+            Step::PauseMs(_) => &[],
+        });
+        pairs.map(|&Write(address, value)| (address, value))
+    }
+
     /// Bits of a word of `i2c_setup`.
     pub(crate) fn word_bits(&self) -> u32 {
         8 * self.i2c.address_bytes + 9
@@ -147,7 +160,7 @@ impl Sensor {
             Step::PauseMs(time) => vec![1 << (address_bits + 8) | u32::from(*time)],
             Step::Write(pairs) => pairs
                 .iter()
-                .map(|&[address, value]| u32::from(address) << 8 | u32::from(value))
+                .map(|&Write(address, value)| u32::from(address) << 8 | u32::from(value))
                 .collect(),
         };
         self.steps.iter().flat_map(word).collect()

@@ -69,6 +69,8 @@ pub(crate) fn simulated(project: &Project, fault: Option<(&str, &str, &str)>) ->
 /// What a run left.
 pub(crate) struct Heard {
     pub(crate) bytes: Vec<u8>,
+    /// A byte had no stop bit.
+    pub(crate) has_broken_bytes: bool,
     /// What was written on I2C, and the lights.
     pub(crate) setup: String,
 }
@@ -91,7 +93,7 @@ pub(crate) fn play(
         .args([pclk_ps.to_string(), nacks.to_string()])
         .status()
         .unwrap();
-    assert!(run.success(), "a byte had no stop bit");
     let setup = fs::read_to_string(dir.path().join("setup")).unwrap();
-    Heard { bytes: fs::read(dir.path().join("heard")).unwrap(), setup }
+    let bytes = fs::read(dir.path().join("heard")).unwrap();
+    Heard { bytes, has_broken_bytes: !run.success(), setup }
 }
