@@ -26,7 +26,8 @@ impl Assembler {
         &self.layout
     }
 
-    /// Takes a packet of frame `number`. Returns a frame if it is known now that nothing more comes of it.
+    /// Takes a packet of frame `number`. Returns a frame if it is known now that nothing more comes of it. A REGISTER is of
+    /// no frame and changes nothing.
     ///
     /// # Errors
     /// When it is of another format or design.
@@ -36,6 +37,7 @@ impl Assembler {
         packet: Packet,
     ) -> Result<[Option<ReceivedFrame>; 2], PacketError> {
         let info = match &packet {
+            Packet::Register(_) => return Ok([None, None]),
             Packet::Frame(info) => {
                 self.check(number, info)?;
                 Some(info.clone())
@@ -60,7 +62,7 @@ impl Assembler {
         let mut is_last = false;
         if let Some(open) = &mut self.open {
             match packet {
-                Packet::Frame(_) => {}
+                Packet::Frame(_) | Packet::Register(_) => {}
                 Packet::Row(row) => open.take_row(row),
                 Packet::Scores(scores) => open.take_scores(scores),
                 Packet::Region(region) => open.take_region(region, columns),

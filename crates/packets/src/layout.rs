@@ -14,9 +14,10 @@ pub const MAGIC: [u8; 8] = *b"FOVEATE\n";
 pub(crate) const MARK: u8 = 0xFA;
 /// Bytes of a word.
 pub(crate) const WORD: usize = 8;
-/// Words of a FRAME and of an END.
+/// Words of a FRAME, of an END and of a REGISTER.
 pub(crate) const FRAME_WORDS: usize = 7;
 pub(crate) const END_WORDS: usize = 3;
+pub(crate) const REGISTER_WORDS: usize = 3;
 /// Words around what a packet carries: head and tail.
 pub(crate) const AROUND: usize = 2;
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Packets as values, and their checks: bytes that are not exactly a packet of the layout are none.
 
-use crate::FrameInfo;
-use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, WORD};
+use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, REGISTER_WORDS, WORD};
 use crate::word::{byte, half, index, short, word};
+use crate::{FrameInfo, Register};
 
 /// What was decided of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -82,6 +82,8 @@ pub enum Packet {
     Region(Region),
     /// The end of a frame.
     End(End),
+    /// An answer of a board, or a command to it. It belongs to no frame.
+    Register(Register),
 }
 
 /// Numbers of the types.
@@ -90,6 +92,7 @@ pub(crate) const ROW: u8 = 2;
 pub(crate) const SCORES: u8 = 3;
 pub(crate) const REGION: u8 = 4;
 pub(crate) const END: u8 = 5;
+pub(crate) const REGISTER: u8 = 6;
 
 /// The first word of a packet.
 #[derive(Clone, Copy, Debug)]
@@ -102,7 +105,8 @@ pub(crate) struct Head {
 }
 
 impl Head {
-    /// The head that these bytes begin with, if it can be that of a packet. Without a layout only that of a FRAME can.
+    /// The head that these bytes begin with, if it can be that of a packet. Without a layout only that of a
+    /// FRAME or of a REGISTER can.
     pub(crate) fn of(bytes: &[u8], layout: Option<&Layout>) -> Option<Self> {
         let word = word(bytes)?;
         let kind_and_flags = byte(word, 8);
@@ -118,8 +122,10 @@ impl Head {
 
     /// Whether length, place and flags can be those of a packet.
     fn fits(self, layout: Option<&Layout>) -> bool {
-        if self.kind == FRAME {
-            return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0;
+        match self.kind {
+            FRAME => return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0,
+            REGISTER => return self.flags <= 1 && self.words == REGISTER_WORDS && self.column == 0,
+            _ => {}
         }
         let Some(layout) = layout else { return false };
         let (columns, rows) = (layout.info().columns, layout.info().rows);
@@ -175,6 +181,7 @@ impl Packet {
             (SCORES, Some(layout)) => Self::Scores(scores(head, carried, layout)?),
             (REGION, Some(layout)) => Self::Region(region(head, carried, layout)?),
             (END, _) => Self::End(end(head, carried)?),
+            (REGISTER, _) => Self::Register(register(head, carried)?),
             _ => return None,
         };
         debug_assert_eq!(bytes.len(), carried.len() + AROUND * WORD);
@@ -273,4 +280,9 @@ fn end(head: Head, carried: &[u8]) -> Option<End> {
     };
     let dropped = end.regions_dropped > 0 || end.rows_dropped > 0;
     (dropped == (head.flags == 1)).then_some(end)
+}
+
+fn register(head: Head, carried: &[u8]) -> Option<Register> {
+    let value = half(word(carried)?, 0);
+    Some(Register { address: head.row, written: head.flags == 1, value })
 }

@@ -49,12 +49,19 @@ impl Splitter {
         self.bytes.extend_from_slice(bytes);
     }
 
+    /// Bytes of the stream that are done with.
+    #[must_use]
+    pub fn position(&self) -> u64 {
+        self.offset + length(self.at)
+    }
+
     /// There are no more bytes.
     pub fn complete(&mut self) {
         self.is_complete = true;
     }
 
-    /// What comes next. Without a layout, which the first FRAME gives, only a FRAME is found.
+    /// What comes next. Without a layout, which the first FRAME gives, only a
+    /// FRAME or a REGISTER is found.
     pub fn next(&mut self, layout: Option<&Layout>) -> Found {
         while let Some(ahead) = self.bytes.get(self.at..) {
             let before = ahead.iter().position(|&byte| byte == MARK).unwrap_or(ahead.len());
@@ -93,7 +100,7 @@ impl Splitter {
     /// Reports what was passed over.
     fn skipped(&mut self) -> Found {
         let bytes = std::mem::take(&mut self.skipped);
-        Found::Skipped { offset: self.offset + length(self.at) - bytes, bytes }
+        Found::Skipped { offset: self.position() - bytes, bytes }
     }
 }
 

@@ -2,9 +2,9 @@
 //! Makes packets: each function appends one to a vector.
 
 use crate::layout::{Layout, MAGIC, MARK, WORD};
-use crate::packet::{END, FRAME, REGION, ROW, SCORES};
+use crate::packet::{END, FRAME, REGION, REGISTER, ROW, SCORES};
 use crate::word::field;
-use crate::{Decision, End, RegionFlags};
+use crate::{Decision, End, RegionFlags, Register};
 
 /// Appends the FRAME of frame `number`.
 pub fn frame(out: &mut Vec<u8>, layout: &Layout, number: u32, (time, first): (u64, bool)) {
@@ -80,6 +80,12 @@ pub fn end(out: &mut Vec<u8>, number: u32, end: End) {
         let counts = u64::from(end.regions_sent) | u64::from(end.regions_dropped) << 32;
         out.extend(counts.to_le_bytes());
     });
+}
+
+/// Appends a REGISTER, which belongs to no frame.
+pub fn register(out: &mut Vec<u8>, register: Register) {
+    let head = (REGISTER, register.written.into(), register.address.into(), 0);
+    packet(out, head, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
 }
 
 /// Appends a packet around what `carry` writes: head before, padding to whole words and tail behind.

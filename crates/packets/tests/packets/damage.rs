@@ -7,12 +7,12 @@ use foveate_packets::{Loss, ReceivedFrame};
 use crate::stream::{Stream, random, read};
 
 /// How often; more with `FOVEATE_FUZZ_CASES`.
-fn cases() -> u64 {
+pub(crate) fn cases() -> u64 {
     std::env::var("FOVEATE_FUZZ_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(400)
 }
 
 /// A few bytes from `at` on, changed in one of many ways; returns the range of the old bytes that is concerned.
-fn damage(rng: &mut Rng, bytes: &mut Vec<u8>, at: usize) -> std::ops::Range<usize> {
+pub(crate) fn damage(rng: &mut Rng, bytes: &mut Vec<u8>, at: usize) -> std::ops::Range<usize> {
     let length = rng.usize(1..200).min(bytes.len() - at);
     match rng.u8(0..4) {
         0 => {

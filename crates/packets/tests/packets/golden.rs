@@ -14,7 +14,7 @@ pub(crate) fn crc(bytes: &[u8]) -> u32 {
 }
 
 /// The bytes of words, with a tail for frame `number` behind them.
-fn packet(words: &[u64], number: u32) -> Vec<u8> {
+pub(crate) fn packet(words: &[u64], number: u32) -> Vec<u8> {
     let mut bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     bytes.extend(number.to_le_bytes());
     let check = crc(&bytes);

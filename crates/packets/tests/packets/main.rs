@@ -4,4 +4,5 @@
 
 mod damage;
 mod golden;
+mod register;
 mod stream;

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! REGISTER packets: bytes written by hand, and answers between the packets of frames, also where the stream is damaged.
+
+use std::ops::Range;
+
+use fastrand::Rng;
+use foveate_packets::{Command, Found, Layout, Packet, Register, Splitter, write};
+
+use crate::damage::{cases, damage};
+use crate::golden::packet;
+use crate::stream::{Stream, random, read};
+
+/// All REGISTER packets of a stream, and its bytes that are no packet.
+fn registers(bytes: &[u8], layout: Option<&Layout>) -> (Vec<Register>, u64) {
+    let mut splitter = Splitter::default();
+    splitter.feed(bytes);
+    splitter.complete();
+    let (mut found, mut skipped) = (Vec::new(), 0);
+    loop {
+        match splitter.next(layout) {
+            Found::Nothing => break,
+            Found::Skipped { bytes, .. } => skipped += bytes,
+            Found::Packet { packet: Packet::Register(register), .. } => found.push(register),
+            Found::Packet { .. } => {}
+        }
+    }
+    assert_eq!(splitter.position(), bytes.len() as u64);
+    (found, skipped)
+}
+
+/// A stream with answers between its packets, and where they lie.
+fn with_answers(rng: &mut Rng, stream: &Stream) -> (Vec<u8>, Vec<(Range<usize>, Register)>) {
+    let (mut bytes, mut answers, mut at) = (Vec::new(), Vec::new(), 0);
+    while at < stream.bytes.len() {
+        let words = u16::from_le_bytes([stream.bytes[at + 2], stream.bytes[at + 3]]);
+        let end = at + 8 * usize::from(words);
+        while rng.u8(0..4) == 0 {
+            let (address, value) = (rng.u16(..), rng.u32(..));
+            let answer = Register { address, written: rng.bool(), value };
+            let start = bytes.len();
+            write::register(&mut bytes, answer);
+            answers.push((start..bytes.len(), answer));
+        }
+        bytes.extend(&stream.bytes[at..end]);
+        at = end;
+    }
+    (bytes, answers)
+}
+
+#[test]
+fn commands_are_what_the_page_says() {
+    let read = Command::read(0x1000);
+    assert_eq!(read.bytes(), packet(&[0x0000_1000_0003_06FA, 0], 0));
+    let write = Command::write(0x104, 0xDEAD_BEEF);
+    assert_eq!(write.bytes(), packet(&[0x0000_0104_0003_16FA, 0xDEAD_BEEF], 0));
+    let answer = Register { address: 0x1000, written: false, value: 7 };
+    assert_eq!(registers(&packet(&[0x0000_1000_0003_06FA, 7], 0), None), (vec![answer], 0));
+
+    assert!(read.is_answered_by(answer) && !write.is_answered_by(answer));
+    assert!(!read.is_answered_by(Register { written: true, ..answer }));
+    assert!(!read.is_answered_by(Register { address: 4, ..answer }));
+    let written = Register { address: 0x104, written: true, value: 0xDEAD_BEEF };
+    assert!(write.is_answered_by(written));
+    assert!(!write.is_answered_by(Register { value: 1, ..written }));
+}
+
+#[test]
+fn what_is_not_exactly_one_is_none() {
+    let good = 0x0000_0104_0003_16FA_u64;
+    assert_eq!(registers(&packet(&[good, 5], 0), None).1, 0);
+    let bad_heads = [
+        good ^ 0xFF,      // another mark
+        good | 0x2 << 12, // a flag that is none
+        0x0000_0104_0004_16FA,
+        good | 1 << 48,  // a column
+        good | 0x8 << 8, // type 14
+    ];
+    for head in bad_heads {
+        let bytes = packet(&[head, 5], 0);
+        assert_eq!(registers(&bytes, None), (Vec::new(), bytes.len() as u64), "{head:x}");
+    }
+    let mut wrong = packet(&[good, 5], 0);
+    wrong[9] ^= 4;
+    assert_eq!(registers(&wrong, None), (Vec::new(), 24));
+}
+
+#[test]
+fn fuzz_answers_between_packets_change_no_frame() {
+    for seed in 0..cases() {
+        let mut rng = Rng::with_seed(seed);
+        let stream = random(&mut rng, 3);
+        let (bytes, answers) = with_answers(&mut rng, &stream);
+        let plain = read(&mut rng, &stream.layout, &stream.bytes);
+        assert!(plain.1.is_empty());
+        assert!(read(&mut rng, &stream.layout, &bytes) == plain, "seed {seed}");
+        let expected: Vec<Register> = answers.iter().map(|(_, answer)| *answer).collect();
+        assert_eq!(registers(&bytes, Some(&stream.layout)), (expected.clone(), 0), "seed {seed}");
+        // They are found before the layout is known, too.
+        assert_eq!(registers(&bytes, None).0, expected, "seed {seed}");
+    }
+}
+
+#[test]
+fn fuzz_answers_beside_damage_come_back() {
+    let mut lost = 0;
+    for seed in 0..cases() {
+        let mut rng = Rng::with_seed(seed);
+        let stream = random(&mut rng, 3);
+        let (mut bytes, answers) = with_answers(&mut rng, &stream);
+        let at = rng.usize(0..bytes.len());
+        let touched = damage(&mut rng, &mut bytes, at);
+        let whole = |(range, _): &&(Range<usize>, Register)| {
+            touched.end.max(touched.start + 1) <= range.start || touched.start >= range.end
+        };
+        let expected: Vec<Register> = answers.iter().filter(whole).map(|(_, own)| *own).collect();
+        let mut found = registers(&bytes, Some(&stream.layout)).0;
+        // Noise before one leaves it whole; it is one more then.
+        let same = |register: &Register| answers.iter().any(|(_, own)| own == register);
+        assert!(found.iter().all(same), "seed {seed}: one from nowhere");
+        lost += answers.len() - found.len();
+        let mut rest = expected.iter().peekable();
+        found.retain(|register| rest.next_if(|own| *own == register).is_some());
+        assert_eq!(found, expected, "seed {seed}");
+    }
+    assert!(lost > 0, "no answer was damaged");
+}
