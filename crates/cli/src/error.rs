@@ -16,6 +16,7 @@ use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_studies::StudyError;
 use foveate_toolchain::ToolError;
+use foveate_view::ViewError;
 use thiserror::Error;
 
 use crate::interrupt::{self, DeafError};
@@ -46,6 +47,8 @@ pub(crate) enum CliError {
     Link(Box<LinkError>),
     #[error(transparent)]
     Output(#[from] StagingError),
+    #[error(transparent)]
+    View(#[from] ViewError),
     #[error(transparent)]
     Deaf(#[from] DeafError),
     /// A file or folder could not be used.
