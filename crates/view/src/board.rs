@@ -74,7 +74,7 @@ impl Board {
         port.as_ref().and_then(|port| port.try_clone().ok())
     }
 
-    /// What a browser is told of the registers: all but those that only do something.
+    /// What a browser is told of the registers.
     pub(crate) fn describe(&self) -> Value {
         let field = |field: &Field| {
             let Field { name, low, width, kind, doc } = field;
@@ -161,7 +161,7 @@ impl Board {
     }
 }
 
-/// The registers of a core and of its board that can be read.
+/// The registers of a core and of its board that are read.
 fn table(design: &Design) -> Option<Vec<Register>> {
     let status = |name: &str, low: u32, width: u32, doc: &str| Field {
         name: name.to_owned(),
@@ -180,9 +180,11 @@ fn table(design: &Design) -> Option<Vec<Register>> {
         ],
         doc: "the board around the core".to_owned(),
     };
-    let readable = |own: &Register| own.fields.iter().any(|field| field.kind != Kind::Command);
+    let is_told = |field: &Field| !matches!(field.kind, Kind::Constant(_) | Kind::Command);
+    // The first says that there is a core at all; what else is constant every FRAME says.
+    let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(is_told);
     let all = registers(design.raster()?);
-    Some(all.into_iter().filter(readable).chain([board]).collect())
+    Some(all.into_iter().filter(is_told).chain([board]).collect())
 }
 
 fn may_be_written(field: &Field) -> bool {

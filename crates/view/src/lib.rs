@@ -11,6 +11,7 @@ mod http;
 mod input;
 mod live;
 mod page;
+mod picture;
 mod reader;
 mod server;
 

@@ -7,13 +7,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use foveate_design::{Action, Design};
-use foveate_frame::{Plane, convert_depth};
+use foveate_design::Design;
 use foveate_simulator::{Loss, ShownFrame};
 use serde::Serialize;
 use serde_json::{Value, json};
 
 use crate::input::Input;
+use crate::picture::{facts, picture};
 
 /// After so long without a byte the page and the terminal say so.
 const SILENCE: Duration = Duration::from_secs(2);
@@ -169,8 +169,12 @@ impl Live {
         self.change(&mut state);
     }
 
+    /// Something is missing. What follows a FRAME that cannot be read is of no known length, and so no loss.
     pub(crate) fn lose(&self, loss: &Loss) {
         let mut state = self.lock();
+        if state.refused.is_some() {
+            return;
+        }
         *state.losses.entry(loss.kind()).or_default() += 1;
         match state.losses.values().sum::<u64>() {
             0..=TOLD => state.news.push(loss.to_string()),
@@ -265,39 +269,5 @@ impl Live {
     fn change(&self, state: &mut State) {
         state.change += 1;
         self.changed.notify_all();
-    }
-}
-
-/// What the page says of a design.
-fn facts(design: &Design) -> Value {
-    json!({
-        "fingerprint": design.fingerprint(),
-        "width": design.width(),
-        "height": design.height(),
-        "columns": design.columns(),
-        "rows": design.rows(),
-        "side": design.region_size(),
-    })
-}
-
-/// A byte per region: bit 0 SRS, bit 1 TRS, above them what became of it; then a byte per pixel.
-fn picture(frame: &ShownFrame) -> Vec<u8> {
-    let outcome = &frame.outcome;
-    let decisions = outcome.srs.iter().zip(&outcome.trs).zip(&outcome.actions);
-    let regions = decisions.map(|((&srs, &trs), action)| {
-        let action = match action {
-            Action::Forward => 0,
-            Action::Hold => 1,
-            Action::Blank => 2,
-            Action::Summarize => 3,
-        };
-        u8::from(srs) | u8::from(trs) << 1 | action << 2
-    });
-    let bits = frame.screen.bits();
-    let low = |pixel: u16| convert_depth(pixel, bits, 8).to_le_bytes()[0];
-    match frame.screen.plane() {
-        Plane::Bytes(pixels) if bits == 8 => regions.chain(pixels.iter().copied()).collect(),
-        Plane::Bytes(pixels) => regions.chain(pixels.iter().map(|&p| low(p.into()))).collect(),
-        Plane::Words(pixels) => regions.chain(pixels.iter().map(|&p| low(p))).collect(),
     }
 }

@@ -46,7 +46,10 @@ impl Reader {
                 }
                 Err(error) => return self.live.status(Status::Ended, error.to_string()),
             };
-            self.live.status(Status::Waiting, format!("`{name}` is open; no frame has come yet"));
+            if self.live.frames() == 0 || self.input.is_port() {
+                let text = format!("`{name}` is open; no frame has come yet");
+                self.live.status(Status::Waiting, text);
+            }
             self.board.attach(source.port);
             let problem = self.read(source.reader);
             self.board.attach(None);
