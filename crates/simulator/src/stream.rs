@@ -45,6 +45,8 @@ pub struct Stream {
     splitter: Splitter,
     run: Option<Run>,
     found: VecDeque<Received>,
+    /// The last FRAME was none of this camera.
+    is_refused: bool,
     is_complete: bool,
 }
 
@@ -57,6 +59,7 @@ impl Stream {
             splitter: Splitter::default(),
             run: None,
             found: VecDeque::new(),
+            is_refused: false,
             is_complete: false,
         }
     }
@@ -93,7 +96,7 @@ impl Stream {
     /// What comes next; nothing where more bytes are needed.
     ///
     /// # Errors
-    /// When a FRAME is none of this camera. Whoever asks again gets what follows it. Damage is no error.
+    /// When a FRAME is none of this camera. Whoever asks again gets what follows the next FRAME that is. Damage is no error.
     pub fn receive(&mut self) -> Result<Option<Received>, SimulatorError> {
         loop {
             if let Some(found) = self.found.pop_front() {
@@ -107,6 +110,8 @@ impl Stream {
                     },
                     None => return Ok(None),
                 },
+                // Packets of another camera have lengths that nobody knows here.
+                Found::Skipped { .. } if self.is_refused => {}
                 Found::Skipped { offset, bytes } => {
                     return Ok(Some(Received::Loss(Loss::Bytes { offset, bytes })));
                 }
@@ -114,11 +119,17 @@ impl Stream {
                     return Ok(Some(Received::Register(register)));
                 }
                 Found::Packet { frame, packet } => {
+                    let is_frame = matches!(packet, Packet::Frame(_));
+                    if self.is_refused && !is_frame {
+                        continue;
+                    }
+                    self.is_refused = is_frame;
                     if let (None, Packet::Frame(info)) = (&self.run, &packet) {
                         self.run = Some(Run::begin(&self.config, frame, info)?);
                     }
                     if let Some(run) = &mut self.run {
                         let ended = run.assembler.push(frame, packet)?;
+                        self.is_refused = false;
                         run.show(ended, &mut self.found)?;
                     }
                 }

@@ -169,12 +169,8 @@ impl Live {
         self.change(&mut state);
     }
 
-    /// Something is missing. What follows a FRAME that cannot be read is of no known length, and so no loss.
     pub(crate) fn lose(&self, loss: &Loss) {
         let mut state = self.lock();
-        if state.refused.is_some() {
-            return;
-        }
         *state.losses.entry(loss.kind()).or_default() += 1;
         match state.losses.values().sum::<u64>() {
             0..=TOLD => state.news.push(loss.to_string()),
