@@ -89,7 +89,7 @@ impl Board {
         })
     }
 
-    /// Writes a threshold, or clears events.
+    /// Writes a register that can be written.
     pub(crate) fn write(&self, address: u64, value: u64) -> Result<(), String> {
         let table = self.table.get().ok_or("there is no core whose registers can be written")?;
         let own = table.iter().find(|own| u64::from(own.address) == address);
@@ -189,8 +189,8 @@ fn table(design: &Design) -> Option<Vec<Register>> {
 
 fn may_be_written(field: &Field) -> bool {
     match field.kind {
-        Kind::Threshold { .. } | Kind::Event => true,
-        Kind::Constant(_) | Kind::Status | Kind::Control { .. } | Kind::Command => false,
+        Kind::Threshold { .. } | Kind::Control { .. } | Kind::Command | Kind::Event => true,
+        Kind::Constant(_) | Kind::Status => false,
     }
 }
 

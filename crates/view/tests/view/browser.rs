@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The page in Chromium, where there is one.
 
+use std::collections::HashSet;
 use std::fs;
 use std::process::Command;
 
@@ -65,5 +66,7 @@ fn a_browser_draws_the_screen_and_says_what_is_lost() {
     };
     let is_active = sent.pictures[2][..20].iter().any(|&byte| byte & 3 == 3);
     let count = picture.pixels().filter(tinted).count();
+    let colours: HashSet<_> = picture.pixels().filter(tinted).collect();
     assert!(is_active && count > 1000, "{count} pixels are green");
+    assert!(colours.len() > 9, "only {} greens: no picture below them", colours.len());
 }
