@@ -62,7 +62,7 @@ fn ice40(mhz: u32, core: u32, pad: bool) -> Option<Source> {
 
 /// The oscillator runs at 400 to 800 MHz, best in the middle; its reference at 4 or more.
 fn ecp5(mhz: u32, core: u32) -> Option<Source> {
-    let reference = (1..=mhz / 4).find(|reference| core * reference % mhz == 0)?;
+    let reference = (1..=mhz / 4).find(|reference| (core * reference).is_multiple_of(mhz))?;
     let feedback = core * reference / mhz;
     let output = (1..=128).filter(|output| (400..=800).contains(&(core * output)));
     let output = output.min_by_key(|output| (core * output).abs_diff(600))?;

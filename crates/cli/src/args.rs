@@ -21,6 +21,7 @@ mod outputs;
 mod page;
 mod stress;
 mod threads;
+mod view;
 mod viewing;
 
 use std::fs;
@@ -49,6 +50,7 @@ pub(crate) use input::warn_of;
 pub(crate) use link::LinkArgs;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use stress::StressArgs;
+pub(crate) use view::ViewArgs;
 
 /// Region-based event cameras: bit-accurate model, Verilog, co-simulation, area and simulation.
 #[derive(Debug, Parser)]
@@ -72,6 +74,7 @@ pub(crate) enum Command {
     Simulate(SimulateArgs),
     Dataset(DatasetArgs),
     Decode(DecodeArgs),
+    View(ViewArgs),
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
     Explore(ExploreArgs),

@@ -17,6 +17,7 @@ use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_studies::StudyError;
 use foveate_toolchain::ToolError;
+use foveate_view::ViewError;
 use thiserror::Error;
 
 use crate::interrupt::{self, DeafError};
@@ -49,6 +50,8 @@ pub(crate) enum CliError {
     Board(Box<BoardError>),
     #[error(transparent)]
     Output(#[from] StagingError),
+    #[error(transparent)]
+    View(#[from] ViewError),
     #[error(transparent)]
     Deaf(#[from] DeafError),
     /// A file or folder could not be used.

@@ -55,6 +55,7 @@ fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
         Command::Simulate(args) => command::simulate::run(args),
         Command::Dataset(args) => command::dataset::run(args),
         Command::Decode(args) => command::decode::run(args),
+        Command::View(args) => command::view::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Analyze(args) => command::analyze::run(args),
         Command::Explore(args) => command::explore::run(args),

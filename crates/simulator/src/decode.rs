@@ -6,18 +6,14 @@ use std::io::{ErrorKind, Read};
 use std::path::Path;
 
 use foveate_design::{Config, Design};
-use foveate_engine::{FrameOutcome, Receiver};
 use foveate_footage::{SetForm, SourceFrame};
-use foveate_frame::{Plane, Raster};
-use foveate_packets::{
-    Assembler, Content, Found, FrameInfo, Layout, Loss, Packet, PacketError, ReceivedFrame,
-    Splitter,
-};
+use foveate_packets::{Loss, PacketError};
 use foveate_staging::StagedFolder;
 
 use crate::losses::Losses;
 use crate::output::{INTERRUPTED, Recorder};
 use crate::simulation::SIMULATION;
+use crate::stream::{Received, ShownFrame, Stream};
 use crate::{Hooks, Progress, RunOptions, SimulatorError, Summary};
 
 /// Bytes that are read at once.
@@ -58,14 +54,13 @@ impl Recording<'_> {
     ) -> Result<Decoded, SimulatorError> {
         possible(options)?;
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
-        let mut reader = Reader {
-            config: self.config,
+        let mut writer = Writer {
             folder: staging.folder(),
             options,
             losses: Losses::new(staging.folder()),
-            run: None,
+            recorder: None,
         };
-        let (mut splitter, mut chunk, mut bytes) = (Splitter::default(), vec![0; CHUNK], 0u64);
+        let (mut stream, mut chunk, mut bytes) = (Stream::new(self.config), vec![0; CHUNK], 0u64);
         let mut is_cancelled = false;
         loop {
             let read = match self.stream.read(&mut chunk) {
@@ -82,25 +77,26 @@ impl Recording<'_> {
             is_cancelled |= hooks.cancelled();
             let ends = is_cancelled || read == Some(0);
             if ends {
-                splitter.complete();
+                stream.complete();
             } else if let Some(read) = read {
                 bytes += read as u64;
-                splitter.feed(&chunk[..read]);
+                stream.feed(&chunk[..read]);
             }
-            reader.take(&mut splitter, hooks)?;
+            writer.take(&mut stream, hooks)?;
             if ends {
                 break;
             }
         }
-        let Some(run) = reader.run else {
+        let Writer { losses, recorder, .. } = writer;
+        let Some(recorder) = recorder else {
             let none = PacketError::NoFrame { stream: self.name.to_owned(), bytes };
-            return Err(if is_cancelled { SimulatorError::Cancelled } else { none.into() });
+            let is_none = stream.design().is_none();
+            return Err(if is_cancelled && is_none {
+                SimulatorError::Cancelled
+            } else {
+                none.into()
+            });
         };
-        let mut losses = reader.losses;
-        let recorder = run.end(&mut losses)?;
-        if recorder.frames() == 0 {
-            return Err(PacketError::NoFrame { stream: self.name.to_owned(), bytes }.into());
-        }
         let problem = match (is_cancelled, losses.count()) {
             (true, _) => Some(INTERRUPTED.to_owned()),
             (false, 0) => None,
@@ -131,138 +127,57 @@ fn possible(options: &RunOptions) -> Result<(), SimulatorError> {
     }
 }
 
-/// Waits for the first FRAME, which says what frames there are.
-struct Reader<'a> {
-    config: &'a Config,
+/// Files of a stream, once a frame has come.
+struct Writer<'a> {
     folder: &'a Path,
     options: &'a RunOptions,
     losses: Losses,
-    run: Option<Run>,
+    recorder: Option<Recorder>,
 }
 
-impl Reader<'_> {
-    /// Takes all packets that are there.
-    fn take(
-        &mut self,
-        splitter: &mut Splitter,
-        hooks: &mut dyn Hooks,
-    ) -> Result<(), SimulatorError> {
-        loop {
-            match splitter.next(self.run.as_ref().map(|run| run.assembler.layout())) {
-                Found::Nothing => return Ok(()),
-                Found::Skipped { offset, bytes } => {
-                    self.losses.push(Loss::Bytes { offset, bytes })?;
-                }
-                Found::Packet { frame, packet } => {
-                    if let (None, Packet::Frame(info)) = (&self.run, &packet) {
-                        self.run = Some(self.begin(frame, info)?);
+impl Writer<'_> {
+    /// Writes all that is there.
+    fn take(&mut self, stream: &mut Stream, hooks: &mut dyn Hooks) -> Result<(), SimulatorError> {
+        while let Some(received) = stream.receive()? {
+            match received {
+                Received::Loss(loss) => self.losses.push(loss)?,
+                Received::Register(_) => {}
+                Received::Frame(frame) => {
+                    if let Some(design) = stream.design() {
+                        self.write(*frame, design, stream.has_scores())?;
                     }
-                    if let Some(run) = &mut self.run {
-                        run.take(frame, packet, &mut self.losses)?;
-                        hooks.progress(Progress { done: run.recorder.frames(), total: None });
-                    }
+                    let done = self.recorder.as_ref().map_or(0, Recorder::frames);
+                    hooks.progress(Progress { done, total: None });
                 }
             }
         }
+        Ok(())
     }
 
-    /// The run of a stream whose first FRAME says this.
-    fn begin(&self, frame: u32, info: &FrameInfo) -> Result<Run, SimulatorError> {
-        if info.version != foveate_packets::VERSION {
-            return Err(PacketError::Version { frame, version: info.version }.into());
-        }
-        let design = self.config.for_frames(info.width.into(), info.height.into())?;
-        if self.options.heatmap.is_some() && !info.has_scores {
-            let why = "it was sent without scores; leave --heatmap out";
-            return Err(SimulatorError::NotInStream { output: "heat maps", why });
-        }
-        let layout = Layout::new(&design, info.has_scores, info.ticks_per_second);
-        // Before anything is written: the design may be another.
-        let assembler = Assembler::new(layout);
-        assembler.check(frame, info)?;
-        let form = SetForm::default();
-        let recorder =
-            Recorder::create(self.folder, &design, &form, self.options, info.has_scores)?;
-        Ok(Run { receiver: Receiver::new(&design), assembler, recorder, design, start: None })
-    }
-}
-
-/// Frames on their way from packets to files.
-struct Run {
-    design: Design,
-    assembler: Assembler,
-    receiver: Receiver,
-    recorder: Recorder,
-    /// When the first frame began, in ticks.
-    start: Option<u64>,
-}
-
-impl Run {
-    fn take(
+    /// Writes a frame, if its time is known. What is drawn over the frame before the camera in a simulation is drawn over
+    /// the screen.
+    fn write(
         &mut self,
-        frame: u32,
-        packet: Packet,
-        losses: &mut Losses,
+        frame: ShownFrame,
+        design: &Design,
+        has_scores: bool,
     ) -> Result<(), SimulatorError> {
-        let ended = self.assembler.push(frame, packet)?;
-        self.assembler.losses().into_iter().try_for_each(|loss| losses.push(loss))?;
-        ended.into_iter().flatten().try_for_each(|frame| self.show(frame))
-    }
-
-    /// Ends with the stream.
-    fn end(mut self, losses: &mut Losses) -> Result<Recorder, SimulatorError> {
-        let last = self.assembler.end();
-        self.assembler.losses().into_iter().try_for_each(|loss| losses.push(loss))?;
-        last.into_iter().try_for_each(|frame| self.show(frame))?;
-        Ok(self.recorder)
-    }
-
-    /// Shows a frame, and writes it if its time is known.
-    fn show(&mut self, frame: ReceivedFrame) -> Result<(), SimulatorError> {
-        if frame.info.as_ref().is_some_and(|info| info.first) {
-            self.receiver.reset();
-        }
-        for (region, content) in (0..).zip(&frame.contents) {
-            match content {
-                Some(Content::Pixels(pixels)) => self.receiver.take_pixels(region, pixels),
-                Some(Content::Means(means)) => self.receiver.take_means(region, means),
-                None => {}
+        let Some(time_us) = frame.time_us else { return Ok(()) };
+        let recorder = match &mut self.recorder {
+            Some(recorder) => recorder,
+            none => {
+                if self.options.heatmap.is_some() && !has_scores {
+                    let why = "it was sent without scores; leave --heatmap out";
+                    return Err(SimulatorError::NotInStream { output: "heat maps", why });
+                }
+                let form = SetForm::default();
+                let created =
+                    Recorder::create(self.folder, design, &form, self.options, has_scores)?;
+                none.insert(created)
             }
-        }
-        let actions = frame.actions(self.design.irrelevant());
-        self.receiver.show(&actions);
-        let Some(info) = &frame.info else { return Ok(()) };
-        let start = *self.start.get_or_insert(info.time);
-        let ticks = u128::from(info.time.saturating_sub(start));
-        let time_us = ticks * 1_000_000 / u128::from(info.ticks_per_second.max(1));
-        let screen = self.receiver.rendered();
-        let source = SourceFrame {
-            name: frame.number.to_string(),
-            time_us: u64::try_from(time_us).unwrap_or(u64::MAX),
-            label: None,
-            frame: raster(&self.design, screen)?,
         };
-        let of = |bit: fn(&foveate_packets::Decision) -> bool| {
-            frame.decisions.iter().map(bit).collect::<Vec<_>>()
-        };
-        let outcome = FrameOutcome {
-            srs: of(|decision| decision.srs),
-            trs: of(|decision| decision.trs),
-            active: of(|decision| decision.srs && decision.trs),
-            actions,
-            temporal_count: frame.temporal_count,
-            scores: frame.scores,
-            skipped: 0,
-        };
-        self.recorder.push_received(&source, &outcome, (&self.design, screen))
+        let ShownFrame { number, screen: frame, outcome, .. } = frame;
+        let source = SourceFrame { name: number.to_string(), time_us, label: None, frame };
+        recorder.push_received(&source, &outcome, (design, source.frame.plane()))
     }
-}
-
-/// A copy of the screen. What is drawn over the frame before the camera in a simulation is drawn over this.
-fn raster(design: &Design, screen: Plane<'_>) -> Result<Raster, SimulatorError> {
-    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
-    Ok(match screen {
-        Plane::Bytes(pixels) => Raster::from_bytes(width, height, bits, pixels.to_vec())?,
-        Plane::Words(pixels) => Raster::from_words(width, height, bits, pixels.to_vec())?,
-    })
 }

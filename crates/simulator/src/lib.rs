@@ -3,8 +3,9 @@
 //!
 //! A [`Simulation`] runs a design over a source of footage and writes a folder of NumPy arrays, PNGs
 //! and a summary. The folder appears at the end, and says whether it is complete. [`run_batch`] does so
-//! for many clips. Memory does not grow with the number of frames. The library never prints: progress
-//! and cancellation go through [`Hooks`].
+//! for many clips. A [`Recording`] is a stream of packets that becomes such a folder, a [`Stream`] one
+//! that is looked at as it comes. Memory does not grow with the number of frames. The library never
+//! prints: progress and cancellation go through [`Hooks`].
 
 mod batch;
 mod decode;
@@ -13,6 +14,7 @@ mod explain;
 mod losses;
 mod output;
 mod simulation;
+mod stream;
 
 pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
 pub use decode::{Decoded, Recording};
@@ -20,9 +22,10 @@ pub use error::SimulatorError;
 pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
 pub use foveate_engine::MAX_THREADS;
 pub use foveate_footage::{Hooks, Progress, Silent};
-pub use foveate_packets::Loss;
+pub use foveate_packets::{Command, Loss, Register};
 pub use output::{
     Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES, Packets,
     PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic,
 };
 pub use simulation::Simulation;
+pub use stream::{Received, ShownFrame, Stream};

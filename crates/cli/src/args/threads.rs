@@ -57,6 +57,7 @@ impl Command {
             Self::Stress(args) => Some(&args.threads),
             Self::Check(_)
             | Self::Decode(_)
+            | Self::View(_)
             | Self::Generate(_)
             | Self::Build(_)
             | Self::Cosim(_)

@@ -19,3 +19,4 @@ pub(crate) mod link;
 pub(crate) mod presets;
 pub(crate) mod simulate;
 pub(crate) mod stress;
+pub(crate) mod view;

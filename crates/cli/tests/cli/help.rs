@@ -12,7 +12,7 @@ use foveate_toolchain::testing::require_tools;
 
 /// Not run here: they take minutes, each is the subject of other tests, and `examples` in the sources
 /// sees that they are taken.
-const LONG: [&str; 13] = [
+const LONG: [&str; 15] = [
     "foveate cosim",
     "foveate estimate",
     "foveate bench",
@@ -25,6 +25,9 @@ const LONG: [&str; 13] = [
     // Networks that are not shipped.
     "foveate infer resnet50.onnx",
     "foveate infer yolox_nano.onnx",
+    // Until Ctrl-C.
+    "foveate view",
+    "cat packets.bin | foveate view",
     // Events of a real sensor, and a folder of the system.
     "foveate analyze sensor",
     "foveate completions bash > /etc/",

@@ -32,3 +32,4 @@ mod studies;
 mod synth;
 mod threads;
 mod units;
+mod view;

@@ -178,6 +178,7 @@ impl<'a> Receiver<'a> {
             Packet::Region(region) => self.region(frame, &region),
             Packet::End(end) => self.end(frame, end),
             Packet::Scores(_) => Err(Wrong::presence("a SCORES packet", false)),
+            Packet::Register(_) => Err(Wrong::presence("a REGISTER packet", false)),
         }
     }
 
@@ -412,8 +413,8 @@ fn written(layout: &Layout, frame: u32, packet: &Packet) -> Vec<u8> {
             write::region(&mut bytes, layout, frame, (*row, *column), (*flags, values));
         }
         Packet::End(end) => write::end(&mut bytes, frame, *end),
-        // A core sends none, which is found where the packet is looked at.
-        Packet::Scores(_) => {}
+        // A core sends none of them, which is found where the packet is looked at.
+        Packet::Scores(_) | Packet::Register(_) => {}
     }
     bytes
 }

@@ -17,7 +17,8 @@ pub fn look(group: usize) -> (String, &'static str) {
 }
 
 /// The colours of a style as variables: `--k0` and on are those of the series.
-pub(crate) fn variables(style: &Style) -> String {
+#[must_use]
+pub fn variables(style: &Style) -> String {
     let mut text = String::new();
     let mut say = |name: &str, [red, green, blue]: Colour| {
         let _ = write!(text, "--{name}:#{red:02x}{green:02x}{blue:02x};");

@@ -13,7 +13,7 @@ mod plot;
 mod table;
 
 pub use axis::Axis;
-pub use colour::{COLOURS, look};
+pub use colour::{COLOURS, look, variables};
 pub use document::{Fact, Notice, Page, Target};
 pub use error::PageError;
 pub use plot::{At, Field, Line, Mark, Plot, rings, staircase, text, through};

@@ -308,7 +308,7 @@ fn found(layout: &Layout, bytes: &[u8]) -> String {
                     let sum = end.regions_sent + 31 * end.regions_dropped + 961 * end.rows_dropped;
                     format!("5 {frame} 0 0 0 {sum}")
                 }
-                Packet::Scores(_) => panic!("a core sends none"),
+                Packet::Scores(_) | Packet::Register(_) => panic!("a core sends none"),
             },
         };
         text += &line;

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `view`.
+
+use std::net::SocketAddr;
+use std::path::PathBuf;
+
+use clap::{Args, ValueEnum};
+use foveate_view::{Play, ViewOptions};
+
+use super::{DesignArgs, at_least_one};
+use crate::error::CliError;
+
+/// Show live, on a page in the browser, what a camera sends: its screen, its decisions, what is lost, and the registers of
+/// a core on a serial line
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate view /dev/ttyUSB0 --config core/design.toml
+          foveate view packets.bin --preset steady --play looped
+          cat packets.bin | foveate view - --preset steady")]
+pub(crate) struct ViewArgs {
+    /// A serial port; a file or FIFO with packets, such as packets.bin of `foveate simulate --packets`; - for standard input
+    #[arg(value_name = "INPUT")]
+    pub(crate) input: PathBuf,
+    #[command(flatten)]
+    pub(crate) design: DesignArgs,
+    /// Bits per second of a serial port
+    #[arg(long, value_name = "RATE", default_value_t = 3_000_000, value_parser = at_least_one())]
+    pub(crate) baud: u32,
+    /// Where browsers of this machine find the page; port 0 is any that is free
+    #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:0")]
+    pub(crate) address: SocketAddr,
+    /// When frames are shown. The default is timed for a file, and at-once for anything else
+    #[arg(long, value_enum)]
+    pub(crate) play: Option<PlayChoice>,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub(crate) enum PlayChoice {
+    /// By their times
+    Timed,
+    /// As soon as they are read
+    AtOnce,
+    /// A file by its times, again and again
+    Looped,
+}
+
+impl ViewArgs {
+    pub(crate) fn options(&self) -> Result<ViewOptions, CliError> {
+        let play = self.play.map(|play| match play {
+            PlayChoice::Timed => Play::Timed,
+            PlayChoice::AtOnce => Play::AtOnce,
+            PlayChoice::Looped => Play::Looped,
+        });
+        let (input, config) = (self.input.clone(), self.design.read()?);
+        Ok(ViewOptions { input, config, baud: self.baud, address: self.address, play })
+    }
+}

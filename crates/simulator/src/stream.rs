@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A stream of packets as what it says, one thing after the other: frames as they are on the receiver's screen, what is missing, and answers of
+//! a board. Writes nothing and does not wait, so it is for recordings and for what is sent just now.
+
+use std::collections::VecDeque;
+
+use foveate_design::{Config, Design};
+use foveate_engine::{FrameOutcome, Receiver};
+use foveate_frame::{Plane, Raster};
+use foveate_packets::{
+    Assembler, Content, Found, FrameInfo, Layout, Loss, Packet, PacketError, ReceivedFrame,
+    Register, Splitter,
+};
+
+use crate::SimulatorError;
+
+/// What comes next in a stream.
+#[derive(Clone, Debug)]
+pub enum Received {
+    /// A frame has ended, and is on the screen.
+    Frame(Box<ShownFrame>),
+    /// Something is missing.
+    Loss(Loss),
+    /// What a board answers.
+    Register(Register),
+}
+
+/// A frame that is on the screen.
+#[derive(Clone, Debug)]
+pub struct ShownFrame {
+    /// Its number in the stream.
+    pub number: u32,
+    /// When it began, in microseconds since the first; none where its FRAME is missing.
+    pub time_us: Option<u64>,
+    /// What is on the screen.
+    pub screen: Raster,
+    /// What was decided, and what became of every region. What is not known is 0.
+    pub outcome: FrameOutcome,
+}
+
+/// A stream, and how far it was read.
+#[derive(Debug)]
+pub struct Stream {
+    config: Config,
+    splitter: Splitter,
+    run: Option<Run>,
+    found: VecDeque<Received>,
+    /// The last FRAME was none of this camera.
+    is_refused: bool,
+    is_complete: bool,
+}
+
+impl Stream {
+    /// Of a camera with this configuration, of which the frame size may be missing.
+    #[must_use]
+    pub fn new(config: &Config) -> Self {
+        Self {
+            config: config.clone(),
+            splitter: Splitter::default(),
+            run: None,
+            found: VecDeque::new(),
+            is_refused: false,
+            is_complete: false,
+        }
+    }
+
+    /// Takes the next bytes.
+    pub fn feed(&mut self, bytes: &[u8]) {
+        self.splitter.feed(bytes);
+    }
+
+    /// There are no more bytes.
+    pub fn complete(&mut self) {
+        self.splitter.complete();
+        self.is_complete = true;
+    }
+
+    /// Bytes that are done with.
+    #[must_use]
+    pub fn position(&self) -> u64 {
+        self.splitter.position()
+    }
+
+    /// The design, once a FRAME has said how large frames are.
+    #[must_use]
+    pub fn design(&self) -> Option<&Design> {
+        self.run.as_ref().map(|run| &run.design)
+    }
+
+    /// Whether scores are in the stream; false before the first FRAME.
+    #[must_use]
+    pub fn has_scores(&self) -> bool {
+        self.run.as_ref().is_some_and(|run| run.assembler.layout().info().has_scores)
+    }
+
+    /// What comes next; nothing where more bytes are needed.
+    ///
+    /// # Errors
+    /// When a FRAME is none of this camera. Whoever asks again gets what follows the next FRAME that is. Damage is no error.
+    pub fn receive(&mut self) -> Result<Option<Received>, SimulatorError> {
+        loop {
+            if let Some(found) = self.found.pop_front() {
+                return Ok(Some(found));
+            }
+            match self.splitter.next(self.run.as_ref().map(|run| run.assembler.layout())) {
+                Found::Nothing => match self.run.as_mut().filter(|_| self.is_complete) {
+                    Some(run) => match run.assembler.end() {
+                        Some(last) => run.show([Some(last)], &mut self.found)?,
+                        None => return Ok(None),
+                    },
+                    None => return Ok(None),
+                },
+                // Packets of another camera have lengths that nobody knows here.
+                Found::Skipped { .. } if self.is_refused => {}
+                Found::Skipped { offset, bytes } => {
+                    return Ok(Some(Received::Loss(Loss::Bytes { offset, bytes })));
+                }
+                Found::Packet { packet: Packet::Register(register), .. } => {
+                    return Ok(Some(Received::Register(register)));
+                }
+                Found::Packet { frame, packet } => {
+                    let is_frame = matches!(packet, Packet::Frame(_));
+                    if self.is_refused && !is_frame {
+                        continue;
+                    }
+                    self.is_refused = is_frame;
+                    if let (None, Packet::Frame(info)) = (&self.run, &packet) {
+                        self.run = Some(Run::begin(&self.config, frame, info)?);
+                    }
+                    if let Some(run) = &mut self.run {
+                        let ended = run.assembler.push(frame, packet)?;
+                        self.is_refused = false;
+                        run.show(ended, &mut self.found)?;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Frames on their way from packets to the screen.
+#[derive(Debug)]
+struct Run {
+    design: Design,
+    assembler: Assembler,
+    receiver: Receiver,
+    /// When the first frame began, in ticks.
+    start: Option<u64>,
+}
+
+impl Run {
+    /// That of a stream whose first FRAME says this.
+    fn begin(config: &Config, frame: u32, info: &FrameInfo) -> Result<Self, SimulatorError> {
+        if info.version != foveate_packets::VERSION {
+            return Err(PacketError::Version { frame, version: info.version }.into());
+        }
+        let design = config.for_frames(info.width.into(), info.height.into())?;
+        let layout = Layout::new(&design, info.has_scores, info.ticks_per_second);
+        let assembler = Assembler::new(layout);
+        assembler.check(frame, info)?;
+        Ok(Self { receiver: Receiver::new(&design), assembler, design, start: None })
+    }
+
+    /// Adds what is missing so far, and then the frames that have ended.
+    fn show(
+        &mut self,
+        ended: impl IntoIterator<Item = Option<ReceivedFrame>>,
+        found: &mut VecDeque<Received>,
+    ) -> Result<(), SimulatorError> {
+        found.extend(self.assembler.losses().into_iter().map(Received::Loss));
+        for frame in ended.into_iter().flatten() {
+            let shown = self.shown(frame)?;
+            found.push_back(Received::Frame(Box::new(shown)));
+        }
+        Ok(())
+    }
+
+    /// Puts a frame on the screen.
+    fn shown(&mut self, frame: ReceivedFrame) -> Result<ShownFrame, SimulatorError> {
+        if frame.info.as_ref().is_some_and(|info| info.first) {
+            self.receiver.reset();
+        }
+        for (region, content) in (0..).zip(&frame.contents) {
+            match content {
+                Some(Content::Pixels(pixels)) => self.receiver.take_pixels(region, pixels),
+                Some(Content::Means(means)) => self.receiver.take_means(region, means),
+                None => {}
+            }
+        }
+        let actions = frame.actions(self.design.irrelevant());
+        self.receiver.show(&actions);
+        let time_us = frame.info.as_ref().map(|info| {
+            let start = *self.start.get_or_insert(info.time);
+            let ticks = u128::from(info.time.saturating_sub(start));
+            let time_us = ticks * 1_000_000 / u128::from(info.ticks_per_second.max(1));
+            u64::try_from(time_us).unwrap_or(u64::MAX)
+        });
+        let of = |bit: fn(&foveate_packets::Decision) -> bool| {
+            frame.decisions.iter().map(bit).collect::<Vec<_>>()
+        };
+        let outcome = FrameOutcome {
+            srs: of(|decision| decision.srs),
+            trs: of(|decision| decision.trs),
+            active: of(|decision| decision.srs && decision.trs),
+            actions,
+            temporal_count: frame.temporal_count,
+            scores: frame.scores,
+            skipped: 0,
+        };
+        let screen = raster(&self.design, self.receiver.rendered())?;
+        Ok(ShownFrame { number: frame.number, time_us, screen, outcome })
+    }
+}
+
+/// A copy of the screen.
+fn raster(design: &Design, screen: Plane<'_>) -> Result<Raster, SimulatorError> {
+    let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
+    Ok(match screen {
+        Plane::Bytes(pixels) => Raster::from_bytes(width, height, bits, pixels.to_vec())?,
+        Plane::Words(pixels) => Raster::from_words(width, height, bits, pixels.to_vec())?,
+    })
+}

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The registers of a core on a serial line: all are read again and again, and a threshold is written when a browser asks for it. One command at
+//! a time is on the line.
+
+use std::fs::File;
+use std::io::Write as _;
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
+
+use foveate_design::{Config, Design};
+use foveate_emit::{Field, Kind, Register, registers};
+use foveate_simulator::{Command, Register as Answer};
+use serde_json::{Value, json};
+
+use crate::ViewError;
+use crate::live::{Live, Reading};
+
+/// How long an answer is waited for. Longer than the pause after which a board takes the next byte for the first of a command.
+const ANSWER: Duration = Duration::from_millis(300);
+/// How often a command is sent.
+const ATTEMPTS: u32 = 3;
+/// Between two rounds through all registers.
+const ROUND: Duration = Duration::from_secs(1);
+/// How long a browser waits for its write.
+const WRITE: Duration = Duration::from_secs(10);
+/// The board's own register.
+const BOARD: u32 = 0x1000;
+
+/// A register that a browser wants to be written, and where the answer goes.
+struct Write {
+    address: u16,
+    value: u32,
+    done: Sender<bool>,
+}
+
+/// The registers of a core.
+#[derive(Debug, Default)]
+pub(crate) struct Board {
+    table: OnceLock<Vec<Register>>,
+    writes: OnceLock<Sender<Write>>,
+    port: Mutex<Option<File>>,
+}
+
+impl Board {
+    /// Begins to read the registers, if there is a port and the design has some. Returns where answers go.
+    pub(crate) fn start(
+        self: &Arc<Self>,
+        config: &Config,
+        live: &Arc<Live>,
+        has_port: bool,
+    ) -> Result<Sender<Answer>, ViewError> {
+        let (answer, answers) = channel();
+        // The size of frames does not change the map, but for what is constant.
+        let design = config.validate().ok().filter(|design| has_port && design.is_on_axi());
+        if let Some(table) = design.as_ref().and_then(table) {
+            let (write, writes) = channel();
+            self.table.get_or_init(|| table);
+            self.writes.get_or_init(|| write);
+            let (own, live) = (Arc::clone(self), Arc::clone(live));
+            crate::thread("registers", move || own.run(&live, &writes, &answers))?;
+        }
+        Ok(answer)
+    }
+
+    /// The port to write to; none while it is gone.
+    pub(crate) fn attach(&self, port: Option<File>) {
+        *self.port.lock().unwrap_or_else(PoisonError::into_inner) = port;
+    }
+
+    /// A copy, so that nothing is held while a command is written: the reader may want to say that the port is gone.
+    fn port(&self) -> Option<File> {
+        let port = self.port.lock().unwrap_or_else(PoisonError::into_inner);
+        port.as_ref().and_then(|port| port.try_clone().ok())
+    }
+
+    /// What a browser is told of the registers.
+    pub(crate) fn describe(&self) -> Value {
+        let field = |field: &Field| {
+            let Field { name, low, width, kind, doc } = field;
+            json!({"name": name, "low": low, "width": width, "kind": word(kind), "doc": doc})
+        };
+        self.table.get().map_or(Value::Null, |table| {
+            let register = |own: &Register| {
+                let fields: Vec<Value> = own.fields.iter().map(field).collect();
+                json!({"name": own.name, "address": own.address, "doc": own.doc, "fields": fields})
+            };
+            table.iter().map(register).collect()
+        })
+    }
+
+    /// Writes a register that can be written.
+    pub(crate) fn write(&self, address: u64, value: u64) -> Result<(), String> {
+        let table = self.table.get().ok_or("there is no core whose registers can be written")?;
+        let own = table.iter().find(|own| u64::from(own.address) == address);
+        let own = own.ok_or_else(|| format!("there is no register {address:#x}"))?;
+        let width = own.fields.iter().filter(|field| may_be_written(field));
+        let width = width.map(|field| field.low + field.width).max();
+        let width = width.ok_or_else(|| format!("`{}` cannot be set here", own.name))?;
+        if value >> width != 0 {
+            let most = (1u64 << width) - 1;
+            return Err(format!("`{}` is at most {most}, not {value}", own.name));
+        }
+        let narrow = u16::try_from(own.address).ok().zip(u32::try_from(value).ok());
+        let (address, value) = narrow.ok_or("a register has 32 bits")?;
+        let (done, answer) = channel();
+        let sent = self.writes.get().and_then(|to| to.send(Write { address, value, done }).ok());
+        match sent.and_then(|()| answer.recv_timeout(WRITE).ok()) {
+            Some(true) => Ok(()),
+            Some(false) | None => Err("the board does not answer; it may have been set".to_owned()),
+        }
+    }
+
+    fn run(&self, live: &Live, writes: &Receiver<Write>, answers: &Receiver<Answer>) {
+        let table = self.table.get().map_or(&[][..], Vec::as_slice);
+        while !live.is_over() {
+            let mut readings = Vec::with_capacity(table.len());
+            for own in table {
+                while let Ok(write) = writes.try_recv() {
+                    self.serve(&write, answers);
+                }
+                let is_silent =
+                    readings.first().is_some_and(|first: &Reading| first.value.is_none());
+                let address = u16::try_from(own.address).unwrap_or(u16::MAX);
+                // A board that does not answer once is asked again in the next round.
+                let value =
+                    if is_silent { None } else { self.ask(Command::read(address), answers) };
+                readings.push(Reading { address: own.address, value });
+            }
+            live.read(readings);
+            match writes.recv_timeout(ROUND) {
+                Ok(write) => self.serve(&write, answers),
+                Err(RecvTimeoutError::Timeout) => {}
+                Err(RecvTimeoutError::Disconnected) => return,
+            }
+        }
+    }
+
+    fn serve(&self, write: &Write, answers: &Receiver<Answer>) {
+        let answer = self.ask(Command::write(write.address, write.value), answers);
+        // A browser that does not wait any more sees it in the table.
+        let _ = write.done.send(answer.is_some());
+    }
+
+    /// Sends a command until it is answered.
+    fn ask(&self, command: Command, answers: &Receiver<Answer>) -> Option<u32> {
+        for _ in 0..ATTEMPTS {
+            while answers.try_recv().is_ok() {}
+            let port = self.port();
+            port?.write_all(&command.bytes()).ok()?;
+            let until = Instant::now() + ANSWER;
+            while let Some(left) = until.checked_duration_since(Instant::now()) {
+                match answers.recv_timeout(left) {
+                    Ok(answer) if command.is_answered_by(answer) => return Some(answer.value),
+                    Ok(_) => {}
+                    Err(_) => break,
+                }
+            }
+        }
+        None
+    }
+}
+
+/// The registers of a core and of its board that are read.
+fn table(design: &Design) -> Option<Vec<Register>> {
+    let status = |name: &str, low: u32, width: u32, doc: &str| Field {
+        name: name.to_owned(),
+        low,
+        width,
+        kind: Kind::Status,
+        doc: doc.to_owned(),
+    };
+    let board = Register {
+        name: "board".to_owned(),
+        address: BOARD,
+        fields: vec![
+            status("done", 0, 1, "the sensor is set up"),
+            status("failed", 1, 1, "the sensor did not acknowledge a register"),
+            status("lost", 16, 16, "pixels that found no room, modulo 2^16"),
+        ],
+        doc: "the board around the core".to_owned(),
+    };
+    let is_told = |field: &Field| !matches!(field.kind, Kind::Constant(_) | Kind::Command);
+    // The first says that there is a core at all; what else is constant every FRAME says.
+    let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(is_told);
+    let all = registers(design.raster()?);
+    Some(all.into_iter().filter(is_told).chain([board]).collect())
+}
+
+fn may_be_written(field: &Field) -> bool {
+    match field.kind {
+        Kind::Threshold { .. } | Kind::Control { .. } | Kind::Command | Kind::Event => true,
+        Kind::Constant(_) | Kind::Status => false,
+    }
+}
+
+fn word(kind: &Kind) -> &'static str {
+    match kind {
+        Kind::Constant(_) => "constant",
+        Kind::Status => "status",
+        Kind::Control { .. } => "control",
+        Kind::Threshold { .. } => "threshold",
+        Kind::Command => "command",
+        Kind::Event => "event",
+    }
+}

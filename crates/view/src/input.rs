@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is read: a serial port, a file, or something that comes once, such as a FIFO.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+
+use crate::{Play, ViewError};
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    Port,
+    File,
+    /// A FIFO or standard input.
+    Once,
+}
+
+/// An input that is there.
+#[derive(Clone, Debug)]
+pub(crate) struct Input {
+    path: PathBuf,
+    kind: Kind,
+    baud: u32,
+}
+
+/// An input that is open.
+pub(crate) struct Source {
+    pub(crate) reader: Box<dyn Read + Send>,
+    /// To write to a serial port.
+    pub(crate) port: Option<File>,
+}
+
+impl Input {
+    pub(crate) fn find(path: PathBuf, baud: u32) -> Result<Self, ViewError> {
+        let kind = if path == Path::new("-") {
+            Kind::Once
+        } else {
+            match std::fs::metadata(&path) {
+                Err(source) => return Err(ViewError::Open { path, source }),
+                Ok(found) if found.is_dir() => return Err(ViewError::Folder { path }),
+                Ok(found) if found.is_file() => Kind::File,
+                Ok(found) if is_device(&found) => Kind::Port,
+                Ok(_) => Kind::Once,
+            }
+        };
+        Ok(Self { path, kind, baud })
+    }
+
+    pub(crate) fn is_port(&self) -> bool {
+        self.kind == Kind::Port
+    }
+
+    /// Whether it sends when it wants to.
+    pub(crate) fn is_live(&self) -> bool {
+        self.kind != Kind::File
+    }
+
+    pub(crate) fn name(&self) -> String {
+        self.path.display().to_string()
+    }
+
+    /// When its frames are shown, if that was asked for.
+    pub(crate) fn play(&self, asked: Option<Play>) -> Result<Play, ViewError> {
+        match (asked, self.kind) {
+            (None, Kind::File) => Ok(Play::Timed),
+            (None, Kind::Port | Kind::Once) => Ok(Play::AtOnce),
+            (Some(Play::Looped), Kind::Port | Kind::Once) => {
+                Err(ViewError::NotAgain { path: self.path.clone() })
+            }
+            (Some(play), _) => Ok(play),
+        }
+    }
+
+    /// Opens it. A FIFO waits for whoever writes to it.
+    pub(crate) fn open(&self) -> Result<Source, ViewError> {
+        let failed = |source| ViewError::Open { path: self.path.clone(), source };
+        if self.is_port() {
+            return self.open_port();
+        }
+        let reader: Box<dyn Read + Send> = if self.path == Path::new("-") {
+            Box::new(io::stdin())
+        } else {
+            Box::new(File::open(&self.path).map_err(failed)?)
+        };
+        Ok(Source { reader, port: None })
+    }
+
+    /// Opens a serial port: bytes as they are, both ways, at its rate, and for nobody else.
+    #[cfg(unix)]
+    fn open_port(&self) -> Result<Source, ViewError> {
+        use rustix::fs::{Mode, OFlags};
+        use rustix::termios::{ControlModes, OptionalActions, SpecialCodeIndex};
+        use rustix::{fs, io, termios};
+
+        let path = || self.path.clone();
+        let failed = |source: io::Errno| ViewError::Open { path: path(), source: source.into() };
+        // Without NONBLOCK a port whose modem lines are open would not open.
+        let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::CLOEXEC | OFlags::NONBLOCK;
+        let port = fs::open(&self.path, flags, Mode::empty()).map_err(failed)?;
+        if !termios::isatty(&port) {
+            return Err(ViewError::NoPort { path: path() });
+        }
+        termios::ioctl_tiocexcl(&port).map_err(failed)?;
+        let mut modes = termios::tcgetattr(&port).map_err(failed)?;
+        modes.make_raw();
+        modes.control_modes |= ControlModes::CLOCAL | ControlModes::CREAD;
+        modes.control_modes -= ControlModes::CSTOPB | ControlModes::PARENB | ControlModes::CRTSCTS;
+        modes.special_codes[SpecialCodeIndex::VMIN] = 1;
+        modes.special_codes[SpecialCodeIndex::VTIME] = 0;
+        let rate = |source: io::Errno| ViewError::Rate {
+            path: path(),
+            baud: self.baud,
+            source: source.into(),
+        };
+        modes.set_speed(self.baud).map_err(rate)?;
+        termios::tcsetattr(&port, OptionalActions::Now, &modes).map_err(rate)?;
+        let flags = fs::fcntl_getfl(&port).map_err(failed)?;
+        fs::fcntl_setfl(&port, flags - OFlags::NONBLOCK).map_err(failed)?;
+        let port = File::from(port);
+        let reader = port.try_clone().map_err(|source| ViewError::Open { path: path(), source })?;
+        Ok(Source { reader: Box::new(reader), port: Some(port) })
+    }
+
+    #[cfg(not(unix))]
+    fn open_port(&self) -> Result<Source, ViewError> {
+        Err(ViewError::NoPort { path: self.path.clone() })
+    }
+}
+
+#[cfg(unix)]
+fn is_device(found: &std::fs::Metadata) -> bool {
+    std::os::unix::fs::FileTypeExt::is_char_device(&found.file_type())
+}
+
+#[cfg(not(unix))]
+fn is_device(_: &std::fs::Metadata) -> bool {
+    false
+}

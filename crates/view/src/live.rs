@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What is known of the stream now: the one value that reader, board and browsers share. Of frames only the newest is kept, so a slow browser
+//! misses some, and nobody waits for it.
+
+use std::collections::{BTreeMap, VecDeque};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
+use std::time::{Duration, Instant};
+
+use foveate_design::Design;
+use foveate_simulator::{Loss, ShownFrame};
+use serde::Serialize;
+use serde_json::{Value, json};
+
+use crate::input::Input;
+use crate::picture::{facts, picture};
+
+/// After so long without a byte the page and the terminal say so.
+const SILENCE: Duration = Duration::from_secs(2);
+/// Frames whose figures are kept.
+const HISTORY: usize = 240;
+/// Losses that the page lists, the newest.
+const LISTED: usize = 50;
+/// Losses that are told in the terminal, the first.
+const TOLD: u64 = 10;
+
+/// What becomes of the stream.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum Status {
+    /// No frame has come yet.
+    Waiting,
+    /// Frames come.
+    Running,
+    /// A port is gone, and may come back.
+    Gone,
+    /// Nothing more will come.
+    Ended,
+}
+
+/// Figures of a frame.
+#[derive(Clone, Debug, Serialize)]
+struct Sample {
+    /// When this was known, as [`Change`].
+    #[serde(skip)]
+    at: u64,
+    number: u32,
+    active: usize,
+    bytes: u64,
+    /// When it was shown, in milliseconds since the start.
+    shown_ms: u64,
+}
+
+/// A register as it was read last.
+#[derive(Clone, Debug, Serialize)]
+pub(crate) struct Reading {
+    pub(crate) address: u32,
+    /// None where the board did not answer.
+    pub(crate) value: Option<u32>,
+}
+
+/// Counts what has happened, so that a browser can ask for what it does not know.
+type Change = u64;
+
+#[derive(Debug)]
+struct State {
+    change: Change,
+    status: Status,
+    text: String,
+    /// Why frames cannot be shown.
+    refused: Option<String>,
+    heard: Instant,
+    is_silent: bool,
+    design: Value,
+    /// Decisions and pixels of the newest frame, and when they were known.
+    picture: (Change, Vec<u8>),
+    frames: u64,
+    bytes: u64,
+    history: VecDeque<Sample>,
+    losses: BTreeMap<&'static str, u64>,
+    listed: VecDeque<String>,
+    registers: (Change, Vec<Reading>),
+    news: Vec<String>,
+}
+
+/// What is known of the stream.
+#[derive(Debug)]
+pub(crate) struct Live {
+    state: Mutex<State>,
+    changed: Condvar,
+    is_over: AtomicBool,
+    start: Instant,
+    name: String,
+    is_live: bool,
+}
+
+impl Live {
+    pub(crate) fn new(input: &Input) -> Self {
+        let state = State {
+            change: 1,
+            status: Status::Waiting,
+            text: format!("waiting for `{}`", input.name()),
+            refused: None,
+            heard: Instant::now(),
+            is_silent: false,
+            design: Value::Null,
+            picture: (0, Vec::new()),
+            frames: 0,
+            bytes: 0,
+            history: VecDeque::new(),
+            losses: BTreeMap::new(),
+            listed: VecDeque::new(),
+            registers: (0, Vec::new()),
+            news: Vec::new(),
+        };
+        let (name, is_live) = (input.name(), input.is_live());
+        Self {
+            state: Mutex::new(state),
+            changed: Condvar::new(),
+            is_over: AtomicBool::new(false),
+            start: Instant::now(),
+            name,
+            is_live,
+        }
+    }
+
+    /// Everything ends.
+    pub(crate) fn end(&self) {
+        self.is_over.store(true, Ordering::Relaxed);
+        self.changed.notify_all();
+    }
+
+    pub(crate) fn is_over(&self) -> bool {
+        self.is_over.load(Ordering::Relaxed)
+    }
+
+    pub(crate) fn frames(&self) -> u64 {
+        self.look().frames
+    }
+
+    pub(crate) fn news(&self) -> Vec<String> {
+        std::mem::take(&mut self.look().news)
+    }
+
+    /// Bytes came.
+    pub(crate) fn heard(&self) {
+        let mut state = self.lock();
+        state.heard = Instant::now();
+        if std::mem::take(&mut state.is_silent) {
+            self.change(&mut state);
+        }
+    }
+
+    pub(crate) fn status(&self, status: Status, text: String) {
+        let mut state = self.lock();
+        state.news.push(text.clone());
+        (state.status, state.text, state.is_silent) = (status, text, false);
+        state.heard = Instant::now();
+        self.change(&mut state);
+    }
+
+    /// A FRAME cannot be read. It is told once, until one can.
+    pub(crate) fn refuse(&self, text: String) {
+        let mut state = self.lock();
+        if state.refused.is_none() {
+            state.news.push(text.clone());
+        }
+        state.refused = Some(text);
+        self.change(&mut state);
+    }
+
+    pub(crate) fn lose(&self, loss: &Loss) {
+        let mut state = self.lock();
+        *state.losses.entry(loss.kind()).or_default() += 1;
+        match state.losses.values().sum::<u64>() {
+            0..=TOLD => state.news.push(loss.to_string()),
+            count if count == TOLD + 1 => {
+                state.news.push("more losses follow; the page counts them".to_owned());
+            }
+            _ => {}
+        }
+        state.listed.truncate(LISTED - 1);
+        state.listed.push_front(loss.to_string());
+        self.change(&mut state);
+    }
+
+    /// A frame is on the screen; so many bytes have come for it.
+    pub(crate) fn show(&self, frame: &ShownFrame, design: &Design, bytes: u64) {
+        let picture = picture(frame);
+        let active = frame.outcome.active.iter().filter(|&&active| active).count();
+        let shown_ms = u64::try_from(self.start.elapsed().as_millis()).unwrap_or(u64::MAX);
+        let mut state = self.lock();
+        if state.frames == 0 || state.status != Status::Running {
+            state.design = facts(design);
+            state.status = Status::Running;
+            state.text = format!("showing `{}`", self.name);
+        }
+        state.refused = None;
+        self.change(&mut state);
+        let at = state.change;
+        state.picture = (at, picture);
+        state.frames += 1;
+        state.bytes += bytes;
+        state.history.truncate(HISTORY - 1);
+        state.history.push_front(Sample { at, number: frame.number, active, bytes, shown_ms });
+    }
+
+    /// Registers were read.
+    pub(crate) fn read(&self, registers: Vec<Reading>) {
+        let mut state = self.lock();
+        self.change(&mut state);
+        state.registers = (state.change, registers);
+    }
+
+    /// What a browser needs that knows all up to `after`: the bytes of a JSON text as a number of 32 bits, the text, and the picture of the
+    /// newest frame if that is new: a byte per region, a byte per pixel. Waits a while for something to tell.
+    pub(crate) fn next(&self, after: Change, patience: Duration) -> Vec<u8> {
+        let until = Instant::now() + patience;
+        let mut state = self.look();
+        while state.change <= after && !self.is_over() {
+            let Some(left) = until.checked_duration_since(Instant::now()) else { break };
+            state =
+                self.changed.wait_timeout(state, left).unwrap_or_else(PoisonError::into_inner).0;
+        }
+        let (changed, picture) = &state.picture;
+        let picture: &[u8] = if *changed > after { picture } else { &[] };
+        let history: Vec<&Sample> = state.history.iter().take_while(|own| own.at > after).collect();
+        let registers = (state.registers.0 > after).then_some(&state.registers.1);
+        let text = json!({
+            "change": state.change,
+            "status": state.status,
+            "text": state.text,
+            "refused": state.refused,
+            "silent": state.is_silent,
+            "design": state.design,
+            "frames": state.frames,
+            "bytes": state.bytes,
+            "history": history,
+            "losses": state.losses,
+            "listed": state.listed,
+            "registers": registers,
+        });
+        let text = text.to_string();
+        let length = u32::try_from(text.len()).unwrap_or(u32::MAX);
+        [&length.to_le_bytes(), text.as_bytes(), picture].concat()
+    }
+
+    /// The state, in which it is noted if nothing comes.
+    fn look(&self) -> MutexGuard<'_, State> {
+        let mut state = self.lock();
+        let comes = matches!(state.status, Status::Waiting | Status::Running) && self.is_live;
+        if comes && !state.is_silent && state.heard.elapsed() > SILENCE {
+            state.is_silent = true;
+            let seconds = SILENCE.as_secs();
+            state.news.push(format!("nothing has come from `{}` for {seconds} s", self.name));
+            self.change(&mut state);
+        }
+        state
+    }
+
+    fn lock(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn change(&self, state: &mut State) {
+        state.change += 1;
+        self.changed.notify_all();
+    }
+}

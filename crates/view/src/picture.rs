@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a browser needs to draw a frame.
+
+use foveate_design::{Action, Design};
+use foveate_frame::{Plane, convert_depth};
+use foveate_simulator::ShownFrame;
+use serde_json::{Value, json};
+
+/// What the page says of a design.
+pub(crate) fn facts(design: &Design) -> Value {
+    json!({
+        "fingerprint": design.fingerprint(),
+        "width": design.width(),
+        "height": design.height(),
+        "columns": design.columns(),
+        "rows": design.rows(),
+        "side": design.region_size(),
+    })
+}
+
+/// A byte per region: bit 0 SRS, bit 1 TRS, above them what became of it; then a byte per pixel.
+pub(crate) fn picture(frame: &ShownFrame) -> Vec<u8> {
+    let outcome = &frame.outcome;
+    let decisions = outcome.srs.iter().zip(&outcome.trs).zip(&outcome.actions);
+    let regions = decisions.map(|((&srs, &trs), action)| {
+        let action = match action {
+            Action::Forward => 0,
+            Action::Hold => 1,
+            Action::Blank => 2,
+            Action::Summarize => 3,
+        };
+        u8::from(srs) | u8::from(trs) << 1 | action << 2
+    });
+    let bits = frame.screen.bits();
+    let low = |pixel: u16| convert_depth(pixel, bits, 8).to_le_bytes()[0];
+    match frame.screen.plane() {
+        Plane::Bytes(pixels) if bits == 8 => regions.chain(pixels.iter().copied()).collect(),
+        Plane::Bytes(pixels) => regions.chain(pixels.iter().map(|&p| low(p.into()))).collect(),
+        Plane::Words(pixels) => regions.chain(pixels.iter().map(|&p| low(p))).collect(),
+    }
+}

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Reads the stream to its end, and shows its frames when their time has come.
+
+use std::io::{ErrorKind, Read};
+use std::sync::Arc;
+use std::sync::mpsc::Sender;
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+use foveate_design::Config;
+use foveate_simulator::{Received, Register, ShownFrame, Stream};
+
+use crate::Play;
+use crate::board::Board;
+use crate::input::{Input, Source};
+use crate::live::{Live, Status};
+
+/// Bytes that are read at once.
+const CHUNK: usize = 1 << 16;
+/// Between two attempts to open a port that is gone.
+const AGAIN: Duration = Duration::from_secs(1);
+/// Longest wait without a look at whether all is over.
+const NAP: Duration = Duration::from_millis(50);
+
+/// What the thread of a stream has.
+pub(crate) struct Reader {
+    pub(crate) input: Input,
+    pub(crate) config: Config,
+    pub(crate) play: Play,
+    pub(crate) answers: Sender<Register>,
+    pub(crate) board: Arc<Board>,
+    pub(crate) live: Arc<Live>,
+}
+
+impl Reader {
+    /// Reads until all is over. A port that is gone is waited for; `first` is one that is open.
+    pub(crate) fn run(self, mut first: Option<Source>) {
+        let name = self.input.name();
+        while !self.live.is_over() {
+            let source = match first.take().map_or_else(|| self.input.open(), Ok) {
+                Ok(source) => source,
+                // That it is gone has been said.
+                Err(_) if self.input.is_port() => {
+                    sleep(AGAIN);
+                    continue;
+                }
+                Err(error) => return self.live.status(Status::Ended, error.to_string()),
+            };
+            if self.live.frames() == 0 || self.input.is_port() {
+                let text = format!("`{name}` is open; no frame has come yet");
+                self.live.status(Status::Waiting, text);
+            }
+            self.board.attach(source.port);
+            let problem = self.read(source.reader);
+            self.board.attach(None);
+            match (problem, self.input.is_port(), self.play) {
+                (problem, true, _) => {
+                    let why = problem.map_or_else(|| "unplugged".to_owned(), |why| why.to_string());
+                    let text = format!("`{name}` is gone ({why}); waiting for it to come back");
+                    self.live.status(Status::Gone, text);
+                    sleep(AGAIN);
+                }
+                (None, false, Play::Looped) if self.live.frames() > 0 => {}
+                (None, false, _) => {
+                    let frames = self.live.frames();
+                    let text = format!("the stream has ended; frames shown: {frames}");
+                    return self.live.status(Status::Ended, text);
+                }
+                (Some(why), false, _) => {
+                    let text = format!("cannot read `{name}` any further: {why}");
+                    return self.live.status(Status::Ended, text);
+                }
+            }
+        }
+    }
+
+    /// Reads to the end of the stream; returns why it ended if that is an error.
+    fn read(&self, mut reader: Box<dyn Read + Send>) -> Option<std::io::Error> {
+        let mut stream = Stream::new(&self.config);
+        let (mut chunk, mut pace) = (vec![0; CHUNK], Pace::default());
+        loop {
+            let read = match reader.read(&mut chunk) {
+                Err(error) if error.kind() == ErrorKind::Interrupted => continue,
+                read => read,
+            };
+            match &read {
+                Ok(bytes @ 1..) => stream.feed(&chunk[..*bytes]),
+                Ok(0) | Err(_) => stream.complete(),
+            }
+            self.live.heard();
+            self.take(&mut stream, &mut pace);
+            match read {
+                Ok(0) => return None,
+                Ok(_) if self.live.is_over() => return None,
+                Ok(_) => {}
+                Err(error) => return Some(error),
+            }
+        }
+    }
+
+    /// Takes what there is.
+    fn take(&self, stream: &mut Stream, pace: &mut Pace) {
+        loop {
+            match stream.receive() {
+                Ok(None) => return,
+                Ok(Some(Received::Loss(loss))) => self.live.lose(&loss),
+                // Nobody waits for it where the board is not asked.
+                Ok(Some(Received::Register(answer))) => {
+                    let _ = self.answers.send(answer);
+                }
+                Ok(Some(Received::Frame(frame))) => {
+                    if self.play != Play::AtOnce {
+                        pace.wait(&frame, &self.live);
+                    }
+                    let bytes = stream.position() - pace.position;
+                    pace.position = stream.position();
+                    if self.live.is_over() {
+                        return;
+                    }
+                    if let Some(design) = stream.design() {
+                        self.live.show(&frame, design, bytes);
+                    }
+                }
+                Err(error) => self.live.refuse(error.to_string()),
+            }
+        }
+    }
+}
+
+/// How far a stream was shown.
+#[derive(Default)]
+struct Pace {
+    /// When a frame was shown, and its time; times go on from there.
+    from: Option<(Instant, u64)>,
+    last_us: u64,
+    /// Bytes before the next frame.
+    position: u64,
+}
+
+impl Pace {
+    /// Waits until the time of a frame has come. Times begin again where they go back, as those of a camera that was reset do.
+    fn wait(&mut self, frame: &ShownFrame, live: &Live) {
+        let Some(time_us) = frame.time_us else { return };
+        let is_back = time_us < self.last_us;
+        self.last_us = time_us;
+        let (start, start_us) = match self.from {
+            Some(from) if !is_back => from,
+            _ => *self.from.insert((Instant::now(), time_us)),
+        };
+        let due = Duration::from_micros(time_us - start_us);
+        while let Some(left) = due.checked_sub(start.elapsed()).filter(|left| !left.is_zero()) {
+            if live.is_over() {
+                return;
+            }
+            sleep(left.min(NAP));
+        }
+    }
+}

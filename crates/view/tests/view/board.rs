@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Registers over a line: commands are REGISTER packets, answers are seen on the page, thresholds are written.
+
+use std::sync::mpsc::{Receiver, channel};
+use std::thread;
+
+use foveate_packets::{Register, write};
+use serde_json::Value;
+
+use crate::client::{get, open, wait_for, write};
+use crate::line::Line;
+use crate::sent::{CORE, street};
+
+/// Answers with the address plus one, or what was written; returns every command. What `spoil` says comes in place of the
+/// bytes of an answer.
+fn answer(
+    mut line: Line,
+    spoil: impl Fn(usize, Vec<u8>) -> Vec<u8> + Send + 'static,
+) -> Receiver<Register> {
+    let (tell, told) = channel();
+    thread::spawn(move || {
+        for number in 0.. {
+            let asked = line.command();
+            let value = if asked.written { asked.value } else { u32::from(asked.address) + 1 };
+            let mut bytes = Vec::new();
+            write::register(&mut bytes, Register { value, ..asked });
+            line.send(&spoil(number, bytes));
+            if tell.send(asked).is_err() {
+                return;
+            }
+        }
+    });
+    told
+}
+
+fn value(told: &Value, address: u32) -> Option<u64> {
+    let list = told["registers"].as_array()?;
+    list.iter().find(|own| own["address"] == address)?["value"].as_u64()
+}
+
+#[test]
+fn registers_are_read_and_thresholds_written() {
+    let line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    let commands = answer(line, |_, bytes| bytes);
+    let page = wait_for(view.link(), "registers", |told| value(told, 0x1000) == Some(0x1001));
+    for address in [0x20, 0x24, 0x28, 0x2C, 0x34, 0x38, 0x3C, 0x40, 0x100, 0x104] {
+        assert_eq!(value(&page.told, address), Some(u64::from(address) + 1), "{address:#x}");
+    }
+    assert!(commands.try_iter().all(|asked| !asked.written && asked.value == 0));
+    let page = String::from_utf8(get(view.link(), "").body).unwrap();
+    for part in [
+        "\"name\":\"edge_level\"",
+        "\"kind\":\"threshold\"",
+        "\"name\":\"events\"",
+        "\"name\":\"board\"",
+    ] {
+        assert!(page.contains(part), "{part}");
+    }
+
+    assert_eq!(write(view.link(), 0x104, 5).status, 200);
+    let written: Vec<Register> = commands.try_iter().filter(|asked| asked.written).collect();
+    assert_eq!(written, [Register { address: 0x104, written: true, value: 5 }]);
+    assert_eq!(write(view.link(), 0x28, 0x41).status, 200);
+    // A restart, beside what the control says.
+    assert_eq!(write(view.link(), 0x20, 5).status, 200);
+    // Too large, counters, constants, and what is not there.
+    for (address, value) in
+        [(0x100, 1 << 32), (0x104, 70_000), (0x34, 0), (0x20, 8), (0x1000, 1), (0x200, 1), (0, 1)]
+    {
+        let refused = write(view.link(), address, value);
+        assert_eq!(refused.status, 409, "{address:#x}: {}", String::from_utf8_lossy(&refused.body));
+    }
+    let written: Vec<Register> = commands.try_iter().filter(|asked| asked.written).collect();
+    let written: Vec<(u16, u32)> =
+        written.iter().map(|asked| (asked.address, asked.value)).collect();
+    assert_eq!(written, [(0x28, 0x41), (0x20, 5)]);
+}
+
+#[test]
+fn answers_that_are_lost_or_of_others_are_asked_for_again() {
+    let line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    let commands = answer(line, |number, mut bytes| match number {
+        // Damaged; then one of another register before the right one.
+        0 => {
+            bytes[9] ^= 1;
+            bytes
+        }
+        1 => {
+            let mut other = Vec::new();
+            write::register(&mut other, Register { address: 0x40, written: false, value: 9 });
+            [other, bytes].concat()
+        }
+        _ => bytes,
+    });
+    // In the first round already.
+    let page = wait_for(view.link(), "registers", |told| told["registers"].is_array());
+    assert_eq!((value(&page.told, 0), value(&page.told, 0x40)), (Some(1), Some(0x41)));
+    assert_eq!(page.told["losses"]["bytes"], 1);
+    let asked: Vec<u16> = commands.try_iter().take(3).map(|asked| asked.address).collect();
+    assert_eq!(asked[..2], [0, 0]);
+    assert_ne!(asked[2], 0);
+}
+
+#[test]
+fn answers_between_packets_change_no_frame() {
+    let sent = street(&CORE, 2);
+    let mut line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    // The board answers one command after the other, each behind a frame.
+    for (number, frame) in (1u64..).zip(&sent.frames) {
+        let asked = line.command();
+        line.send(frame);
+        let mut bytes = Vec::new();
+        write::register(&mut bytes, Register { value: 7, ..asked });
+        line.send(&bytes);
+        let page = wait_for(view.link(), "frame", |told| told["frames"] == number);
+        assert_eq!(page.told["losses"], serde_json::json!({}));
+    }
+}
+
+#[test]
+fn a_board_that_does_not_answer_is_said_and_asked_again() {
+    let mut line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    let asked = |line: &mut Line| line.command().address;
+    // Three attempts, and three in the next round.
+    assert_eq!(asked(&mut line), 0);
+    let page = wait_for(view.link(), "list", |told| told["registers"].is_array());
+    let list = page.told["registers"].as_array().unwrap();
+    assert!(list.iter().all(|own| own["value"].is_null()), "{list:?}");
+    let all: Vec<u16> = (0..5).map(|_| asked(&mut line)).collect();
+    assert_eq!(all, [0; 5]);
+}
+
+#[test]
+fn without_a_core_on_a_bus_nobody_is_asked() {
+    let ports = &CORE[..1];
+    let line = Line::new();
+    let view = open(&line.path, ports, None).unwrap();
+    let page = String::from_utf8(get(view.link(), "").body).unwrap();
+    assert!(page.contains("const REGISTERS = null;"));
+    assert_eq!(write(view.link(), 0x104, 5).status, 409);
+}

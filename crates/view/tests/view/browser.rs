@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The page in Chromium, where there is one.
+
+use std::collections::HashSet;
+use std::fs;
+use std::process::Command;
+
+use foveate_pictures::page::browser::chromium;
+
+use crate::client::{open, wait_for};
+use crate::sent::{CORE, first, street};
+
+#[test]
+fn a_browser_draws_the_screen_and_says_what_is_lost() {
+    let Some(program) = chromium() else { return eprintln!("skipped: there is no Chromium") };
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, file) = (street(&CORE, 3), folder.path().join("packets.bin"));
+    let mut bytes = sent.bytes();
+    // The first ROW.
+    let row = first(&bytes).len();
+    bytes[row + 9] ^= 1;
+    fs::write(&file, bytes).unwrap();
+    let view = open(&file, &CORE, None).unwrap();
+    wait_for(view.link(), "end", |told| told["status"] == "ended");
+    let picture = folder.path().join("page.png");
+    let run = |more: &str| {
+        let output = Command::new(&program)
+            .args([
+                "--headless",
+                "--no-sandbox",
+                "--disable-gpu",
+                "--no-first-run",
+                "--disable-sync",
+            ])
+            .args([
+                "--disable-background-networking",
+                "--disable-component-update",
+                "--hide-scrollbars",
+            ])
+            .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
+            .args(["--window-size=1000,900", "--virtual-time-budget=4000", more, view.link()])
+            .output()
+            .unwrap();
+        String::from_utf8_lossy(&output.stdout).into_owned()
+    };
+    let page = run("--dump-dom");
+    for part in [
+        "<dd id=\"number\">2</dd>",
+        "<dd id=\"frames\">3</dd>",
+        "<dd id=\"losses\">2</dd>",
+        "class=\"ended\">the stream has ended; frames shown: 3</p>",
+        "frame 0, row 0: decisions are missing",
+        "<canvas id=\"pixels\" width=\"40\" height=\"30\">",
+        "<canvas id=\"regions\" width=\"5\" height=\"4\"",
+        "40 x 30 pixels, 5 x 4 regions of 8 x 8",
+    ] {
+        assert!(page.contains(part), "{part}: {page}");
+    }
+
+    // The greens of active regions are in the picture of the page, over the screen.
+    run(&format!("--screenshot={}", picture.display()));
+    let picture = image::open(&picture).unwrap().to_rgb8();
+    let tinted = |pixel: &&image::Rgb<u8>| {
+        let [red, green, blue] = pixel.0;
+        green > red.saturating_add(30) && green > blue.saturating_add(10)
+    };
+    let is_active = sent.pictures[2][..20].iter().any(|&byte| byte & 3 == 3);
+    let count = picture.pixels().filter(tinted).count();
+    let colours: HashSet<_> = picture.pixels().filter(tinted).collect();
+    assert!(is_active && count > 1000, "{count} pixels are green");
+    assert!(colours.len() > 9, "only {} greens: no picture below them", colours.len());
+}

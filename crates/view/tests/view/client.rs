@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A browser without a window.
+
+use std::io::{Read, Write};
+use std::net::TcpStream;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use foveate_design::Config;
+use foveate_view::{Play, View, ViewError, ViewOptions};
+use serde_json::Value;
+
+/// Longer than anything takes on a busy machine.
+const PATIENCE: Duration = Duration::from_secs(60);
+
+/// Opens a view on any free port.
+pub(crate) fn open(input: &Path, set: &[&str], play: Option<Play>) -> Result<View, ViewError> {
+    View::open(ViewOptions {
+        input: input.to_owned(),
+        config: Config::from_toml_with("", set).unwrap(),
+        baud: 3_000_000,
+        address: "127.0.0.1:0".parse().unwrap(),
+        play,
+    })
+}
+
+/// What a server answered.
+pub(crate) struct Answer {
+    pub(crate) status: u32,
+    pub(crate) head: String,
+    pub(crate) body: Vec<u8>,
+}
+
+/// What a link consists of: `127.0.0.1:port` and the token.
+pub(crate) fn parts(link: &str) -> (&str, &str) {
+    let rest = link.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
+    rest.split_once('/').unwrap()
+}
+
+/// Sends a request as it stands, and reads the answer.
+pub(crate) fn request(host: &str, text: &str) -> Answer {
+    let mut stream = TcpStream::connect(host).unwrap();
+    stream.write_all(text.as_bytes()).unwrap();
+    let mut bytes = Vec::new();
+    let head_end = loop {
+        let found = bytes.windows(4).position(|four| four == b"\r\n\r\n");
+        let mut more = [0; 4096];
+        match found {
+            Some(at) => break at + 4,
+            None => match stream.read(&mut more).unwrap_or(0) {
+                0 => return Answer { status: 0, head: String::new(), body: bytes },
+                read => bytes.extend(&more[..read]),
+            },
+        }
+    };
+    let mut body = bytes.split_off(head_end);
+    let head = String::from_utf8(bytes).unwrap();
+    let length = head.lines().find_map(|line| line.strip_prefix("Content-Length: ")).unwrap();
+    let had = body.len();
+    body.resize(length.parse().unwrap(), 0);
+    stream.read_exact(&mut body[had..]).unwrap();
+    Answer { status: head.split(' ').nth(1).unwrap().parse().unwrap(), head, body }
+}
+
+/// Gets something below the link.
+pub(crate) fn get(link: &str, what: &str) -> Answer {
+    let (host, token) = parts(link);
+    request(host, &format!("GET /{token}/{what} HTTP/1.1\r\nHost: {host}\r\n\r\n"))
+}
+
+/// Writes a register as the page does.
+pub(crate) fn write(link: &str, address: u32, value: u64) -> Answer {
+    let (host, token) = parts(link);
+    let body = format!("{{\"address\":{address},\"value\":{value}}}");
+    let length = body.len();
+    request(
+        host,
+        &format!(
+            "POST /{token}/register HTTP/1.1\r\nHost: {host}\r\nContent-Length: {length}\r\n\r\n{body}"
+        ),
+    )
+}
+
+/// What a page knows.
+pub(crate) struct Page {
+    pub(crate) told: Value,
+    /// A byte per region, then a byte per pixel; empty where no frame is new.
+    pub(crate) picture: Vec<u8>,
+}
+
+pub(crate) fn next(link: &str, after: u64) -> Page {
+    let answer = get(link, &format!("next?after={after}"));
+    assert_eq!(answer.status, 200);
+    let (length, rest) = answer.body.split_first_chunk().unwrap();
+    let (text, picture) = rest.split_at(u32::from_le_bytes(*length) as usize);
+    Page { told: serde_json::from_slice(text).unwrap(), picture: picture.to_owned() }
+}
+
+/// Asks until the page knows what is wanted. Everything is told again each time.
+pub(crate) fn wait_for(link: &str, what: &str, wanted: impl Fn(&Value) -> bool) -> Page {
+    let patience = Instant::now() + PATIENCE;
+    loop {
+        let page = next(link, 0);
+        if wanted(&page.told) {
+            return page;
+        }
+        assert!(Instant::now() < patience, "no {what}: {}", page.told);
+        std::thread::sleep(Duration::from_millis(5));
+    }
+}

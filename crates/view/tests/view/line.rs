@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A pseudo-terminal in place of a serial line: the test is the board.
+
+use std::fs::File;
+use std::io::{Read, Write};
+use std::path::PathBuf;
+
+use foveate_packets::{Found, Packet, Register, Splitter};
+use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
+
+/// The end of the board.
+pub(crate) struct Line {
+    board: File,
+    pub(crate) path: PathBuf,
+}
+
+impl Line {
+    pub(crate) fn new() -> Self {
+        let board = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
+        grantpt(&board).unwrap();
+        unlockpt(&board).unwrap();
+        let path = ptsname(&board, Vec::new()).unwrap().into_string().unwrap().into();
+        Self { board: File::from(board), path }
+    }
+
+    pub(crate) fn send(&mut self, bytes: &[u8]) {
+        self.board.write_all(bytes).unwrap();
+    }
+
+    /// The next command, which must be exactly a REGISTER packet.
+    pub(crate) fn command(&mut self) -> Register {
+        let mut bytes = [0; 24];
+        self.board.read_exact(&mut bytes).unwrap();
+        let mut splitter = Splitter::default();
+        splitter.feed(&bytes);
+        match splitter.next(None) {
+            Found::Packet { frame: 0, packet: Packet::Register(register) } => register,
+            found => panic!("{bytes:?}: {found:?}"),
+        }
+    }
+}

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a page delivers of a stream that comes over a pseudo-terminal, from a file or through a FIFO.
+#![cfg(unix)]
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod board;
+mod browser;
+mod client;
+mod guard;
+mod line;
+mod sent;
+mod shown;
+mod trouble;

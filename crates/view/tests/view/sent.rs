@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What `simulate` sends and shows of a few frames of the street.
+
+use std::fs;
+
+use foveate_design::Config;
+use foveate_footage::{InputOptions, open};
+use foveate_simulator::{EventTables, Medium, Packets, RunOptions, Silent, Simulation};
+
+/// A stream, and what must be seen of it.
+pub(crate) struct Sent {
+    /// The packets of each frame.
+    pub(crate) frames: Vec<Vec<u8>>,
+    /// For each frame a byte per region, then a byte per pixel.
+    pub(crate) pictures: Vec<Vec<u8>>,
+}
+
+impl Sent {
+    pub(crate) fn bytes(&self) -> Vec<u8> {
+        self.frames.concat()
+    }
+}
+
+/// The packet that these bytes begin with.
+pub(crate) fn first(bytes: &[u8]) -> &[u8] {
+    &bytes[..8 * usize::from(u16::from_le_bytes([bytes[2], bytes[3]]))]
+}
+
+/// A design on AXI of 40 x 30 pixels.
+pub(crate) const CORE: [&str; 4] = [
+    "frame={width=40,height=30}",
+    "hardware.organization='raster'",
+    "hardware.interface='axi'",
+    "temporal.reference='last-sent'",
+];
+
+pub(crate) fn street(set: &[&str], frames: u32) -> Sent {
+    let folder = tempfile::tempdir().unwrap();
+    let config = Config::from_toml_with("", set).unwrap();
+    let limit = InputOptions { frames: Some(frames), ..InputOptions::default() };
+    let source = open(&["scene:street"], &config.camera, &limit).unwrap();
+    let options = RunOptions {
+        rendered: Some(Medium::Png),
+        events: EventTables { csv: true, ..EventTables::default() },
+        packets: Some(Packets::Plain),
+        ..RunOptions::default()
+    };
+    let out = folder.path().join("out");
+    Simulation::new(&config, source).unwrap().run(&out, &options, &mut Silent).unwrap();
+
+    let (stream, mut frames) = (fs::read(out.join("packets.bin")).unwrap(), vec![Vec::new()]);
+    let mut rest = &stream[..];
+    while !rest.is_empty() {
+        let packet = first(rest);
+        rest = &rest[packet.len()..];
+        frames.last_mut().unwrap().extend(packet);
+        // An END is the last of its frame.
+        if packet[1] & 15 == 5 {
+            frames.push(Vec::new());
+        }
+    }
+    assert_eq!(frames.pop(), Some(Vec::new()));
+
+    let mut pictures = vec![Vec::new(); frames.len()];
+    let events = fs::read_to_string(out.join("events.csv")).unwrap();
+    for row in events.lines().skip(1) {
+        let cells: Vec<&str> = row.split(',').collect();
+        let actions = ["forward", "hold", "blank", "summarize"];
+        let action = actions.iter().position(|name| cells.last() == Some(name)).unwrap();
+        let bit = |place: usize| u8::from(cells[place] == "1");
+        let region = bit(6) | bit(7) << 1 | u8::try_from(action).unwrap() << 2;
+        pictures[cells[0].parse::<usize>().unwrap()].push(region);
+    }
+    for (number, picture) in pictures.iter_mut().enumerate() {
+        let file = image::open(out.join(format!("rendered/{number:06}.png"))).unwrap();
+        match file {
+            image::DynamicImage::ImageLuma8(file) => picture.extend(file.as_raw()),
+            image::DynamicImage::ImageLuma16(file) => {
+                // The page has the 8 high bits.
+                let pixels = file.as_raw().iter().map(|value| value.to_be_bytes()[0]);
+                picture.extend(pixels);
+            }
+            _ => panic!("a rendered frame is grey"),
+        }
+    }
+    Sent { frames, pictures }
+}

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The page delivers the frames that were simulated, at their times.
+
+use std::fs;
+use std::io::Write;
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+use foveate_view::Play;
+
+use crate::client::{get, next, open, parts, wait_for};
+use crate::line::Line;
+use crate::sent::{CORE, Sent, street};
+
+/// Designs of every way to show irrelevant regions, also deeper than a page.
+const DESIGNS: [&[&str]; 4] = [
+    &["frame={width=45,height=38}"],
+    &["frame={width=33,height=50,pixel_bits=10}", "render.irrelevant='hold'"],
+    &[
+        "frame={width=45,height=38}",
+        "render.irrelevant='mean'",
+        "spatial=[{feature='edge',min_score=12}]",
+    ],
+    &CORE,
+];
+
+#[test]
+fn frames_over_a_line_are_those_of_the_simulator() {
+    for set in DESIGNS {
+        let Sent { frames, pictures } = street(set, 5);
+        let mut line = Line::new();
+        let view = open(&line.path, set, None).unwrap();
+        let mut bytes = 0;
+        for (number, (packets, picture)) in (0u64..).zip(frames.iter().zip(&pictures)) {
+            // In pieces, as a line delivers them.
+            packets.chunks(1000).for_each(|piece| line.send(piece));
+            let page = wait_for(view.link(), "frame", |told| told["frames"] == number + 1);
+            assert!(page.picture == *picture, "frame {number} of {set:?} differs");
+            let newest = &page.told["history"][0];
+            assert_eq!(
+                (&newest["number"], &newest["bytes"]),
+                (&number.into(), &packets.len().into())
+            );
+            let regions = picture.iter().take(picture.len() - pixels(&page.told));
+            assert_eq!(newest["active"], regions.filter(|&byte| byte & 3 == 3).count());
+            bytes += packets.len();
+            assert_eq!(
+                (&page.told["bytes"], &page.told["status"]),
+                (&bytes.into(), &"running".into())
+            );
+            assert_eq!(page.told["losses"], serde_json::json!({}));
+        }
+        // Whoever knows all of it is told nothing again.
+        let told = next(view.link(), 0).told;
+        let again = next(view.link(), told["change"].as_u64().unwrap());
+        assert!(again.picture.is_empty() && again.told["history"] == serde_json::json!([]));
+        assert_eq!(view.frames(), 5);
+    }
+}
+
+/// Pixels of a frame.
+fn pixels(told: &serde_json::Value) -> usize {
+    let side = |name: &str| told["design"][name].as_u64().unwrap();
+    usize::try_from(side("width") * side("height")).unwrap()
+}
+
+#[test]
+fn a_file_is_played_by_its_times_to_its_end() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, file) = (street(&CORE, 7), folder.path().join("packets.bin"));
+    fs::write(&file, sent.bytes()).unwrap();
+    // 30 frames in a second.
+    for (play, least, most) in [(None, 199, 5000), (Some(Play::AtOnce), 0, 199)] {
+        let view = open(&file, &CORE, play).unwrap();
+        let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
+        assert!(page.picture == sent.pictures[6]);
+        assert_eq!(page.told["frames"], 7);
+        let shown: Vec<u64> = page.told["history"]
+            .as_array()
+            .unwrap()
+            .iter()
+            .map(|own| own["shown_ms"].as_u64().unwrap())
+            .collect();
+        let took = shown[0] - shown[6];
+        assert!((least..most).contains(&took), "{play:?}: {took} ms");
+        let news = view.news();
+        assert!(news.iter().any(|text| text.contains("has ended; frames shown: 7")), "{news:?}");
+    }
+}
+
+#[test]
+fn a_file_is_played_again_and_again() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, file) = (street(&CORE, 3), folder.path().join("packets.bin"));
+    fs::write(&file, sent.bytes()).unwrap();
+    let view = open(&file, &CORE, Some(Play::Looped)).unwrap();
+    let page = wait_for(view.link(), "third round", |told| told["frames"].as_u64() > Some(8));
+    assert_eq!(
+        (&page.told["status"], &page.told["losses"]),
+        (&"running".into(), &serde_json::json!({}))
+    );
+    assert_eq!(view.news().len(), 1);
+}
+
+#[test]
+fn a_fifo_is_shown_as_it_comes() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, fifo) = (street(&CORE, 3), folder.path().join("fifo"));
+    let made = std::process::Command::new("mkfifo").arg(&fifo).status().unwrap();
+    assert!(made.success());
+    let view = open(&fifo, &CORE, None).unwrap();
+    assert_eq!(next(view.link(), 0).told["status"], "waiting");
+    let mut writer = fs::OpenOptions::new().write(true).open(&fifo).unwrap();
+    writer.write_all(&sent.frames[0]).unwrap();
+    let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    assert!(page.picture == sent.pictures[0]);
+    drop(writer);
+    wait_for(view.link(), "end", |told| told["status"] == "ended");
+}
+
+/// Frames of a megabyte, so that no buffer of a connection holds many.
+#[test]
+fn a_browser_that_does_not_read_stops_nobody() {
+    let set = ["frame={width=1280,height=800}", "region.size=16"];
+    let sent = street(&set, 2);
+    let (first, again) = (&sent.frames[0], &sent.frames[1]);
+    let mut line = Line::new();
+    let view = open(&line.path, &set, None).unwrap();
+    line.send(first);
+    wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    let (host, token) = parts(view.link());
+    let mut stuck = TcpStream::connect(host).unwrap();
+    for _ in 0..20 {
+        let ask = format!("GET /{token}/next?after=0 HTTP/1.1\r\nHost: {host}\r\n\r\n");
+        stuck.write_all(ask.as_bytes()).unwrap();
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    let start = Instant::now();
+    for _ in 0..20 {
+        // Number and time are those of the first, which restarts the stream.
+        line.send(first);
+    }
+    line.send(again);
+    let page = wait_for(view.link(), "last frame", |told| told["frames"] == 22);
+    assert!(page.picture == sent.pictures[1]);
+    assert!(start.elapsed() < Duration::from_secs(20), "{:?}", start.elapsed());
+    drop(stuck);
+    assert_eq!(get(view.link(), "").status, 200);
+}

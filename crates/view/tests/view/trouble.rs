@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Damage, other designs, silence, and ports that go away are said on the page and in the terminal, and end nothing.
+
+use std::fs;
+
+use foveate_design::Config;
+use foveate_view::View;
+use serde_json::json;
+
+use crate::client::{open, wait_for};
+use crate::line::Line;
+use crate::sent::{CORE, first, street};
+
+/// News until one has all of `parts`.
+fn wait_for_news(view: &View, parts: &[&str]) -> Vec<String> {
+    let mut all = Vec::new();
+    for _ in 0..2000 {
+        all.extend(view.news());
+        if all.iter().any(|text: &String| parts.iter().all(|part| text.contains(part))) {
+            return all;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(10));
+    }
+    panic!("no {parts:?}: {all:?}");
+}
+
+#[test]
+fn damage_is_listed_and_the_rest_is_shown() {
+    let sent = street(&CORE, 3);
+    let mut line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    line.send(&sent.frames[0]);
+    let mut damaged = sent.frames[1].clone();
+    let frame = first(&damaged).len();
+    // The first ROW of the second frame.
+    assert_eq!(damaged[frame + 1] & 15, 2);
+    damaged[frame + 9] ^= 1;
+    let row = first(&damaged[frame..]).len();
+    line.send(&damaged);
+    line.send(&sent.frames[2]);
+    let page = wait_for(view.link(), "third frame", |told| told["frames"] == 3);
+    assert_eq!(page.told["losses"], json!({"bytes": 1, "row": 1}));
+    let listed = [
+        "frame 1, row 0: decisions are missing".to_owned(),
+        format!("{row} bytes from byte {} on are no packet", sent.frames[0].len() + frame),
+    ];
+    assert_eq!(page.told["listed"], json!(listed));
+    wait_for_news(&view, &["row 0: decisions are missing"]);
+}
+
+#[test]
+fn many_losses_are_counted_but_not_all_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (sent, file) = (street(&CORE, 40), folder.path().join("packets.bin"));
+    // Without the END of every second frame.
+    let odd = |(number, frame): (usize, &Vec<u8>)| {
+        let end = if number % 2 == 1 { frame.len() - 24 } else { frame.len() };
+        frame[..end].to_vec()
+    };
+    let bytes: Vec<u8> = sent.frames.iter().enumerate().flat_map(odd).collect();
+    fs::write(&file, bytes).unwrap();
+    let view = open(&file, &CORE, Some(foveate_view::Play::AtOnce)).unwrap();
+    let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
+    assert_eq!((&page.told["losses"], &page.told["frames"]), (&json!({"end": 20}), &40.into()));
+    let news = wait_for_news(&view, &["has ended"]);
+    assert_eq!(news.iter().filter(|text| text.contains("END packet is missing")).count(), 10);
+    assert_eq!(news.iter().filter(|text| text.contains("more losses")).count(), 1, "{news:?}");
+}
+
+#[test]
+fn another_design_is_refused_until_the_right_one_comes() {
+    let other = ["frame={width=40,height=30}", "region.size=5"];
+    let (own, foreign) = (street(&CORE, 1), street(&other, 2));
+    let mut line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    let print =
+        |set: &[&str]| Config::from_toml_with("", set).unwrap().validate().unwrap().fingerprint();
+    line.send(&foreign.bytes());
+    let parts = [&*print(&CORE), &*print(&other)];
+    let both = |text: &str| parts.iter().all(|part| text.contains(part));
+    let page = wait_for(view.link(), "message", |told| told["refused"].as_str().is_some_and(both));
+    assert!(page.picture.is_empty());
+    wait_for_news(&view, &parts);
+    line.send(&own.bytes());
+    let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    assert!(page.picture == own.pictures[0]);
+    assert_eq!((&page.told["refused"], &page.told["losses"]), (&json!(null), &json!({})));
+    // Told once, not with every frame.
+    assert_eq!(view.news().iter().filter(|text| both(text)).count(), 0);
+    // A design that changes on the way.
+    line.send(&foreign.bytes());
+    wait_for(view.link(), "message again", |told| told["refused"].as_str().is_some_and(both));
+}
+
+#[test]
+fn silence_is_said_until_something_comes() {
+    let sent = street(&CORE, 2);
+    let mut line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    line.send(&sent.frames[0]);
+    let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    assert_eq!(page.told["silent"], false);
+    wait_for_news(&view, &["nothing has come", "2 s"]);
+    let page = wait_for(view.link(), "silence", |told| told["silent"] == true);
+    assert_eq!(page.told["status"], "running");
+    line.send(&sent.frames[1]);
+    let page = wait_for(view.link(), "frame", |told| told["frames"] == 2);
+    assert_eq!(page.told["silent"], false);
+}
+
+#[test]
+fn a_port_that_is_gone_is_said() {
+    let sent = street(&CORE, 1);
+    let mut line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    line.send(&sent.frames[0]);
+    wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    let path = line.path.display().to_string();
+    drop(line);
+    let page = wait_for(view.link(), "message", |told| told["status"] == "gone");
+    assert!(page.told["text"].as_str().unwrap().contains(&path), "{}", page.told);
+    // The last frame is still there.
+    assert!(page.picture == sent.pictures[0]);
+    wait_for_news(&view, &[&path, "is gone"]);
+}
