@@ -17,7 +17,11 @@ const BOARDS: &[(&str, &str)] = &[
     ("upduino", include_str!("../boards/upduino.toml")),
     ("tang-nano-20k", include_str!("../boards/tang-nano-20k.toml")),
     ("ulx3s", include_str!("../boards/ulx3s.toml")),
+    ("vcu118", include_str!("../boards/vcu118.toml")),
 ];
+
+/// What takes the place of a sensor.
+const PATTERN: &str = "pattern";
 
 /// A board as its file says.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -30,7 +34,7 @@ pub struct Board {
     pub title: String,
     /// Where one reads about it.
     pub page: String,
-    /// The name of its sensor.
+    /// The name of its sensor; `pattern` for none.
     sensor: String,
     /// The command that loads a bitstream, before its file.
     pub flash: String,
@@ -43,7 +47,7 @@ pub struct Board {
     /// Lights.
     pub leds: Leds,
     /// Where the sensor is.
-    pub pins: SensorPins,
+    pub pins: Option<SensorPins>,
     /// What stands there by default.
     design: Default,
 }
@@ -72,14 +76,18 @@ pub enum Family {
     Ecp5,
     /// Gowin GW2A and its kin.
     Gowin,
+    /// What only Vivado knows.
+    Vivado,
 }
 
 /// The clock of a board, and that of the core.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clock {
-    /// Its pin.
-    pub pin: String,
+    /// Its pin, or both of a pair.
+    pub pins: Vec<String>,
+    /// The levels there, where the tool needs to know.
+    pub standard: Option<String>,
     /// Its frequency.
     pub mhz: u32,
     /// The frequency of the core.
@@ -97,6 +105,8 @@ pub struct Serial {
     pub tx: String,
     /// From the host.
     pub rx: String,
+    /// The levels there, where the tool needs to know.
+    pub standard: Option<String>,
     /// Bits in a second.
     pub baud: u32,
 }
@@ -107,6 +117,8 @@ pub struct Serial {
 pub struct Leds {
     /// Their pins.
     pub pins: Vec<String>,
+    /// The levels there, where the tool needs to know.
+    pub standard: Option<String>,
     /// What lights them.
     pub lit: Level,
 }
@@ -184,12 +196,20 @@ impl Board {
         Ok(board)
     }
 
-    /// The sensor.
+    /// The sensor and its pins; nothing where a pattern takes its place.
     ///
     /// # Errors
-    /// When there is none of that name.
-    pub fn sensor(&self) -> Result<Sensor, BoardError> {
-        Sensor::named(&self.sensor)
+    /// When there is no such sensor, or it has no pins.
+    pub fn eye(&self) -> Result<Option<(Sensor, SensorPins)>, BoardError> {
+        if self.sensor == PATTERN {
+            return Ok(None);
+        }
+        let sensor = Sensor::named(&self.sensor)?;
+        let pins = self.pins.clone().ok_or_else(|| BoardError::Invalid {
+            name: self.name.clone(),
+            reason: format!("`{}` needs [pins]", self.sensor),
+        })?;
+        Ok(Some((sensor, pins)))
     }
 
     /// The configuration that stands there by default.
@@ -209,23 +229,13 @@ impl Board {
     }
 
     fn check(&self) -> Result<(), String> {
-        let sensor = self.sensor().map_err(|error| error.to_string())?;
-        let (lines, pins) = (sensor.format.lines(), self.pins.data.len());
-        if pins != lines {
-            let name = &self.sensor;
-            return Err(format!("pins.data has {pins} pins; `{name}` has {lines} data lines"));
+        if let Some((sensor, pins)) = self.eye().map_err(|error| error.to_string())? {
+            self.check_sensor(&sensor, &pins)?;
         }
-        let (xclk, [least, most]) = (f64::from(self.clock.mhz), sensor.xclk_mhz);
-        if !(least..=most).contains(&xclk) {
-            let name = &self.sensor;
-            return Err(format!("clock.mhz = {xclk}: `{name}` takes {least} to {most} MHz"));
-        }
-        let pixels = xclk * sensor.pclk_per_xclk / f64::from(sensor.format.edges());
-        if pixels > f64::from(self.clock.core_mhz) {
-            return Err(format!(
-                "clock.core_mhz = {}: `{}` sends up to {pixels} million pixels in a second",
-                self.clock.core_mhz, self.sensor
-            ));
+        let wires = if self.device.family == Family::Vivado { 2 } else { 1 };
+        if self.clock.pins.len() != wires {
+            let pins = self.clock.pins.len();
+            return Err(format!("clock.pins has {pins} pins; {wires} are needed"));
         }
         if self.leds.pins.len() < 2 {
             return Err("leds.pins needs two pins or more".to_owned());
@@ -237,6 +247,27 @@ impl Board {
             return Err("clocks are 1 to 1000 MHz".to_owned());
         }
         self.check_baud()
+    }
+
+    /// Its pins must be those of the sensor, its clock within limits, and the core fast enough.
+    fn check_sensor(&self, sensor: &Sensor, pins: &SensorPins) -> Result<(), String> {
+        let name = &self.sensor;
+        let (lines, pins) = (sensor.format.lines(), pins.data.len());
+        if pins != lines {
+            return Err(format!("pins.data has {pins} pins; `{name}` has {lines} data lines"));
+        }
+        let (xclk, [least, most]) = (f64::from(self.clock.mhz), sensor.xclk_mhz);
+        if !(least..=most).contains(&xclk) {
+            return Err(format!("clock.mhz = {xclk}: `{name}` takes {least} to {most} MHz"));
+        }
+        let pixels = xclk * sensor.pclk_per_xclk / f64::from(sensor.format.edges());
+        if pixels > f64::from(self.clock.core_mhz) {
+            let core = self.clock.core_mhz;
+            return Err(format!(
+                "clock.core_mhz = {core}: `{name}` sends up to {pixels} million pixels in a second"
+            ));
+        }
+        Ok(())
     }
 
     /// The rate must come out of the clock: a receiver takes the middle of ten bits.
@@ -280,6 +311,7 @@ mod tests {
             ("baud = 3_000_000", "baud = 2_500_000", "more than 2 % off"),
             ("mhz = 12\n", "mhz = 60\n", "takes 10 to 48 MHz"),
             ("mhz = 12\n", "mhz = 48\n", ""),
+            ("pins = [\"35\"]", "pins = []", "1 are needed"),
             ("family = \"ice40\"", "family = \"ice41\"", "unknown variant `ice41`"),
             ("package = \"sg48\"", "package = \"sg48\"\nspeed = 6", "device.speed"),
             ("sensor = \"ov7670-qvga\"", "sensor = \"ov7671\"", "no sensor `ov7671`"),

@@ -14,8 +14,8 @@ use crate::{BoardError, Project};
 
 /// What is written, and what may be replaced.
 const PROJECT: Kind = Kind {
-    what: "a project of a board (its board.f and build.sh)",
-    is: |folder| folder.join("board.f").is_file() && folder.join("build.sh").is_file(),
+    what: "a project of a board (its board.f and sim/board_clock.v)",
+    is: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
     listed: true,
 };
 
@@ -89,6 +89,9 @@ pub fn build(
     seeds: u32,
     toolchain: &Toolchain,
 ) -> Result<Built, BoardError> {
+    if !project.is_open() {
+        return Err(BoardError::Closed { name: project.board.name.clone() });
+    }
     let run =
         Invocation::new("sh").args(["build.sh", &seeds.to_string()]).dir(folder).timeout(LIMIT);
     toolchain.run_checked(&run)?;

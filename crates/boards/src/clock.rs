@@ -27,7 +27,7 @@ pub(crate) fn source(board: &Board) -> Result<Source, BoardError> {
     let found = match board.device.family {
         Family::Ice40 => ice40(mhz, core, board.clock.pll_pad),
         Family::Ecp5 => ecp5(mhz, core),
-        Family::Gowin => None,
+        Family::Gowin | Family::Vivado => None,
     };
     found.ok_or_else(|| BoardError::Invalid {
         name: board.name.clone(),
@@ -87,7 +87,7 @@ mod tests {
                 if let Some(Source::Ice40 { reference, feedback, output, .. }) =
                     ice40(mhz, core, false)
                 {
-                    assert_eq!(mhz * (feedback + 1), core * (reference + 1) << output);
+                    assert_eq!(mhz * (feedback + 1), (core * (reference + 1)) << output);
                 }
                 if let Some(Source::Ecp5 { reference, feedback, .. }) = ecp5(mhz, core) {
                     assert_eq!(mhz * feedback, core * reference);

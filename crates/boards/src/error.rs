@@ -20,7 +20,9 @@ pub enum BoardError {
         known: String,
     },
     /// No sensor of that name.
-    #[error("there is no sensor `{name}`; there are {known}")]
+    #[error(
+        "there is no sensor `{name}`; there are {known}, and `pattern` for a pattern in place of one"
+    )]
     Sensor {
         /// The name.
         name: String,
@@ -58,6 +60,12 @@ pub enum BoardError {
         name: String,
         /// What is wrong, and what would be right.
         reason: String,
+    },
+    /// No open tool makes a bitstream for it.
+    #[error("no open tool makes a bitstream for `{name}`; its folder has the scripts for Vivado")]
+    Closed {
+        /// The board.
+        name: String,
     },
     /// The configuration is none.
     #[error(transparent)]

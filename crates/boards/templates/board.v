@@ -75,46 +75,12 @@ module board (
     assign status = {lost_q, 14'd0, failed, done};
     assign wrong = failed || lost_q != 16'd0;
 
-    // The core.
-    wire packet_valid, packet_ready, packet_last;
-    wire [63:0] packet;
-    wire [11:0] awaddr, araddr;
-    wire [31:0] wdata, rdata;
-    wire [3:0] wstrb;
-    wire awvalid, awready, wvalid, wready, bvalid, bready, arvalid, arready, rvalid, rready;
-    rcm_axi #(.TICK_RATE(32'd{= core_mhz =}000000)) u_core (
-        .aclk(clk), .aresetn(!rst), .s_axis_video_tdata(pixel), .s_axis_video_tvalid(pixel_valid),
-        .s_axis_video_tready(pixel_ready), .s_axis_video_tuser(sof), .s_axis_video_tlast(eol),
-        .m_axis_packets_tdata(packet), .m_axis_packets_tkeep(), .m_axis_packets_tvalid(packet_valid),
-        .m_axis_packets_tready(packet_ready), .m_axis_packets_tlast(packet_last), .s_axi_awaddr(awaddr), .s_axi_awprot(3'd0),
-        .s_axi_awvalid(awvalid), .s_axi_awready(awready), .s_axi_wdata(wdata), .s_axi_wstrb(wstrb), .s_axi_wvalid(wvalid),
-        .s_axi_wready(wready), .s_axi_bresp(), .s_axi_bvalid(bvalid), .s_axi_bready(bready), .s_axi_araddr(araddr),
-        .s_axi_arprot(3'd0), .s_axi_arvalid(arvalid), .s_axi_arready(arready), .s_axi_rdata(rdata), .s_axi_rresp(),
-        .s_axi_rvalid(rvalid), .s_axi_rready(rready), .interrupt_o()
-    );
-
-    // The serial line: packets and answers out, commands in.
-    wire sent_valid, sent_ready, heard_valid, answer_valid, answer_ready, answer_last;
-    wire [7:0] sent, heard, answer;
-    packet_bytes u_bytes (
+{% include "core.v" %}    packet_bytes u_bytes (
         .clk_i(clk), .rst_i(rst), .data_i(packet), .valid_i(packet_valid), .last_i(packet_last), .ready_o(packet_ready),
         .answer_valid_i(answer_valid), .answer_byte_i(answer), .answer_last_i(answer_last), .answer_ready_o(answer_ready),
         .valid_o(sent_valid), .byte_o(sent), .ready_i(sent_ready)
     );
-    uart_sender #(.DIVISOR({= divisor =})) u_sender (
-        .clk_i(clk), .rst_i(rst), .valid_i(sent_valid), .byte_i(sent), .ready_o(sent_ready), .tx_o(tx_o)
-    );
-    uart_receiver #(.DIVISOR({= divisor =})) u_receiver (
-        .clk_i(clk), .rst_i(rst), .rx_i(rx_i), .valid_o(heard_valid), .byte_o(heard)
-    );
-    uart_registers #(.PAUSE({= 40 * divisor =})) u_registers (
-        .clk_i(clk), .rst_i(rst), .valid_i(heard_valid), .byte_i(heard), .answer_valid_o(answer_valid),
-        .answer_byte_o(answer), .answer_last_o(answer_last), .answer_ready_i(answer_ready), .board_i(status),
-        .m_awaddr_o(awaddr), .m_awvalid_o(awvalid), .m_awready_i(awready), .m_wdata_o(wdata), .m_wstrb_o(wstrb),
-        .m_wvalid_o(wvalid), .m_wready_i(wready), .m_bvalid_i(bvalid), .m_bready_o(bready), .m_araddr_o(araddr),
-        .m_arvalid_o(arvalid), .m_arready_i(arready), .m_rdata_i(rdata), .m_rvalid_i(rvalid), .m_rready_o(rready)
-    );
-
+{% include "serial_line.v" %}
     // Lights: one blinks with frames, one says that something is wrong.
     reg [3:0] frames_q;
     always @(posedge clk) if (rst) frames_q <= 4'd0; else if (pixel_valid && pixel_ready && sof) frames_q <= frames_q + 1'b1;

@@ -44,7 +44,7 @@ fn receive(design: &Design, bytes: &[u8]) -> Result<Received, String> {
                 Packet::Row(row) => rows.push(row),
                 Packet::End(end) => {
                     received.dropped += end.regions_dropped + end.rows_dropped;
-                    if rows.len() as u32 + end.rows_dropped != design.rows() {
+                    if rows.len() + end.rows_dropped as usize != design.rows() as usize {
                         return Err(format!(
                             "{} rows came, {} were dropped",
                             rows.len(),

@@ -44,7 +44,8 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let design = configuration(&board, args)?.validate()?;
     let project = Project::new(board, design)?;
     let files = write_project(&project, folder, args.force)?;
-    let built = if args.project { None } else { Some(make(&project, folder, args)?) };
+    let built =
+        if args.project || !project.is_open() { None } else { Some(make(&project, folder, args)?) };
     if args.json {
         return output::json(&Report {
             format_version: 1,
@@ -93,7 +94,12 @@ fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -
     );
     // Writing to a string cannot fail.
     let Some(built) = built else {
-        let _ = writeln!(text, "make the bitstream: sh {}/build.sh 5", folder.display());
+        let make = if project.is_open() {
+            "sh build.sh 5"
+        } else {
+            "vivado -mode batch -source build.tcl"
+        };
+        let _ = writeln!(text, "make the bitstream there: {make}");
         return text;
     };
     for cell in &built.used {
@@ -111,7 +117,7 @@ fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -
     let _ = writeln!(
         text,
         "frames  {:.0} in a second come, {:.0} could",
-        project.sensor_fps(),
+        project.fps(),
         project.core_fps(f64::from(built.core_mhz))
     );
     let _ = writeln!(
@@ -157,6 +163,6 @@ fn listed(project: &Project) -> Listed<'_> {
         part: &board.device.part,
         sensor: project.sensor_title(),
         frame: (design.width(), design.height()),
-        fps: project.sensor_fps(),
+        fps: project.fps(),
     }
 }
