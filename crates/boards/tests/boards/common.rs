@@ -22,7 +22,7 @@ pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
     let toml = format!(
         "title = 'a board'\npage = 'https://example.org'\nsensor = '{sensor}'\nflash = 'load'\n\
          [device]\nfamily = 'ice40'\npart = 'up5k'\npackage = 'sg48'\n\
-         [clock]\npin = '35'\nmhz = 12\ncore_mhz = {CORE_MHZ}\n[serial]\ntx = 't'\nrx = 'r'\nbaud = 6_000_000\n\
+         [clock]\npins = ['35']\nmhz = 12\ncore_mhz = {CORE_MHZ}\n[serial]\ntx = 't'\nrx = 'r'\nbaud = 6_000_000\n\
          [leds]\npins = ['l0', 'l1']\nlit = 'high'\n\
          [pins]\nxclk = 'x'\npclk = 'p'\nvsync = 'v'\nhref = 'h'\nscl = 'c'\nsda = 'a'\ndata = [{}]\n\
          [design]\npreset = 'raster'\nset = ['frame={{width=64,height=48}}', \"render.irrelevant='mean'\", \
@@ -51,7 +51,7 @@ pub(crate) fn simulated(project: &Project, fault: Option<(&str, &str, &str)>) ->
         Source::from((path.to_owned(), text(from)))
     };
     let mut sources: Vec<Source> = text("board.f").lines().map(source).collect();
-    let lines = project.board.pins.data.len();
+    let lines = if project.sensor_title().contains("4 lines") { 4 } else { 8 };
     let bench = format!("`define DATA {lines}\n{BENCH}");
     sources.push(Source::from(("board_bench.v".to_owned(), bench)));
     let cpp_main =

@@ -4,4 +4,5 @@
 
 mod common;
 mod film;
+mod pattern;
 mod simulation;

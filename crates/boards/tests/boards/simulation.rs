@@ -111,7 +111,7 @@ fn compare(design: &Design, received: &Received, film: &[Frame]) -> Result<(), S
 
 fn check(project: &Project, program: &Path, damage: Damage) -> Result<Heard, String> {
     let film = frames(64, 48, 4);
-    let sensor = project.board.sensor().unwrap();
+    let sensor = project.board.eye().unwrap().unwrap().0;
     let wires = wires(&sensor, &film, damage, 600);
     let place = address(project, "frame");
     // Answers stand between packets, whenever they are asked for.
@@ -170,7 +170,7 @@ fn a_sensor_that_is_faster_than_its_serial_line_costs_whole_regions_and_no_decis
     let project = project("hm01b0-4", &[]);
     let program = simulated(&project, None);
     let film = frames(64, 48, 4);
-    let sensor = project.board.sensor().unwrap();
+    let sensor = project.board.eye().unwrap().unwrap().0;
     let heard = play(&program, &wires(&sensor, &film, Damage::None, 400_000), &[], FAST_PS, 0);
     let received = receive(&project.design, &heard.bytes).unwrap();
     assert!(received.dropped > 0);
@@ -200,7 +200,7 @@ fn a_host_reads_and_writes_registers_over_the_same_line() {
     let project = project("ov7670-qvga", &[]);
     let program = simulated(&project, None);
     let film = frames(64, 48, 4);
-    let sensor = project.board.sensor().unwrap();
+    let sensor = project.board.eye().unwrap().unwrap().0;
     let wires = wires(&sensor, &film, Damage::None, 60_000);
     // Between the second frame and the third; a frame takes so long.
     let frame_us =
@@ -256,7 +256,7 @@ fn a_sensor_is_set_up() {
         let project = project(sensor, &[]);
         let program = simulated(&project, None);
         let host = said(&[(60_000, Command::read(0x1000).bytes())]);
-        let sensor = project.board.sensor().unwrap();
+        let sensor = project.board.eye().unwrap().unwrap().0;
         let bytes = sensor.i2c.address_bytes as usize;
         let line = |address: u16, value: u8| {
             let address = &address.to_be_bytes()[2 - bytes..];
