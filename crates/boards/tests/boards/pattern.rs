@@ -95,7 +95,7 @@ fn sums_on_the_board_are_those_of_the_model() {
             assert_eq!(answer & 0xFFFF, 1, "all right");
             assert!(answer >> 16 >= 16, "frames: {}", answer >> 16);
         }
-        assert!(others > 5, "{others} packets were shown, too");
+        assert!(others > 0, "packets are shown, too");
     }
 }
 
