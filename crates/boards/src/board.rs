@@ -229,16 +229,21 @@ impl Board {
     }
 
     fn check(&self) -> Result<(), String> {
-        if let Some((sensor, pins)) = self.eye().map_err(|error| error.to_string())? {
-            self.check_sensor(&sensor, &pins)?;
+        let eye = self.eye().map_err(|error| error.to_string())?;
+        if let Some((sensor, pins)) = &eye {
+            self.check_sensor(sensor, pins)?;
+        }
+        let lights = if eye.is_some() { 2 } else { 3 };
+        if self.leds.pins.len() < lights {
+            return Err(format!(
+                "leds.pins has {} pins; {lights} are needed",
+                self.leds.pins.len()
+            ));
         }
         let wires = if self.device.family == Family::Vivado { 2 } else { 1 };
         if self.clock.pins.len() != wires {
             let pins = self.clock.pins.len();
             return Err(format!("clock.pins has {pins} pins; {wires} are needed"));
-        }
-        if self.leds.pins.len() < 2 {
-            return Err("leds.pins needs two pins or more".to_owned());
         }
         if (self.device.family == Family::Ecp5) != self.device.speed.is_some() {
             return Err("device.speed is for ECP5, which needs it".to_owned());
@@ -312,6 +317,7 @@ mod tests {
             ("mhz = 12\n", "mhz = 60\n", "takes 10 to 48 MHz"),
             ("mhz = 12\n", "mhz = 48\n", ""),
             ("pins = [\"35\"]", "pins = []", "1 are needed"),
+            ("[\"37\", \"11\"]", "[\"37\"]", "2 are needed"),
             ("family = \"ice40\"", "family = \"ice41\"", "unknown variant `ice41`"),
             ("package = \"sg48\"", "package = \"sg48\"\nspeed = 6", "device.speed"),
             ("sensor = \"ov7670-qvga\"", "sensor = \"ov7671\"", "no sensor `ov7671`"),
