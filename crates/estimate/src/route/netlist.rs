@@ -136,7 +136,7 @@ fn rank(name: &str) -> (bool, u8, isize, usize) {
 
 /// Whether Yosys made the name out of those of cells around it.
 fn is_made(name: &str) -> bool {
-    ["_LUT4_", "_CCU2C_", "_TRELLIS_", "_SB_", "_PFUMX_", "_L6MUX21_"]
+    ["_LUT4_", "_CCU2C_", "_TRELLIS_", "_SB_", "_PFUMX_", "_L6MUX21_", "_DFF", "_ALU_", "_MUX2_"]
         .iter()
         .any(|part| name.contains(part))
 }

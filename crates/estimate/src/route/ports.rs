@@ -42,7 +42,20 @@ pub(super) fn become_registers(
             netlist.cells.insert(cell_name(&name, index), cell);
         }
     }
-    Ok((netlist.cells.len() - before) as u64)
+    let registers = netlist.cells.len() - before;
+    if family == Family::Gowin {
+        pad(netlist, net + 1);
+    }
+    Ok(registers as u64)
+}
+
+/// Puts the input buffer that nextpnr wants there between the clock and its pin.
+fn pad(netlist: &mut Netlist, outside: u32) {
+    if let Some(bit) = netlist.ports.get_mut(CLOCK).and_then(|port| port.bits.first_mut()) {
+        let inside = std::mem::replace(bit, Bit::Net(outside));
+        let joined = [("I", false, Bit::Net(outside)), ("O", true, inside)];
+        netlist.cells.insert("$pad$".to_owned(), Cell::new("IBUF", &[], &joined));
+    }
 }
 
 const PREFIX: &str = "$port$";
@@ -74,6 +87,10 @@ fn register(family: Family, clock: Bit, data: Bit, out: Bit) -> Cell {
         Family::Ice40Up | Family::Ice40Hx => {
             let joined = [("C", false, clock), ("D", false, data), ("Q", true, out)];
             Cell::new("SB_DFF", &[], &joined)
+        }
+        Family::Gowin => {
+            let joined = [("CLK", false, clock), ("D", false, data), ("Q", true, out)];
+            Cell::new("DFF", &[], &joined)
         }
     }
 }

@@ -30,7 +30,7 @@ fn table(report: &RouteReport) -> Table {
         header: header("device", &COLUMNS),
         rows: report.devices.iter().map(row).collect(),
         note: Some(
-            "logic: LUT4 of ECP5, logic cells of iCE40. fmax: the clock of the median seed, the slowest and \
+            "logic: LUT4 of ECP5 and Gowin, logic cells of iCE40. fmax: the clock of the median seed, the slowest and \
              the fastest one. Flip-flops at the ports are left out."
                 .to_owned(),
         ),

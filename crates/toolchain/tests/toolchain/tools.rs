@@ -209,6 +209,7 @@ fn nextpnr_places_routes_and_caches() {
     let up5k = ["--up5k", "--package", "sg48", "--pcf-allow-unconstrained"].map(str::to_owned);
     let job = NextpnrJob {
         tool: Tool::NextpnrIce40,
+        beside: None,
         args: up5k.to_vec(),
         seed: 1,
         netlist: netlist.clone(),
