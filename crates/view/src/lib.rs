@@ -72,8 +72,9 @@ impl View {
         let input = Input::find(input, baud)?;
         let play = input.play(play)?;
         // First, so that a port that cannot be used is an error.
-        let first = if input.is_port() { Some(input.open()?) } else { None };
+        let mut first = if input.is_port() { Some(input.open()?) } else { None };
         let (live, board) = (Arc::new(Live::new(&input)), Arc::<Board>::default());
+        board.attach(first.as_mut().and_then(|source| source.port.take()));
         let server = Server::start(address, Arc::clone(&live), Arc::clone(&board))?;
         let answers = board.start(&config, &live, input.is_port())?;
         let reader = Reader { input, config, play, answers, board, live: Arc::clone(&live) };

@@ -50,7 +50,9 @@ impl Reader {
                 let text = format!("`{name}` is open; no frame has come yet");
                 self.live.status(Status::Waiting, text);
             }
-            self.board.attach(source.port);
+            if source.port.is_some() {
+                self.board.attach(source.port);
+            }
             let problem = self.read(source.reader);
             self.board.attach(None);
             match (problem, self.input.is_port(), self.play) {
