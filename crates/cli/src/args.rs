@@ -3,6 +3,7 @@
 
 mod analyze;
 mod bench;
+mod build;
 mod check;
 mod dataset;
 mod decode;
@@ -37,6 +38,7 @@ use self::threads::ThreadArgs;
 use crate::error::CliError;
 pub(crate) use analyze::AnalyzeArgs;
 pub(crate) use bench::BenchArgs;
+pub(crate) use build::BuildArgs;
 pub(crate) use check::{CheckArgs, Clock, Rate};
 pub(crate) use dataset::DatasetArgs;
 pub(crate) use decode::DecodeArgs;
@@ -66,6 +68,7 @@ pub(crate) struct Cli {
 pub(crate) enum Command {
     Check(CheckArgs),
     Generate(GenerateArgs),
+    Build(BuildArgs),
     Cosim(CosimArgs),
     Estimate(EstimateArgs),
     Simulate(SimulateArgs),

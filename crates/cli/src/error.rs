@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_bench::BenchError;
+use foveate_boards::BoardError;
 use foveate_cosim::CosimError;
 use foveate_design::ConfigError;
 use foveate_emit::EmitError;
@@ -45,6 +46,8 @@ pub(crate) enum CliError {
     Inference(Box<InferenceError>),
     #[error(transparent)]
     Link(Box<LinkError>),
+    #[error(transparent)]
+    Board(Box<BoardError>),
     #[error(transparent)]
     Output(#[from] StagingError),
     #[error(transparent)]
@@ -99,6 +102,7 @@ impl CliError {
                 LinkError::NoEncoder { .. } | LinkError::Frames { .. } => TOOL,
                 _ => INPUT,
             },
+            Self::Board(error) if matches!(**error, BoardError::Left { .. }) => TOOL,
             Self::Failed(_) => 1,
             Self::Interrupted { .. } | Self::Stopped { .. } => interrupt::exit_code(),
             Self::Tool(error) => tool_code(error),
@@ -171,6 +175,17 @@ impl From<StudyError> for CliError {
 impl From<ExploreError> for CliError {
     fn from(error: ExploreError) -> Self {
         Self::Explore(Box::new(error))
+    }
+}
+
+impl From<BoardError> for CliError {
+    fn from(error: BoardError) -> Self {
+        match error {
+            BoardError::Tool(error) => error.into(),
+            BoardError::Config(error) => error.into(),
+            BoardError::Staging(error) => error.into(),
+            error => Self::Board(Box::new(error)),
+        }
     }
 }
 

@@ -49,6 +49,7 @@ fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
     match &cli.command {
         Command::Check(args) => command::check::run(args),
         Command::Generate(args) => command::generate::run(args),
+        Command::Build(args) => command::build::run(args),
         Command::Cosim(args) => command::cosim::run(args),
         Command::Estimate(args) => command::estimate::run(args),
         Command::Simulate(args) => command::simulate::run(args),

@@ -25,7 +25,7 @@ pub use foveate_footage::{Hooks, Progress, Silent};
 pub use foveate_packets::{Command, Loss, Register};
 pub use output::{
     Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES, Packets,
-    PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic,
+    PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, write_packets,
 };
 pub use simulation::Simulation;
 pub use stream::{Received, ShownFrame, Stream};

@@ -39,6 +39,7 @@ pub(crate) use csv::Csv;
 pub use data_set::DataSet;
 pub use events::{EventTable, Moment};
 pub use options::{EventTables, Medium, Packets, PixelEvents, RunOptions};
+pub use packet_file::write_packets;
 pub use pixel_camera::{PixelCamera, PixelEvent};
 pub(crate) use recorder::{DISK_FULL, INTERRUPTED, Recorder};
 pub use summary::{Grid, Range, Summary};

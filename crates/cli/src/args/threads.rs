@@ -59,6 +59,7 @@ impl Command {
             | Self::Decode(_)
             | Self::View(_)
             | Self::Generate(_)
+            | Self::Build(_)
             | Self::Cosim(_)
             | Self::Estimate(_)
             | Self::Explain(_)

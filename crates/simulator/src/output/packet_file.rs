@@ -35,43 +35,62 @@ impl PacketFile {
             layout: Layout::new(design, has_scores, TICKS_PER_SECOND),
         })
     }
+}
 
-    /// Appends the packets of a row of regions, whose first region is `start`; returns how many were REGION.
-    fn row(&mut self, step: &Step<'_>, engine: &Engine, row: u32, frame: u32) -> u32 {
-        let Self { file, layout } = self;
-        let (camera, outcome) = (step.camera, step.outcome);
-        let start = row * camera.columns();
-        let regions = start..start + camera.columns();
-        let decisions: Vec<Decision> =
-            regions.clone().map(|region| decision(outcome, region as usize)).collect();
-        write::row(file.end(), layout, frame, row, &decisions);
-        if layout.info().has_scores {
-            let scores = regions.clone().map(|region| scores(outcome, region as usize));
-            write::scores(file.end(), layout, frame, row, scores);
-        }
-        let (mut sent, mut values) = (0, Vec::new());
-        for region in regions {
-            let action = outcome.actions[region as usize];
-            values.clear();
-            let summary = match action {
-                Action::Forward => false,
-                Action::Summarize => true,
-                Action::Hold | Action::Blank => continue,
-            };
-            match (summary, camera.payload()) {
-                (true, _) => engine.summary(region, &mut values),
-                (false, Payload::Denoised) => engine.denoised_region(region, &mut values),
-                (false, Payload::Raw) => {
-                    raw_region(camera, &step.source.frame, region, &mut values);
-                }
-            }
-            let flags = RegionFlags { raw: layout.info().raw, summary };
-            let place = (row, region - start);
-            write::region(file.end(), layout, frame, place, (flags, &values));
-            sent += 1;
-        }
-        sent
+/// Appends the packets of a frame that an engine has computed last, in the order in which a core can send them. `time` is that
+/// of the frame in ticks, and whether it is the first.
+pub fn write_packets(
+    out: &mut Vec<u8>,
+    layout: &Layout,
+    engine: &Engine,
+    source: &Raster,
+    number: u32,
+    time: (u64, bool),
+) {
+    write::frame(out, layout, number, time);
+    let rows = 0..engine.camera().rows();
+    let regions_sent = rows.map(|row| write_row(out, layout, engine, source, (number, row))).sum();
+    write::end(out, number, End { regions_sent, ..End::default() });
+}
+
+/// Appends the packets of a row of regions of a frame; returns how many were REGION.
+fn write_row(
+    out: &mut Vec<u8>,
+    layout: &Layout,
+    engine: &Engine,
+    source: &Raster,
+    (frame, row): (u32, u32),
+) -> u32 {
+    let (camera, outcome) = (engine.camera(), engine.outcome());
+    let start = row * camera.columns();
+    let regions = start..start + camera.columns();
+    let decisions: Vec<Decision> =
+        regions.clone().map(|region| decision(outcome, region as usize)).collect();
+    write::row(out, layout, frame, row, &decisions);
+    if layout.info().has_scores {
+        let scores = regions.clone().map(|region| scores(outcome, region as usize));
+        write::scores(out, layout, frame, row, scores);
     }
+    let (mut sent, mut values) = (0, Vec::new());
+    for region in regions {
+        let action = outcome.actions[region as usize];
+        values.clear();
+        let summary = match action {
+            Action::Forward => false,
+            Action::Summarize => true,
+            Action::Hold | Action::Blank => continue,
+        };
+        match (summary, camera.payload()) {
+            (true, _) => engine.summary(region, &mut values),
+            (false, Payload::Denoised) => engine.denoised_region(region, &mut values),
+            (false, Payload::Raw) => raw_region(camera, source, region, &mut values),
+        }
+        let flags = RegionFlags { raw: layout.info().raw, summary };
+        let place = (row, region - start);
+        write::region(out, layout, frame, place, (flags, &values));
+        sent += 1;
+    }
+    sent
 }
 
 /// What a ROW says of a region.
@@ -106,10 +125,8 @@ impl Sink for PacketFile {
         // Numbers wrap around.
         let frame = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
         let time = (step.source.time_us, step.first);
-        write::frame(self.file.end(), &self.layout, frame, time);
-        let rows = 0..step.camera.rows();
-        let regions_sent = rows.map(|row| self.row(step, engine, row, frame)).sum();
-        write::end(self.file.end(), frame, End { regions_sent, ..End::default() });
+        let source = &step.source.frame;
+        write_packets(self.file.end(), &self.layout, engine, source, frame, time);
         Ok(())
     }
 

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Writes a project, runs its script, and reads what came of it.
+
+use std::fs;
+use std::path::Path;
+use std::time::Duration;
+
+use foveate_staging::{Kind, StagedFolder};
+use foveate_toolchain::{Invocation, Toolchain};
+use serde::Serialize;
+use serde_json::Value;
+
+use crate::{BoardError, Project};
+
+/// What is written, and what may be replaced.
+const PROJECT: Kind = Kind {
+    what: "a project of a board (its board.f and sim/board_clock.v)",
+    is: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
+    listed: true,
+};
+
+/// One seed takes minutes on a large device.
+const LIMIT: Duration = Duration::from_secs(4 * 3600);
+
+/// A bitstream, and what it takes of the device.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+pub struct Built {
+    /// Its file in the folder of the project.
+    pub bitstream: String,
+    /// Its size.
+    pub bytes: usize,
+    /// What of the device is used: cell of the device as nextpnr calls it, those used, those there.
+    pub used: Vec<Used>,
+    /// The clock of the core in MHz: needed, and of each seed, the slowest first.
+    pub core_mhz: u32,
+    /// The clock of each seed, the slowest first.
+    pub reached_mhz: Vec<f64>,
+    /// The clock of the sensor's pixels in MHz: needed.
+    pub pclk_mhz: f64,
+    /// What the packed seed reaches of it.
+    pub pclk_reached_mhz: f64,
+}
+
+/// Cells of a kind.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize)]
+pub struct Used {
+    /// What nextpnr calls them.
+    pub cell: String,
+    /// Those that are used.
+    pub used: u64,
+    /// Those that are there.
+    pub available: u64,
+}
+
+/// Writes the files of a project into a folder, which appears when it is complete. Returns their names.
+///
+/// # Errors
+/// When the folder cannot be written, or holds something else.
+pub fn write_project(
+    project: &Project,
+    folder: &Path,
+    overwrite: bool,
+) -> Result<Vec<String>, BoardError> {
+    if overwrite && (PROJECT.is)(folder) {
+        forget(folder, &project.bitstream());
+    }
+    let staged = StagedFolder::new(folder, PROJECT, overwrite)?;
+    let files = project.files();
+    for file in &files {
+        staged.write(&file.path, file.contents.as_bytes())?;
+    }
+    staged.commit()?;
+    Ok(files.into_iter().map(|file| file.path).collect())
+}
+
+/// Removes what the script of an earlier project has made. What cannot be removed, the folder is then said to hold.
+fn forget(folder: &Path, bitstream: &str) {
+    let _ = fs::remove_dir_all(folder.join("build"));
+    let _ = fs::remove_file(folder.join(bitstream));
+}
+
+/// Runs the script of a project that has been written.
+///
+/// # Errors
+/// When a tool is missing or fails, and when the design does not fit or is too slow.
+pub fn build(
+    project: &Project,
+    folder: &Path,
+    seeds: u32,
+    toolchain: &Toolchain,
+) -> Result<Built, BoardError> {
+    if !project.is_open() {
+        return Err(BoardError::Closed { name: project.board.name.clone() });
+    }
+    let run =
+        Invocation::new("sh").args(["build.sh", &seeds.to_string()]).dir(folder).timeout(LIMIT);
+    toolchain.run_checked(&run)?;
+    let left = |name: &str| {
+        let path = folder.join(name);
+        fs::read(&path).map_err(|source| BoardError::Left { path, source })
+    };
+    // Clock of the core, that of the pixels, and the seed, on a line each, the slowest first.
+    let sorted = String::from_utf8_lossy(&left("build/sorted")?).into_owned();
+    let line = |line: &str| -> Option<(f64, f64)> {
+        let mut words = line.split(' ').map(str::parse);
+        Some((words.next()?.ok()?, words.next()?.ok()?))
+    };
+    let clocks: Vec<_> = sorted.lines().filter_map(line).collect();
+    let bitstream = project.bitstream();
+    let bytes = left(&bitstream)?.len();
+    Ok(Built {
+        bitstream,
+        bytes,
+        used: used(&left("build/report.json")?),
+        core_mhz: project.board.clock.core_mhz,
+        reached_mhz: clocks.iter().map(|clock| clock.0).collect(),
+        pclk_mhz: project.pclk_mhz(),
+        pclk_reached_mhz: clocks.last().map_or(0.0, |clock| clock.1),
+    })
+}
+
+/// What a report of nextpnr says of the cells, without those of which none is used.
+fn used(report: &[u8]) -> Vec<Used> {
+    let report: Value = serde_json::from_slice(report).unwrap_or_default();
+    let cells = report["utilization"].as_object().into_iter().flatten();
+    let number = |value: &Value| value.as_u64().unwrap_or(0);
+    cells
+        .map(|(cell, counts)| Used {
+            cell: cell.clone(),
+            used: number(&counts["used"]),
+            available: number(&counts["available"]),
+        })
+        .filter(|cell| cell.used > 0)
+        .collect()
+}

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The clock of a core, made from that of the board by the device's own PLL.
+
+use crate::BoardError;
+use crate::board::{Board, Family};
+
+/// How the clock of the core comes about.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Source {
+    /// It is that of the board.
+    Direct,
+    /// `SB_PLL40`: in * (feedback + 1) / (2^output (reference + 1)).
+    Ice40 { pad: bool, reference: u32, feedback: u32, output: u32, filter: u32 },
+    /// `EHXPLLL`: in * feedback / reference; `output` divides the oscillator.
+    Ecp5 { reference: u32, feedback: u32, output: u32 },
+}
+
+/// Finds the settings.
+///
+/// # Errors
+/// When the PLL of the family cannot make that clock exactly.
+pub(crate) fn source(board: &Board) -> Result<Source, BoardError> {
+    let (mhz, core) = (board.clock.mhz, board.clock.core_mhz);
+    if mhz == core {
+        return Ok(Source::Direct);
+    }
+    let found = match board.device.family {
+        Family::Ice40 => ice40(mhz, core, board.clock.pll_pad),
+        Family::Ecp5 => ecp5(mhz, core),
+        Family::Gowin | Family::Vivado => None,
+    };
+    found.ok_or_else(|| BoardError::Invalid {
+        name: board.name.clone(),
+        reason: format!(
+            "clock.core_mhz = {core}: no PLL makes it from {mhz} MHz here; {mhz} needs none"
+        ),
+    })
+}
+
+/// The oscillator runs at 533 to 1066 MHz, its reference at 10 to 133.
+fn ice40(mhz: u32, core: u32, pad: bool) -> Option<Source> {
+    let setting = |reference: u32, output: u32| {
+        let compared = mhz / (reference + 1);
+        let oscillator = core << output;
+        let in_range = (10..=133).contains(&compared) && (533..=1066).contains(&oscillator);
+        let exact =
+            in_range && mhz.is_multiple_of(reference + 1) && oscillator.is_multiple_of(compared);
+        let feedback =
+            exact.then(|| oscillator / compared).filter(|feedback| *feedback <= 128)? - 1;
+        let filter = match compared {
+            ..17 => 1,
+            17..26 => 2,
+            26..44 => 3,
+            44..66 => 4,
+            66..101 => 5,
+            _ => 6,
+        };
+        Some(Source::Ice40 { pad, reference, feedback, output, filter })
+    };
+    (0..16).find_map(|reference| (1..7).find_map(|output| setting(reference, output)))
+}
+
+/// The oscillator runs at 400 to 800 MHz, best in the middle; its reference at 4 or more.
+fn ecp5(mhz: u32, core: u32) -> Option<Source> {
+    let reference = (1..=mhz / 4).find(|reference| (core * reference).is_multiple_of(mhz))?;
+    let feedback = core * reference / mhz;
+    let output = (1..=128).filter(|output| (400..=800).contains(&(core * output)));
+    let output = output.min_by_key(|output| (core * output).abs_diff(600))?;
+    (feedback <= 80).then_some(Source::Ecp5 { reference, feedback, output })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_make_the_clock() {
+        let expected =
+            Source::Ice40 { pad: true, reference: 0, feedback: 63, output: 5, filter: 1 };
+        assert_eq!(ice40(12, 24, true), Some(expected));
+        assert_eq!(ice40(12, 25, true), None);
+        assert_eq!(ecp5(25, 75), Some(Source::Ecp5 { reference: 1, feedback: 3, output: 8 }));
+        assert_eq!(ecp5(25, 60), Some(Source::Ecp5 { reference: 5, feedback: 12, output: 10 }));
+        assert_eq!(ecp5(25, 900), None);
+        for mhz in [1, 12, 16, 25, 48] {
+            for core in 10..200 {
+                if let Some(Source::Ice40 { reference, feedback, output, .. }) =
+                    ice40(mhz, core, false)
+                {
+                    assert_eq!(mhz * (feedback + 1), (core * (reference + 1)) << output);
+                }
+                if let Some(Source::Ecp5 { reference, feedback, .. }) = ecp5(mhz, core) {
+                    assert_eq!(mhz * feedback, core * reference);
+                }
+            }
+        }
+    }
+}

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A camera on a board: a sensor, a core on AXI and a serial line, as a project that open tools make a bitstream of; or a
+//! pattern in place of the sensor, for Vivado.
+//!
+//! A [`Board`] and a [`Sensor`] are files of data. A [`Project`] is a design on a board: Verilog, pins, and the script that
+//! [`build`] runs. What stands around the core is in `docs/boards.md`.
+
+mod board;
+mod build;
+mod clock;
+mod constraints;
+mod error;
+mod pattern;
+mod project;
+mod script;
+mod sensor;
+mod text;
+mod top;
+
+pub use board::{Board, Clock, Device, Family, Leds, SensorPins, Serial};
+pub use build::{Built, Used, build, write_project};
+pub use error::BoardError;
+pub use pattern::{pattern, sums};
+pub use project::Project;
+pub use sensor::{Format, I2c, Level, Sensor};

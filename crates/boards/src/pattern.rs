@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The pattern that takes the place of a sensor, and what the packets of its frames add up to (docs/boards.md).
+
+use foveate_design::Design;
+use foveate_engine::Engine;
+use foveate_frame::Raster;
+use foveate_packets::Layout;
+use foveate_simulator::write_packets;
+
+/// Frames whose sums are compared on a board.
+pub(crate) const FRAMES: u32 = 16;
+/// Bytes of a word of a packet.
+const WORD: usize = 8;
+
+/// Types of packets that are added: ROW, REGION, END.
+const ADDED: [u8; 3] = [2, 4, 5];
+
+/// A pixel of 8 bits of a frame.
+fn pixel(x: u32, y: u32, frame: u32) -> u8 {
+    let mix = (5 * x + 19 * y) & 255;
+    let noise = mix ^ (mix >> 3) ^ (x & y & 255);
+    let ramp = ((x + 2 * y) & 511) >> 2;
+    let in_square = |at: u32, moved: u32| at.wrapping_sub(moved.wrapping_mul(frame)) & 127 < 16;
+    let value = if in_square(x, 3) && in_square(y, 1) {
+        224 | (noise & 31)
+    } else if ((x >> 6) ^ (y >> 6)) & 3 == 3 {
+        (ramp >> 1) + (noise & 63)
+    } else {
+        ramp
+    };
+    // All of these are below 256.
+    u8::try_from(value).unwrap_or(u8::MAX)
+}
+
+/// A frame of the pattern.
+#[must_use]
+pub fn pattern(width: u32, height: u32, frame: u32) -> Raster {
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    let pixels = places.map(|(x, y)| pixel(x, y, frame)).collect();
+    Raster::from_bytes(width, height, 8, pixels)
+        .unwrap_or_else(|error| unreachable!("a frame of the pattern is one: {error}"))
+}
+
+/// The sum behind each of so many frames of the pattern.
+#[must_use]
+pub fn sums(design: &Design, frames: u32) -> Vec<u32> {
+    let (layout, mut engine) = (Layout::new(design, false, 1), Engine::new(design));
+    let mut sum = 0_u32;
+    let mut add = |number: u32| {
+        let frame = pattern(design.width(), design.height(), number);
+        if engine.step_raster(&frame).is_err() {
+            unreachable!("a frame of the pattern fits its design");
+        }
+        let mut bytes = Vec::new();
+        write_packets(&mut bytes, &layout, &engine, &frame, number, (0, number == 0));
+        sum = sum.wrapping_add(sum_of(&bytes));
+        sum
+    };
+    (0..frames).map(&mut add).collect()
+}
+
+/// The sum of the CRC of all packets that are added.
+fn sum_of(mut bytes: &[u8]) -> u32 {
+    let mut sum = 0_u32;
+    while let [_, kind, low, high, ..] = bytes {
+        let length = WORD * usize::from(u16::from_le_bytes([*low, *high]));
+        let (packet, rest) = bytes.split_at(length);
+        if let (true, Some(crc)) = (ADDED.contains(&(kind & 15)), packet.last_chunk()) {
+            sum = sum.wrapping_add(u32::from_le_bytes(*crc));
+        }
+        bytes = rest;
+    }
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Values of the lines in Python of the page.
+    #[test]
+    fn pixels_are_those_of_the_page() {
+        for (place, value) in [
+            ((0, 0, 0), 224),
+            ((20, 3, 0), 6),
+            ((200, 10, 0), 85),
+            ((3, 1, 1), 231),
+            ((639, 479, 5), 15),
+        ] {
+            assert_eq!(pixel(place.0, place.1, place.2), value, "{place:?}");
+        }
+    }
+}

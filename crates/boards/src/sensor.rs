@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Sensors on DVP: how their pixels come, and which registers they are set up with. One file of data each.
+
+use serde::Deserialize;
+
+use crate::BoardError;
+
+/// The sensors that come with the program: name and data.
+const SENSORS: &[(&str, &str)] = &[
+    ("hm01b0-4", include_str!("../sensors/hm01b0-4.toml")),
+    ("hm01b0-8", include_str!("../sensors/hm01b0-8.toml")),
+    ("ov7670-qvga", include_str!("../sensors/ov7670-qvga.toml")),
+    ("ov7670-vga", include_str!("../sensors/ov7670-vga.toml")),
+];
+
+/// How a pixel comes over the data lines (docs/boards.md).
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+pub enum Format {
+    /// A pixel at each edge, 8 lines.
+    #[serde(rename = "8")]
+    Byte,
+    /// Two bytes, the first is the pixel.
+    #[serde(rename = "luma-first")]
+    LumaFirst,
+    /// Two bytes, the second is the pixel.
+    #[serde(rename = "luma-second")]
+    LumaSecond,
+    /// Two nibbles on 4 lines, the high one first.
+    #[serde(rename = "4-high")]
+    HighFirst,
+    /// Two nibbles on 4 lines, the low one first.
+    #[serde(rename = "4-low")]
+    LowFirst,
+}
+
+impl Format {
+    /// Data lines.
+    #[must_use]
+    pub fn lines(self) -> usize {
+        match self {
+            Self::Byte | Self::LumaFirst | Self::LumaSecond => 8,
+            Self::HighFirst | Self::LowFirst => 4,
+        }
+    }
+
+    /// Edges of the pixel clock that a pixel takes.
+    #[must_use]
+    pub fn edges(self) -> u32 {
+        match self {
+            Self::Byte => 1,
+            Self::LumaFirst | Self::LumaSecond | Self::HighFirst | Self::LowFirst => 2,
+        }
+    }
+
+    /// The parameter `FORMAT` of `dvp_capture`.
+    pub(crate) fn number(self) -> u32 {
+        match self {
+            Self::Byte => 0,
+            Self::LumaFirst => 1,
+            Self::LumaSecond => 2,
+            Self::HighFirst => 3,
+            Self::LowFirst => 4,
+        }
+    }
+}
+
+/// What a level is.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Level {
+    /// 1.
+    High,
+    /// 0.
+    Low,
+}
+
+/// A sensor in one of its modes.
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Sensor {
+    /// What it is, for people.
+    pub title: String,
+    /// Pixels of a line.
+    pub width: u32,
+    /// Lines of a frame.
+    pub height: u32,
+    /// Pixels of a line before the first that is wanted.
+    pub left: u32,
+    /// Lines before the first that is wanted.
+    pub top: u32,
+    /// How a pixel comes.
+    pub format: Format,
+    /// `vsync` between frames.
+    pub vsync: Level,
+    /// The pixel clock is at most so many times the clock that the sensor gets.
+    pub pclk_per_xclk: f64,
+    /// The clock that the sensor may get, least and most, in MHz.
+    pub xclk_mhz: [f64; 2],
+    /// Frames in a second for each MHz of that clock.
+    pub frames_per_mhz: f64,
+    /// How it is reached.
+    pub i2c: I2c,
+    /// What is written to it, in turn.
+    #[serde(rename = "step")]
+    steps: Vec<Step>,
+}
+
+/// Where a sensor is on I2C.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct I2c {
+    /// Its address, 7 bits.
+    pub device: u8,
+    /// Bytes of the address of a register, 1 or 2.
+    pub address_bytes: u32,
+}
+
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum Step {
+    Write(Vec<Write>),
+    PauseMs(u8),
+}
+
+/// Address and value.
+#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
+struct Write(u16, u8);
+
+impl Sensor {
+    /// The sensor of that name.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn named(name: &str) -> Result<Self, BoardError> {
+        let Some((_, text)) = SENSORS.iter().find(|sensor| sensor.0 == name) else {
+            let known: Vec<_> = SENSORS.iter().map(|sensor| sensor.0).collect();
+            return Err(BoardError::Sensor { name: name.to_owned(), known: known.join(", ") });
+        };
+        Ok(toml::from_str(text).unwrap_or_else(|error| unreachable!("{name}: {error}")))
+    }
+
+    /// Every write, address and value, without the pauses.
+    pub fn writes(&self) -> impl Iterator<Item = (u16, u8)> {
+        let pairs = self.steps.iter().flat_map(|step| match step {
+            Step::Write(pairs) => pairs.as_slice(),
+            Step::PauseMs(_) => &[],
+        });
+        pairs.map(|&Write(address, value)| (address, value))
+    }
+
+    /// Bits of a word of `i2c_setup`.
+    pub(crate) fn word_bits(&self) -> u32 {
+        8 * self.i2c.address_bytes + 9
+    }
+
+    /// Words of `i2c_setup`: pause, address and value of each step.
+    pub(crate) fn words(&self) -> Vec<u32> {
+        let address_bits = 8 * self.i2c.address_bytes;
+        let word = |step: &Step| match step {
+            Step::PauseMs(time) => vec![1 << (address_bits + 8) | u32::from(*time)],
+            Step::Write(pairs) => pairs
+                .iter()
+                .map(|&Write(address, value)| u32::from(address) << 8 | u32::from(value))
+                .collect(),
+        };
+        self.steps.iter().flat_map(word).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sensors_have_registers_that_fit_their_bus() {
+        for (name, _) in SENSORS {
+            let sensor = Sensor::named(name).unwrap();
+            assert!(
+                sensor.i2c.device < 0x80 && (1..=2).contains(&sensor.i2c.address_bytes),
+                "{name}"
+            );
+            let words = sensor.words();
+            assert!(words.len() > 5 && words.len() < 256, "{name}");
+            for word in words {
+                assert!(word < 2 << (8 * sensor.i2c.address_bytes + 8), "{name}: {word:x}");
+            }
+        }
+        let error = Sensor::named("ov7671").unwrap_err().to_string();
+        assert!(error.contains("`ov7671`") && error.contains("ov7670-vga"), "{error}");
+    }
+}

@@ -1,0 +1,276 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The Verilog around a core: leaves of `rtl/board/`, and the top that connects them.
+
+use askama::Template;
+use foveate_design::index_bits;
+use foveate_emit::SourceFile;
+use foveate_packets::Layout;
+
+use crate::board::SensorPins;
+use crate::clock::Source;
+use crate::pattern::{FRAMES, sums};
+use crate::project::{Project, file};
+use crate::sensor::{Level, Sensor};
+use crate::text::text_of;
+
+/// Bits of I2C in a second, and parts of a bit.
+const I2C_HZ: u32 = 100_000;
+const QUARTERS: u32 = 4;
+
+macro_rules! leaves {
+    ($name:ident: $($leaf:literal),+) => {
+        const $name: &[(&str, &str)] =
+            &[$(($leaf, include_str!(concat!("../../../rtl/board/", $leaf, ".v")))),+];
+    };
+}
+
+// Each after what it instantiates.
+leaves!(BEFORE_A_SENSOR: "clock_crossing", "dvp_capture", "i2c_setup");
+leaves!(BEFORE_A_PATTERN: "pattern_source", "packet_signature", "packet_sample");
+leaves!(SERIAL: "packet_bytes", "uart_sender", "uart_receiver", "uart_registers");
+
+#[derive(Template)]
+#[template(path = "board.v")]
+struct Top<'a> {
+    banner: String,
+    title: &'a str,
+    mhz: u32,
+    core_mhz: u32,
+    capture: Capture,
+    leds: usize,
+    lit_low: bool,
+    width: u32,
+    height: u32,
+    divisor: u32,
+}
+
+/// Parameters of what stands between a sensor and a core.
+struct Capture {
+    lines: usize,
+    reset: bool,
+    power_down: bool,
+    device: String,
+    address_bytes: u32,
+    steps: usize,
+    step_bits: u32,
+    word_bits: u32,
+    quarter: u32,
+    pause: u32,
+    format: u32,
+    vsync_high: u32,
+    left: u32,
+    top: u32,
+    column_bits: u32,
+    line_bits: u32,
+}
+
+#[derive(Template)]
+#[template(path = "sensor_steps.v")]
+struct Steps<'a> {
+    banner: String,
+    title: &'a str,
+    step_bits: u32,
+    word_bits: u32,
+    words: Vec<String>,
+}
+
+#[derive(Template)]
+#[template(path = "pattern_board.v")]
+struct PatternTop<'a> {
+    banner: String,
+    title: &'a str,
+    pair: bool,
+    mhz: u32,
+    core_mhz: u32,
+    leds: usize,
+    lit_low: bool,
+    lanes: u32,
+    video_bits: u32,
+    words: u32,
+    word_bits: u32,
+    height: u32,
+    line_bits: u32,
+    packet_words: usize,
+    packet_bits: u32,
+    divisor: u32,
+}
+
+#[derive(Template)]
+#[template(path = "expected_sums.v")]
+struct Expected {
+    banner: String,
+    sums: Vec<String>,
+}
+
+#[derive(Template)]
+#[template(path = "board_clock.v")]
+struct Clock {
+    banner: String,
+    pair: bool,
+    mhz: u32,
+    core_mhz: u32,
+    how: &'static str,
+    body: String,
+}
+
+/// The modules around the core, each after those that it instantiates.
+pub(crate) fn around(project: &Project) -> Vec<SourceFile> {
+    let path = |name: &str| format!("rtl/{name}.v");
+    let (leaves, own) = match &project.eye {
+        Some((sensor, pins)) => (
+            BEFORE_A_SENSOR,
+            [("sensor_steps", steps(project, sensor)), ("board", top(project, sensor, pins))],
+        ),
+        None => (
+            BEFORE_A_PATTERN,
+            [("expected_sums", expected(project)), ("board", pattern_top(project))],
+        ),
+    };
+    let leaves = leaves.iter().chain(SERIAL);
+    let leaves = leaves.map(|&(name, text)| file(&path(name), text.to_owned()));
+    let clock = file(&path("board_clock"), clock(project, false));
+    leaves.chain([clock]).chain(own.map(|(name, text)| file(&path(name), text))).collect()
+}
+
+fn top(project: &Project, sensor: &Sensor, pins: &SensorPins) -> String {
+    let Project { board, design, .. } = project;
+    text_of(&Top {
+        banner: project.banner(),
+        title: &board.title,
+        mhz: board.clock.mhz,
+        core_mhz: board.clock.core_mhz,
+        capture: capture(project, sensor, pins),
+        leds: board.leds.pins.len(),
+        lit_low: board.leds.lit == Level::Low,
+        width: design.width(),
+        height: design.height(),
+        divisor: board.divisor(),
+    })
+}
+
+fn capture(project: &Project, sensor: &Sensor, pins: &SensorPins) -> Capture {
+    let (design, clocks) = (&project.design, project.board.clock.core_mhz * 1_000_000);
+    let steps = sensor.words().len();
+    Capture {
+        lines: sensor.format.lines(),
+        reset: pins.reset_n.is_some(),
+        power_down: pins.power_down.is_some(),
+        device: format!("{:02X}", sensor.i2c.device),
+        address_bytes: sensor.i2c.address_bytes,
+        steps,
+        step_bits: index_bits(steps as u64),
+        word_bits: sensor.word_bits(),
+        quarter: clocks.div_ceil(QUARTERS * I2C_HZ),
+        pause: clocks / 1000,
+        format: sensor.format.number(),
+        vsync_high: u32::from(sensor.vsync == Level::High),
+        left: sensor.left,
+        top: sensor.top,
+        column_bits: index_bits(u64::from(sensor.left + design.width())),
+        line_bits: index_bits(u64::from(sensor.top + design.height())),
+    }
+}
+
+fn steps(project: &Project, sensor: &Sensor) -> String {
+    let (words, bits) = (sensor.words(), sensor.word_bits());
+    let digits = bits.div_ceil(4) as usize;
+    text_of(&Steps {
+        banner: project.banner(),
+        title: &sensor.title,
+        step_bits: index_bits(words.len() as u64),
+        word_bits: bits,
+        words: words.iter().map(|word| format!("{word:0digits$X}")).collect(),
+    })
+}
+
+fn pattern_top(project: &Project) -> String {
+    let Project { board, design, .. } = project;
+    let lanes = project.raster().pixels_per_clock();
+    let words = design.width().div_ceil(lanes);
+    let layout = Layout::new(design, false, 1);
+    let lengths = [layout.frame_bytes(), layout.row_bytes(), layout.region_bytes(false)];
+    let packet_words = lengths.into_iter().max().unwrap_or_default() / 8;
+    text_of(&PatternTop {
+        banner: project.banner(),
+        title: &board.title,
+        pair: project.has_pair(),
+        mhz: board.clock.mhz,
+        core_mhz: board.clock.core_mhz,
+        leds: board.leds.pins.len(),
+        lit_low: board.leds.lit == Level::Low,
+        lanes,
+        video_bits: 8 * lanes,
+        words,
+        word_bits: index_bits(words.into()),
+        height: design.height(),
+        line_bits: index_bits(design.height().into()),
+        packet_words,
+        packet_bits: index_bits(packet_words as u64),
+        divisor: board.divisor(),
+    })
+}
+
+fn expected(project: &Project) -> String {
+    let sums = sums(&project.design, FRAMES);
+    text_of(&Expected {
+        banner: project.banner(),
+        sums: sums.iter().map(|sum| format!("{sum:08X}")).collect(),
+    })
+}
+
+/// The clock of the core; for a simulation that of the board takes its place.
+pub(crate) fn clock(project: &Project, simulated: bool) -> String {
+    let (pair, one) = (project.has_pair(), project.clock_port());
+    let (how, body) = match project.clock {
+        _ if simulated => (", in a simulation: the clock that comes is taken for it", direct(one)),
+        Source::Direct if pair => (", by the buffers of a Xilinx device", pair_of_wires()),
+        Source::Direct => ("", direct(one)),
+        Source::Ice40 { pad, reference, feedback, output, filter } => {
+            // A PLL at its own pin takes it whole, and hands its clock on.
+            let (cell, ports, raw) = if pad {
+                ("2_PAD", ".PACKAGEPIN(clk_i), .PLLOUTGLOBALA(raw_o), .PLLOUTGLOBALB(clk_o)", "")
+            } else {
+                let raw = "\n    assign raw_o = clk_i;";
+                ("CORE", ".REFERENCECLK(clk_i), .PLLOUTGLOBAL(clk_o)", raw)
+            };
+            let body = format!(
+                "    SB_PLL40_{cell} #(\n        .FEEDBACK_PATH(\"SIMPLE\"), .DIVR(4'd{reference}), .DIVF(7'd{feedback}), \
+                 .DIVQ(3'd{output}), .FILTER_RANGE(3'd{filter})\n    ) u_pll (\n        {ports}, \
+                 .LOCK(locked_o), .RESETB(1'b1), .BYPASS(1'b0)\n    );{raw}"
+            );
+            (", by the PLL of an iCE40", body)
+        }
+        Source::Ecp5 { reference, feedback, output } => {
+            let phase = output / 2 - 1;
+            let body = format!(
+                "    wire looped;\n    (* FREQUENCY_PIN_CLKI = \"{}\", FREQUENCY_PIN_CLKOP = \"{}\" *)\n    EHXPLLL #(\n        \
+                 .PLLRST_ENA(\"DISABLED\"), .INTFB_WAKE(\"DISABLED\"), .STDBY_ENABLE(\"DISABLED\"), .DPHASE_SOURCE(\"DISABLED\"),\n        \
+                 .OUTDIVIDER_MUXA(\"DIVA\"), .CLKI_DIV({reference}), .CLKFB_DIV({feedback}), .CLKOP_ENABLE(\"ENABLED\"), \
+                 .CLKOP_DIV({output}),\n        .CLKOP_CPHASE({phase}), .CLKOP_FPHASE(0), .FEEDBK_PATH(\"CLKOP\")\n    ) u_pll (\n        \
+                 .RST(1'b0), .STDBY(1'b0), .CLKI(clk_i), .CLKOP(looped), .CLKFB(looped), .CLKINTFB(), .PHASESEL0(1'b0),\n        \
+                 .PHASESEL1(1'b0), .PHASEDIR(1'b0), .PHASESTEP(1'b0), .PHASELOADREG(1'b0), .PLLWAKESYNC(1'b0), .ENCLKOP(1'b0),\n        \
+                 .LOCK(locked_o)\n    );\n    assign clk_o = looped;\n    assign raw_o = clk_i;",
+                project.board.clock.mhz, project.board.clock.core_mhz
+            );
+            (", by the PLL of an ECP5", body)
+        }
+    };
+    text_of(&Clock {
+        banner: project.banner(),
+        pair,
+        mhz: project.board.clock.mhz,
+        core_mhz: project.board.clock.core_mhz,
+        how,
+        body,
+    })
+}
+
+fn direct(clock: &str) -> String {
+    format!("    assign clk_o = {clock};\n    assign raw_o = {clock};\n    assign locked_o = 1'b1;")
+}
+
+fn pair_of_wires() -> String {
+    "    wire joined;\n    IBUFDS u_pair (.I(clk_p_i), .IB(clk_n_i), .O(joined));\n    \
+     BUFG u_buffer (.I(joined), .O(clk_o));\n    assign raw_o = joined;\n    assign locked_o = 1'b1;"
+        .to_owned()
+}

@@ -1,0 +1,69 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# {= banner =}
+#
+# Makes {= bitstream =} of {= title =}:
+# synthesizes with Yosys, places and routes with nextpnr from several seeds, and packs the fastest of them.
+#
+#   sh build.sh [SEEDS]
+#
+# SEEDS says how many, 1 by default. Exit code 1: it does not fit, is too slow, or a tool fails; 2: bad usage; 3: a tool is missing.
+# YOSYS, NEXTPNR, PACK   programs to use instead of those that are found
+
+seeds=${1:-1}
+cd "$(dirname "$0")" || exit 2
+case $seeds in
+'' | *[!0-9]* | 0*) echo "\`$seeds\` seeds are none; use a number from 1 on" >&2 && exit 2 ;;
+esac
+
+# The first of these programs that is there, after the one that is asked for.
+find_tool() {
+    for name in "$@"; do
+        [ -n "$name" ] && command -v "$name" && return
+    done
+    shift
+    echo "none of these programs is there: $*; {= install =}" >&2
+    exit 3
+}
+yosys=$(find_tool "${YOSYS:-}" {= yosys =}) || exit
+nextpnr=$(find_tool "${NEXTPNR:-}" {= nextpnr =}) || exit
+pack=$(find_tool "${PACK:-}" {= pack =}) || exit
+
+# What a program said, if it failed.
+run() {
+    log=$1
+    shift
+    "$@" >"$log" 2>&1 && return
+    grep '^ERROR' "$log" >&2 || tail -n 20 "$log" >&2
+    echo "$1 failed; its log is $log" >&2
+    exit 1
+}
+
+rm -rf build
+mkdir build || exit 2
+run build/yosys.log "$yosys" -Q -T -s build.ys
+seed=1
+: >build/clocks
+while [ "$seed" -le "$seeds" ]; do
+    # shellcheck disable=SC2046,SC2086 # words of their own
+    run "build/seed$seed.log" "$nextpnr" {= arguments =} --timing-allow-fail --json build/board.json \
+        --seed "$seed" --report "build/seed$seed.json" {= writes =}
+    # Of each clock the last line counts: before that it was not routed. Those of the core and of the sensor have their own.
+    tac "build/seed$seed.log" | sed -n "s/.*Max frequency for clock *'\([^']*\)': *\([0-9.]*\) MHz.*/\1 \2/p" | awk '!seen[$1]++' >"build/seed$seed.clocks"
+    core=$(awk '!/pclk/ && !/clk_i/ { print $2 }' "build/seed$seed.clocks" | head -n 1)
+    [ -n "$core" ] || core=$(awk '!/pclk/ { print $2 }' "build/seed$seed.clocks" | head -n 1)
+    pixels=$(awk '/pclk/ { print $2 }' "build/seed$seed.clocks" | head -n 1)
+    echo "${core:-0} ${pixels:-0} $seed" >>build/clocks
+    seed=$((seed + 1))
+done
+sort -n build/clocks >build/sorted
+worst=$(head -n 1 build/sorted)
+best=$(tail -n 1 build/sorted)
+median=$(sed -n "$(((seeds + 1) / 2))p" build/sorted)
+seed=${best##* }
+run build/pack.log "$pack" {= packs =}
+cp "build/seed$seed.json" build/report.json
+echo "clock of the core: best ${best%% *} MHz (seed $seed, packed), median ${median%% *}, worst ${worst%% *} of $seeds seeds; {= core_mhz =} needed"
+pixels=${best#* }
+echo "clock of the sensor: ${pixels%% *} MHz; {= pclk_mhz =} needed"
+echo "$best" | awk '{ exit !($1 >= {= core_mhz =} && $2 >= {= pclk_mhz =}) }' || { echo "too slow: {= bitstream =} may not work" >&2 && exit 1; }

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A small board, compiled for a bench, and a run of it.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use foveate_boards::{Board, Project};
+use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
+use foveate_toolchain::{Cache, Source, Toolchain};
+
+const BENCH: &str = include_str!("board_bench.v");
+const SENSOR: &str = include_str!("sensor.cpp");
+pub(crate) const CORE_MHZ: u32 = 24;
+/// Clocks without a byte after which a run ends.
+const QUIET: u32 = 30_000;
+
+/// A board with this sensor, before a core for small frames.
+pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
+    let lines = if sensor == "hm01b0-4" { 4 } else { 8 };
+    let data: Vec<_> = (0..lines).map(|line| format!("\"d{line}\"")).collect();
+    let toml = format!(
+        "title = 'a board'\npage = 'https://example.org'\nsensor = '{sensor}'\nflash = 'load'\n\
+         [device]\nfamily = 'ice40'\npart = 'up5k'\npackage = 'sg48'\n\
+         [clock]\npins = ['35']\nmhz = 12\ncore_mhz = {CORE_MHZ}\n[serial]\ntx = 't'\nrx = 'r'\nbaud = 6_000_000\n\
+         [leds]\npins = ['l0', 'l1']\nlit = 'high'\n\
+         [pins]\nxclk = 'x'\npclk = 'p'\nvsync = 'v'\nhref = 'h'\nscl = 'c'\nsda = 'a'\ndata = [{}]\n\
+         [design]\npreset = 'raster'\nset = ['frame={{width=64,height=48}}', \"render.irrelevant='mean'\", \
+         'periphery={{blocks=2,level=4}}'{}]\n",
+        data.join(","),
+        keys.iter().map(|key| format!(", \"{key}\"")).collect::<String>()
+    );
+    let board = Board::from_toml("bench", &toml).unwrap();
+    let design = board.config().unwrap().validate().unwrap();
+    Project::new(board, design).unwrap()
+}
+
+/// The project in Verilator; `fault` is planted in one of its files.
+pub(crate) fn simulated(project: &Project, fault: Option<(&str, &str, &str)>) -> PathBuf {
+    let mut files = project.files();
+    if let Some((name, from, to)) = fault {
+        let path = format!("rtl/{name}.v");
+        let file = files.iter_mut().find(|file| file.path == path).unwrap();
+        assert_eq!(file.contents.matches(from).count(), 1, "`{from}` in {path}");
+        file.contents = file.contents.replace(from, to);
+    }
+    let text = |path: &str| files.iter().find(|file| file.path == path).unwrap().contents.clone();
+    let source = |path: &str| {
+        // A PLL is no Verilog.
+        let from = if path == "rtl/board_clock.v" { "sim/board_clock.v" } else { path };
+        Source::from((path.to_owned(), text(from)))
+    };
+    let mut sources: Vec<Source> = text("board.f").lines().map(source).collect();
+    let lines = if project.sensor_title().contains("4 lines") { 4 } else { 8 };
+    let bench = format!("`define DATA {lines}\n{BENCH}");
+    sources.push(Source::from(("board_bench.v".to_owned(), bench)));
+    let cpp_main =
+        format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET}\n{SENSOR}");
+    let job = VerilatorJob {
+        sources,
+        top: "board_bench".to_owned(),
+        cpp_main,
+        lint: Lint::Lenient,
+        ..VerilatorJob::default()
+    };
+    verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
+}
+
+/// What a run left.
+pub(crate) struct Heard {
+    pub(crate) bytes: Vec<u8>,
+    /// A byte had no stop bit.
+    pub(crate) has_broken_bytes: bool,
+    /// What was written on I2C, and the lights.
+    pub(crate) setup: String,
+}
+
+/// Plays a board. `host` are bytes that the host sends, each not before that microsecond.
+pub(crate) fn play(
+    program: &Path,
+    wires: &[u8],
+    host: &[(u32, u8)],
+    pclk_ps: u32,
+    nacks: u32,
+) -> Heard {
+    let dir = tempfile::tempdir().unwrap();
+    let host: Vec<u8> =
+        host.iter().flat_map(|(at, byte)| at.to_le_bytes().into_iter().chain([*byte])).collect();
+    fs::write(dir.path().join("wires"), wires).unwrap();
+    fs::write(dir.path().join("host"), host).unwrap();
+    let run = Command::new(program)
+        .arg(dir.path())
+        .args([pclk_ps.to_string(), nacks.to_string()])
+        .status()
+        .unwrap();
+    let setup = fs::read_to_string(dir.path().join("setup")).unwrap();
+    let bytes = fs::read(dir.path().join("heard")).unwrap();
+    Heard { bytes, has_broken_bytes: !run.success(), setup }
+}

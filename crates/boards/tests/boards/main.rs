@@ -1,0 +1,8 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Boards in simulation: a sensor's wires in, a serial line out.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod common;
+mod film;
+mod pattern;
+mod simulation;

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The whole top of the VCU118: what its core makes of the pattern adds up to what the model says, and registers are read over the
+//! serial line.
+
+use std::fs;
+use std::process::Command as Process;
+
+use foveate_boards::{Board, Project};
+use foveate_design::Config;
+use foveate_packets::{Command, Found, Layout, Packet, Splitter};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
+use foveate_toolchain::{Cache, Source, Tool, Toolchain};
+
+const BENCH: &str = include_str!("pattern.cpp");
+/// Clocks with the serial line, and most until a light is on.
+const AFTER: u32 = 400_000;
+const LIMIT: u64 = 60_000_000;
+const RIGHT: &str = "4";
+const WRONG: &str = "2";
+
+fn vcu118(keys: &[&str]) -> Project {
+    let board = Board::find("vcu118").unwrap();
+    let toml = board.config().unwrap().to_toml();
+    let design = Config::from_toml_with(&toml, keys).unwrap().validate().unwrap();
+    Project::new(board, design).unwrap()
+}
+
+/// Lights of a run, and what was heard after that.
+fn play(project: &Project, fault: Option<(&str, &str, &str)>, host: &[u8]) -> (String, Vec<u8>) {
+    let mut files = project.files();
+    if let Some((name, from, to)) = fault {
+        let path = format!("rtl/{name}.v");
+        let file = files.iter_mut().find(|file| file.path == path).unwrap();
+        assert_eq!(file.contents.matches(from).count(), 1, "`{from}` in {path}");
+        file.contents = file.contents.replace(from, to);
+    }
+    let text = |path: &str| files.iter().find(|file| file.path == path).unwrap().contents.clone();
+    let source = |path: &str| {
+        let from = if path == "rtl/board_clock.v" { "sim/board_clock.v" } else { path };
+        Source::from((path.to_owned(), text(from)))
+    };
+    let job = VerilatorJob {
+        sources: text("board.f").lines().map(source).collect(),
+        top: "board".to_owned(),
+        cpp_main: format!(
+            "#define DIVISOR 136\n#define AFTER {AFTER}\n#define LIMIT {LIMIT}\n{BENCH}"
+        ),
+        lint: Lint::Lenient,
+        ..VerilatorJob::default()
+    };
+    let program =
+        verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap();
+    let dir = tempfile::tempdir().unwrap();
+    fs::write(dir.path().join("host"), host).unwrap();
+    let run = Process::new(program).arg(dir.path()).output().unwrap();
+    let said = String::from_utf8(run.stdout).unwrap();
+    eprintln!("lights and clocks: {}", said.trim());
+    let lights = said.split(' ').next().unwrap().to_owned();
+    (lights, fs::read(dir.path().join("heard")).unwrap())
+}
+
+const SMALL: &[&str] = &["frame={width=200,height=76}"];
+
+#[test]
+fn sums_on_the_board_are_those_of_the_model() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let four: &[&str] =
+        &["frame={width=200,height=76}", "hardware.pixels_per_clock=4", "denoise.filter='none'"];
+    for (keys, address) in [(SMALL, 0x1000), (four, 0)] {
+        let project = vcu118(keys);
+        let (lights, heard) = play(&project, None, &Command::read(address).bytes());
+        assert_eq!(lights, RIGHT, "{keys:?}");
+        let mut splitter = Splitter::default();
+        splitter.feed(&heard);
+        let layout = Layout::new(&project.design, false, 125_000_000);
+        let (mut answers, mut others) = (Vec::new(), 0);
+        loop {
+            match splitter.next(Some(&layout)) {
+                Found::Nothing => break,
+                // Of the first packet only the end was heard.
+                Found::Skipped { bytes, .. } => assert!(others == 0 && bytes < 200, "{bytes}"),
+                Found::Packet { packet: Packet::Register(answer), .. } => {
+                    answers.push(answer.value)
+                }
+                Found::Packet { .. } => others += 1,
+            }
+        }
+        let [answer] = answers[..] else { panic!("{} answers", answers.len()) };
+        if address == 0 {
+            assert_eq!(answer, u32::from_le_bytes(*b"FOVE"));
+        } else {
+            assert_eq!(answer & 0xFFFF, 1, "all right");
+            assert!(answer >> 16 >= 16, "frames: {}", answer >> 16);
+        }
+        assert!(others > 0, "packets are shown, too");
+    }
+}
+
+/// At the size and rate of the board, for hand: 33 million clocks.
+#[test]
+#[ignore = "takes a minute"]
+fn sums_at_full_size_are_those_of_the_model() {
+    let (lights, _) = play(&vcu118(&[]), None, &[]);
+    assert_eq!(lights, RIGHT);
+}
+
+#[test]
+fn a_core_that_is_wrong_lights_the_other_light() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let project = vcu118(SMALL);
+    for fault in [
+        // A pixel that is rare, a sum that is compared too early, a line that is missing.
+        ("board", "_tdata(pixel)", "_tdata(pixel ^ {7'd0, pixel == 8'd231})"),
+        ("packet_signature", "done_q <= add_end_q;", "done_q <= tail_q && end_q;"),
+        ("board", ".LINES(76)", ".LINES(75)"),
+    ] {
+        assert_eq!(play(&project, Some(fault), &[]).0, WRONG, "{fault:?}");
+    }
+}

@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What comes over the serial line of a board is what the model says of the frames before its sensor.
+
+use crate::common::{CORE_MHZ, Heard, play, project, simulated};
+use crate::film::{Damage, Wires, frames, seen};
+use foveate_boards::{Project, Sensor};
+use foveate_design::Design;
+use foveate_emit::registers;
+use foveate_frame::Frame;
+use foveate_model::FunctionalCamera;
+use foveate_packets::{Command, Found, Layout, Packet, Region, Register, Row, Splitter};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+use std::path::Path;
+
+/// All regions of a frame can leave at this rate of pixels.
+const SLOW_PS: u32 = 3_000_003;
+/// Faster than the core's clock.
+const FAST_PS: u32 = 33_337;
+
+/// Frames of a stream: what was drawn, and the rows of regions that came.
+struct Received {
+    screens: Vec<Vec<u16>>,
+    rows: Vec<Vec<Row>>,
+    dropped: u32,
+    answers: Vec<Register>,
+}
+
+fn receive(design: &Design, bytes: &[u8]) -> Result<Received, String> {
+    let layout = Layout::new(design, false, CORE_MHZ * 1_000_000);
+    let mut splitter = Splitter::default();
+    splitter.feed(bytes);
+    splitter.complete();
+    let mut screen = vec![0; (design.width() * design.height()) as usize];
+    let mut received =
+        Received { screens: Vec::new(), rows: Vec::new(), dropped: 0, answers: Vec::new() };
+    let mut rows = Vec::new();
+    loop {
+        match splitter.next(Some(&layout)) {
+            Found::Nothing => return Ok(received),
+            Found::Skipped { bytes, .. } => return Err(format!("{bytes} bytes are no packet")),
+            Found::Packet { packet, .. } => match packet {
+                Packet::Region(region) => paint(design, &mut screen, &region),
+                Packet::Row(row) => rows.push(row),
+                Packet::End(end) => {
+                    received.dropped += end.regions_dropped + end.rows_dropped;
+                    if rows.len() + end.rows_dropped as usize != design.rows() as usize {
+                        return Err(format!(
+                            "{} rows came, {} were dropped",
+                            rows.len(),
+                            end.rows_dropped
+                        ));
+                    }
+                    received.screens.push(screen.clone());
+                    received.rows.push(std::mem::take(&mut rows));
+                }
+                Packet::Register(answer) => received.answers.push(answer),
+                Packet::Frame(_) | Packet::Scores(_) => {}
+            },
+        }
+    }
+}
+
+/// Draws pixels or means of a region, as packets.md has them.
+fn paint(design: &Design, screen: &mut [u16], region: &Region) {
+    let (side, width) = (design.region_size(), design.width());
+    let blocks = if region.flags.summary { design.periphery().unwrap().blocks } else { side };
+    for y in 0..side {
+        for x in 0..side {
+            let value = region.values[(y * blocks / side * blocks + x * blocks / side) as usize];
+            let (line, column) = (region.row * side + y, region.column * side + x);
+            if line < design.height() && column < width {
+                screen[(line * width + column) as usize] = value;
+            }
+        }
+    }
+}
+
+/// What the sensor of a project drives for these frames.
+fn wires(sensor: &Sensor, film: &[Frame], damage: Damage, gap: usize) -> Vec<u8> {
+    let mut wires = Wires::new(sensor);
+    for (number, frame) in film.iter().enumerate() {
+        wires.frame(frame, if number == 1 { damage } else { Damage::None }, gap);
+    }
+    wires.bytes
+}
+
+/// Compares screens and decisions with the model's.
+fn compare(design: &Design, received: &Received, film: &[Frame]) -> Result<(), String> {
+    let count = received.screens.len();
+    if count != film.len() {
+        return Err(format!("{count} frames came, expected {}", film.len()));
+    }
+    let mut model = FunctionalCamera::new(design);
+    for (number, frame) in film.iter().enumerate() {
+        let expected = model.step(frame).unwrap();
+        for row in &received.rows[number] {
+            for (column, decision) in row.decisions.iter().enumerate() {
+                let region = (row.row * design.columns()) as usize + column;
+                if (decision.srs, decision.trs) != (expected.srs[region], expected.trs[region]) {
+                    return Err(format!("frame {number}, region {region}: another decision"));
+                }
+            }
+        }
+        if received.dropped == 0 && expected.rendered.pixels() != received.screens[number] {
+            return Err(format!("frame {number}: another picture"));
+        }
+    }
+    Ok(())
+}
+
+fn check(project: &Project, program: &Path, damage: Damage) -> Result<Heard, String> {
+    let film = frames(64, 48, 4);
+    let sensor = project.board.eye().unwrap().unwrap().0;
+    let wires = wires(&sensor, &film, damage, 600);
+    let place = address(project, "frame");
+    // Answers stand between packets, whenever they are asked for.
+    let host =
+        said(&(1..=30).map(|turn| (700 * turn, Command::read(place).bytes())).collect::<Vec<_>>());
+    let heard = play(program, &wires, &host, SLOW_PS, 0);
+    let received = receive(&project.design, &heard.bytes)?;
+    let answer = Register { address: place, written: false, value: 48 << 16 | 64 };
+    if heard.has_broken_bytes || received.answers != [answer; 30] {
+        return Err(format!("{} answers came", received.answers.len()));
+    }
+    // Lines that are made up come at the clock of the core, too fast for the serial line.
+    if received.dropped != 0 && damage != Damage::EarlyVsync {
+        return Err(format!("{} rows and regions were dropped", received.dropped));
+    }
+    compare(&project.design, &received, &seen(&film, damage)).map(|()| heard)
+}
+
+const ALL: [Damage; 7] = [
+    Damage::None,
+    Damage::Noise,
+    Damage::LostLine,
+    Damage::ShortLine,
+    Damage::SplitLine,
+    Damage::EarlyVsync,
+    Damage::Stopped,
+];
+
+#[test]
+fn what_leaves_a_board_is_what_the_model_says_of_what_its_sensor_saw() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    for sensor in ["hm01b0-4", "hm01b0-8", "ov7670-qvga"] {
+        let project = project(sensor, &[]);
+        let program = simulated(&project, None);
+        // Every kind of damage with one of them.
+        let all = if sensor == "ov7670-qvga" { &ALL[..] } else { &ALL[..1] };
+        for &damage in all {
+            let heard = check(&project, &program, damage);
+            let heard = heard.unwrap_or_else(|error| panic!("{sensor}, {damage:?}: {error}"));
+            assert!(
+                heard.setup.ends_with("lights 0\n") || heard.setup.ends_with("lights 1\n"),
+                "{}",
+                heard.setup
+            );
+        }
+    }
+}
+
+#[test]
+fn a_sensor_that_is_faster_than_its_serial_line_costs_whole_regions_and_no_decision() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let project = project("hm01b0-4", &[]);
+    let program = simulated(&project, None);
+    let film = frames(64, 48, 4);
+    let sensor = project.board.eye().unwrap().unwrap().0;
+    let heard = play(&program, &wires(&sensor, &film, Damage::None, 400_000), &[], FAST_PS, 0);
+    let received = receive(&project.design, &heard.bytes).unwrap();
+    assert!(received.dropped > 0);
+    compare(&project.design, &received, &film).unwrap();
+}
+
+/// Bytes of commands, each with its time in microseconds.
+fn said(commands: &[(u32, Vec<u8>)]) -> Vec<(u32, u8)> {
+    let timed =
+        |(at, bytes): &(u32, Vec<u8>)| bytes.iter().map(|&byte| (*at, byte)).collect::<Vec<_>>();
+    commands.iter().flat_map(timed).collect()
+}
+
+fn address(project: &Project, name: &str) -> u16 {
+    let registers = registers(project.design.raster().unwrap());
+    let found = registers.iter().find(|register| register.name == name);
+    u16::try_from(found.unwrap_or_else(|| panic!("no register {name}")).address).unwrap()
+}
+
+/// Registers are read and written between packets, thresholds hold from the next frame on, and a command that is not whole is
+/// forgotten.
+#[test]
+fn a_host_reads_and_writes_registers_over_the_same_line() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let project = project("ov7670-qvga", &[]);
+    let program = simulated(&project, None);
+    let film = frames(64, 48, 4);
+    let sensor = project.board.eye().unwrap().unwrap().0;
+    let wires = wires(&sensor, &film, Damage::None, 60_000);
+    // Between the second frame and the third; a frame takes so long.
+    let frame_us =
+        u32::try_from(wires.len() as u64 / 2 / 4 * u64::from(SLOW_PS) / 1_000_000).unwrap();
+    let change = 2 * frame_us - frame_us / 8;
+    let level = address(&project, "temporal_level");
+    let mut broken = Command::read(0).bytes();
+    broken[9] ^= 4;
+    let cut = Command::read(4).bytes()[..20].to_vec();
+    let host = said(&[
+        (100, Command::read(0).bytes()),
+        (400, broken),
+        (700, cut),
+        (1000, Command::read(0x1000).bytes()),
+        (1300, Command::write(level, 77).bytes()),
+        (1600, Command::read(level).bytes()),
+        (1900, Command::read(0x1004).bytes()),
+        (2200, Command::write(level, 8).bytes()),
+        (change, Command::write(level, 250).bytes()),
+        (4 * frame_us, Command::read(0x1000).bytes()),
+        (4 * frame_us + 300, Command::read(address(&project, "frames")).bytes()),
+    ]);
+    let heard = play(&program, &wires, &host, SLOW_PS, 0);
+    let received = receive(&project.design, &heard.bytes).unwrap();
+    let answer = |address, written, value| Register { address, written, value };
+    let expected = [
+        answer(0, false, u32::from_le_bytes(*b"FOVE")),
+        answer(0x1000, false, 0),
+        answer(level, true, 77),
+        answer(level, false, 77),
+        answer(0x1004, false, 0),
+        answer(level, true, 8),
+        answer(level, true, 250),
+        answer(0x1000, false, 1),
+        answer(address(&project, "frames"), false, 4),
+    ];
+    assert_eq!(received.answers, expected);
+    let changes = |number: usize| {
+        let decisions = received.rows[number].iter().flat_map(|row| &row.decisions);
+        decisions.filter(|decision| decision.trs).count()
+    };
+    assert!(changes(1) > 0);
+    assert_eq!((changes(2), changes(3)), (0, 0), "no pixel changes by more than 250");
+}
+
+/// What is written to a sensor is what its file says; what it does not acknowledge is tried again, and then given up.
+#[test]
+fn a_sensor_is_set_up() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    for sensor in ["hm01b0-8", "ov7670-qvga"] {
+        let project = project(sensor, &[]);
+        let program = simulated(&project, None);
+        let host = said(&[(60_000, Command::read(0x1000).bytes())]);
+        let sensor = project.board.eye().unwrap().unwrap().0;
+        let bytes = sensor.i2c.address_bytes as usize;
+        let line = |address: u16, value: u8| {
+            let address = &address.to_be_bytes()[2 - bytes..];
+            let all = [&[sensor.i2c.device << 1], address, &[value]].concat();
+            all.iter().map(|byte| format!("{byte:02X} ")).collect::<String>()
+        };
+        let expected: Vec<_> =
+            sensor.writes().map(|(address, value)| line(address, value)).collect();
+        for (nacks, failed) in [(0, false), (2, false), (3, true)] {
+            let heard = play(&program, &[], &host, SLOW_PS, nacks);
+            let mut lines: Vec<_> = heard.setup.lines().collect();
+            let lights = if failed { "lights 2" } else { "lights 0" };
+            assert_eq!(lines.pop(), Some(lights));
+            // The first write of all is given up.
+            let expected = if failed { &expected[1..] } else { &expected[..] };
+            assert_eq!(lines, expected, "{nacks} bytes were not acknowledged");
+            let received = receive(&project.design, &heard.bytes).unwrap();
+            let value = 1 | u32::from(failed) << 1;
+            assert_eq!(received.answers, [Register { address: 0x1000, written: false, value }]);
+        }
+    }
+}
+
+/// What is wired wrongly is seen.
+#[test]
+fn faults_between_sensor_and_line_are_found() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let project = project("hm01b0-4", &[]);
+    for fault in [
+        ("board", ".LEFT(2)", ".LEFT(1)"),
+        ("board", ".TOP(2)", ".TOP(3)"),
+        ("board", ".FORMAT(3)", ".FORMAT(4)"),
+        ("board", ".VSYNC_HIGH(0)", ".VSYNC_HIGH(1)"),
+        ("board", ".s_axis_video_tuser(sof)", ".s_axis_video_tuser(eol)"),
+        ("board", ".s_axis_video_tlast(eol)", ".s_axis_video_tlast(1'b0)"),
+        ("board", "uart_sender #(.DIVISOR(4))", "uart_sender #(.DIVISOR(5))"),
+        ("board", ".last_i(packet_last)", ".last_i(1'b1)"),
+        ("board", "wire rst = !awake_q[7];", "wire rst = 1'b0;"),
+        ("board", ".m_araddr_o(araddr)", ".m_araddr_o()"),
+    ] {
+        let program = simulated(&project, Some(fault));
+        let found = check(&project, &program, Damage::None);
+        assert!(found.is_err(), "not seen: {fault:?}");
+    }
+}

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The options of `foveate build`.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::at_least_one;
+
+/// Make a bitstream of a camera on a board: sensor, core and serial line
+#[derive(Args, Debug)]
+#[command(after_help = "Examples: foveate build --list
+          foveate build --board icebreaker -o out
+          foveate build --board ulx3s -o out --seeds 5 --set 'periphery.level=8'
+          foveate build --board my_board.toml -o out --project")]
+pub(crate) struct BuildArgs {
+    /// The board, or a file with one (.toml)
+    #[arg(long, value_name = "NAME", required_unless_present = "list")]
+    pub(crate) board: Option<String>,
+    /// List the boards that come with the program
+    #[arg(long, conflicts_with_all = ["board", "output", "config", "overrides", "seeds", "project", "force"])]
+    pub(crate) list: bool,
+    /// Configuration file (TOML) of a core on AXI, in place of the one that comes with the board
+    #[arg(long, short, value_name = "FILE")]
+    pub(crate) config: Option<PathBuf>,
+    /// Change one key of it, for example periphery.level=8
+    #[arg(long = "set", value_name = "KEY=TOML_VALUE")]
+    pub(crate) overrides: Vec<String>,
+    /// Folder to write
+    #[arg(long, short, value_name = "DIR", required_unless_present = "list")]
+    pub(crate) output: Option<PathBuf>,
+    /// Replace the folder if it holds a project of a board
+    #[arg(long)]
+    pub(crate) force: bool,
+    /// Write the project alone, and run no tool
+    #[arg(long, conflicts_with = "seeds")]
+    pub(crate) project: bool,
+    /// How often to place it, each time from another seed; the fastest is packed
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = at_least_one())]
+    pub(crate) seeds: u32,
+    /// Print JSON
+    #[arg(long)]
+    pub(crate) json: bool,
+    /// Show no progress, and print no summary
+    #[arg(long, short)]
+    pub(crate) quiet: bool,
+}

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate build`: a camera on a board, as a project and as a bitstream.
+
+use std::fmt::Write as _;
+use std::fs;
+use std::path::Path;
+
+use foveate_boards::{Board, Built, Project, build, write_project};
+use foveate_design::Config;
+use serde::Serialize;
+
+use crate::args::BuildArgs;
+use crate::error::CliError;
+use crate::progress::Progress;
+use crate::{interrupt, output};
+
+#[derive(Serialize)]
+struct Listed<'a> {
+    name: &'a str,
+    title: &'a str,
+    page: &'a str,
+    part: &'a str,
+    sensor: &'a str,
+    frame: (u32, u32),
+    fps: f64,
+}
+
+#[derive(Serialize)]
+struct Report<'a> {
+    format_version: u32,
+    board: &'a str,
+    fingerprint: String,
+    folder: String,
+    files: Vec<String>,
+    #[serde(flatten)]
+    built: Option<Built>,
+}
+
+pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
+    let (Some(name), Some(folder)) = (&args.board, &args.output) else {
+        return list(args.json);
+    };
+    let board = Board::find(name)?;
+    let design = configuration(&board, args)?.validate()?;
+    let project = Project::new(board, design)?;
+    let files = write_project(&project, folder, args.force)?;
+    let built =
+        if args.project || !project.is_open() { None } else { Some(make(&project, folder, args)?) };
+    if args.json {
+        return output::json(&Report {
+            format_version: 1,
+            board: &project.board.name,
+            fingerprint: project.design.fingerprint(),
+            folder: folder.display().to_string(),
+            files,
+            built,
+        });
+    }
+    if args.quiet {
+        return Ok(());
+    }
+    output::text(&text(&project, folder, files.len(), built.as_ref()))
+}
+
+/// The configuration of the board, or that of the file, with the changes.
+fn configuration(board: &Board, args: &BuildArgs) -> Result<Config, CliError> {
+    let text = match &args.config {
+        Some(file) => {
+            fs::read_to_string(file).map_err(CliError::io("read the configuration", file))?
+        }
+        None => board.config()?.to_toml(),
+    };
+    Ok(Config::from_toml_with(&text, &args.overrides)?)
+}
+
+fn make(project: &Project, folder: &Path, args: &BuildArgs) -> Result<Built, CliError> {
+    let toolchain = interrupt::toolchain()?;
+    let progress = Progress::new(args.quiet);
+    progress.work("synthesizing, placing and packing");
+    let built = build(project, folder, args.seeds, &toolchain);
+    progress.finish();
+    Ok(built?)
+}
+
+fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -> String {
+    let (board, design) = (&project.board, &project.design);
+    let mut text = format!(
+        "{}: {files} files for {}, {} x {} pixels, design {}; start with README.md\n",
+        folder.display(),
+        board.name,
+        design.width(),
+        design.height(),
+        design.fingerprint()
+    );
+    // Writing to a string cannot fail.
+    let Some(built) = built else {
+        let make = if project.is_open() {
+            "sh build.sh 5"
+        } else {
+            "vivado -mode batch -source build.tcl"
+        };
+        let _ = writeln!(text, "make the bitstream there: {make}");
+        return text;
+    };
+    for cell in &built.used {
+        let _ = writeln!(text, "{:24}{:>8} of {}", cell.cell, cell.used, cell.available);
+    }
+    let (worst, best) = (built.reached_mhz.first(), built.reached_mhz.last());
+    let (worst, best) = (worst.copied().unwrap_or(0.0), best.copied().unwrap_or(0.0));
+    let _ = writeln!(
+        text,
+        "core    {best:.1} MHz (slowest of {} seeds {worst:.1}), needs {}",
+        built.reached_mhz.len(),
+        built.core_mhz
+    );
+    let _ = writeln!(text, "sensor  {:.1} MHz, needs {}", built.pclk_reached_mhz, built.pclk_mhz);
+    let _ = writeln!(
+        text,
+        "frames  {:.0} in a second come, {:.0} could",
+        project.fps(),
+        project.core_fps(f64::from(built.core_mhz))
+    );
+    let _ = writeln!(
+        text,
+        "load it: {}/{} ({} bytes): {}",
+        folder.display(),
+        built.bitstream,
+        built.bytes,
+        project.flash()
+    );
+    text
+}
+
+fn list(json: bool) -> Result<(), CliError> {
+    let boards = Board::all().map(|board| {
+        let design = board.config()?.validate()?;
+        Ok(Project::new(board, design)?)
+    });
+    let projects = boards.collect::<Result<Vec<_>, CliError>>()?;
+    let listed: Vec<_> = projects.iter().map(listed).collect();
+    if json {
+        return output::json(&listed);
+    }
+    let mut text = String::new();
+    for board in &listed {
+        let (width, height) = board.frame;
+        let _ = writeln!(
+            text,
+            "{:16}{}\n{:16}{}; {}, {width} x {height} pixels, {:.0} frames in a second",
+            board.name, board.title, "", board.part, board.sensor, board.fps
+        );
+    }
+    text += "\nAll are simulated, placed and routed, and packed by the project's tests. None has been run on a board.\n";
+    output::text(&text)
+}
+
+fn listed(project: &Project) -> Listed<'_> {
+    let Project { board, design, .. } = project;
+    Listed {
+        name: &board.name,
+        title: &board.title,
+        page: &board.page,
+        part: &board.device.part,
+        sensor: project.sensor_title(),
+        frame: (design.width(), design.height()),
+        fps: project.fps(),
+    }
+}
