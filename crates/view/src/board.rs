@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The registers of a core on a serial line: all are read again and again, and a threshold is written when a browser asks for it. One command at
-//! a time is on the line.
+//! The registers of a core on a serial line: all are read again and again, and a threshold is written when a browser
+//! asks for it. One command at a time is on the line.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -16,7 +16,8 @@ use serde_json::{Value, json};
 use crate::ViewError;
 use crate::live::{Live, Reading};
 
-/// How long an answer is waited for. Longer than the pause after which a board takes the next byte for the first of a command.
+/// How long an answer is waited for. Longer than the pause after which a board takes the next byte for the first of a
+/// command.
 const ANSWER: Duration = Duration::from_millis(300);
 /// How often a command is sent.
 const ATTEMPTS: u32 = 3;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a camera sends, live on a page in the browser: its screen, its decisions, what is lost, and the registers of a core on a serial line.
+//! What a camera sends, live on a page in the browser: its screen, its decisions, what is lost, and the registers of
+//! a core on a serial line.
 //!
-//! A [`View`] has three threads. One reads the stream and never waits for a browser; one asks the board for its registers; one answers
-//! browsers on this machine, each of which asks for the newest frame when it has drawn the last. The library never prints: what there is to say
-//! is fetched with [`View::news`].
+//! A [`View`] has three threads. One reads the stream and never waits for a browser; one asks the board for its
+//! registers; one answers browsers on this machine, each of which asks for the newest frame when it has drawn the
+//! last. The library never prints: what there is to say is fetched with [`View::news`].
 
 mod board;
 mod error;

@@ -140,7 +140,8 @@ struct Pace {
 }
 
 impl Pace {
-    /// Waits until the time of a frame has come. Times begin again where they go back, as those of a camera that was reset do.
+    /// Waits until the time of a frame has come. Times begin again where they go back, as those of a camera that was
+    /// reset do.
     fn wait(&mut self, frame: &ShownFrame, live: &Live) {
         let Some(time_us) = frame.time_us else { return };
         let is_back = time_us < self.last_us;

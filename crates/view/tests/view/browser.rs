@@ -38,7 +38,7 @@ fn a_browser_draws_the_screen_and_says_what_is_lost() {
                 "--hide-scrollbars",
             ])
             .arg(format!("--user-data-dir={}", folder.path().join("profile").display()))
-            .args(["--window-size=1000,900", "--virtual-time-budget=4000", more, view.link()])
+            .args(["--window-size=1000,900", "--virtual-time-budget=500", more, view.link()])
             .output()
             .unwrap();
         String::from_utf8_lossy(&output.stdout).into_owned()
