@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, iverilog, a C++
+# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, icepack, iverilog, a C++
 # compiler (with that for 32 bits), ffmpeg, shellcheck, Tcl, Python.
 # Debian 12, Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. Elsewhere it says what to install.
 set -euo pipefail
@@ -17,6 +17,7 @@ missing=()
 command -v verilator >/dev/null || missing+=(verilator)
 command -v yosys >/dev/null || missing+=(yosys)
 command -v nextpnr-ice40 >/dev/null || missing+=(nextpnr-ice40)
+command -v icepack >/dev/null || missing+=(fpga-icestorm)
 command -v iverilog >/dev/null || missing+=(iverilog)
 command -v g++ >/dev/null || missing+=(g++)
 { command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)

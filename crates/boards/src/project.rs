@@ -98,6 +98,8 @@ impl Project {
         files.push(file("board.f", list));
         files.push(file("sim/board_clock.v", top::clock(self, true)));
         files.push(file("design.toml", toml));
+        files.push(file("board.toml", self.board.text.clone()));
+        files.extend(self.eye.iter().map(|(sensor, _)| file("sensor.toml", sensor.text.clone())));
         files.push(constraints::file_of(self));
         files.extend(script::files(self, &sources));
         files.push(file("README.md", text::readme(self)));

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sensors on DVP: how their pixels come, and which registers they are set up with. One file of data each.
 
+use std::fs;
+use std::path::Path;
+
 use serde::Deserialize;
 
 use crate::BoardError;
@@ -103,6 +106,9 @@ pub struct Sensor {
     /// What is written to it, in turn.
     #[serde(rename = "step")]
     steps: Vec<Step>,
+    /// Its file.
+    #[serde(skip)]
+    pub(crate) text: String,
 }
 
 /// Where a sensor is on I2C.
@@ -127,16 +133,61 @@ enum Step {
 struct Write(u16, u8);
 
 impl Sensor {
-    /// The sensor of that name.
+    /// The sensor of that name, or in that file if the name ends in `.toml`.
     ///
     /// # Errors
-    /// When there is none.
-    pub fn named(name: &str) -> Result<Self, BoardError> {
-        let Some((_, text)) = SENSORS.iter().find(|sensor| sensor.0 == name) else {
-            let known: Vec<_> = SENSORS.iter().map(|sensor| sensor.0).collect();
-            return Err(BoardError::Sensor { name: name.to_owned(), known: known.join(", ") });
-        };
-        Ok(toml::from_str(text).unwrap_or_else(|error| unreachable!("{name}: {error}")))
+    /// When there is none, or it is not valid.
+    pub fn find(name: &str, folder: &Path) -> Result<Self, BoardError> {
+        if name.ends_with(".toml") {
+            let path = folder.join(name);
+            let text =
+                fs::read_to_string(&path).map_err(|source| BoardError::Read { path, source })?;
+            return Self::from_toml(name, &text);
+        }
+        match SENSORS.iter().find(|sensor| sensor.0 == name) {
+            Some((name, text)) => Self::from_toml(name, text),
+            None => {
+                let known: Vec<_> = SENSORS.iter().map(|sensor| sensor.0).collect();
+                Err(BoardError::Sensor { name: name.to_owned(), known: known.join(", ") })
+            }
+        }
+    }
+
+    fn from_toml(name: &str, text: &str) -> Result<Self, BoardError> {
+        let invalid = |reason: String| BoardError::Invalid { name: name.to_owned(), reason };
+        let mut sensor: Self = toml::from_str(text)
+            .map_err(|error| invalid(error.to_string().trim_end().to_owned()))?;
+        text.clone_into(&mut sensor.text);
+        sensor.check().map_err(invalid)?;
+        Ok(sensor)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        let I2c { device, address_bytes } = self.i2c;
+        if device > 0x7F {
+            return Err(format!("i2c.device = {device}: an address has 7 bits"));
+        }
+        if !(1..=2).contains(&address_bytes) {
+            return Err(format!("i2c.address_bytes = {address_bytes}: registers have 1 or 2"));
+        }
+        let most = if address_bytes == 1 { 0xFF } else { 0xFFFF };
+        if let Some((address, _)) = self.writes().find(|(address, _)| *address > most) {
+            return Err(format!("a step writes register {address:#X}, the last is {most:#X}"));
+        }
+        if self.words().len() < 2 {
+            return Err("a sensor needs two steps or more".to_owned());
+        }
+        if self.left >= self.width || self.top >= self.height {
+            return Err("left and top leave nothing of a frame".to_owned());
+        }
+        let [least, largest] = self.xclk_mhz;
+        let rates = [self.pclk_per_xclk, self.frames_per_mhz, least, largest];
+        if rates.iter().any(|rate| !rate.is_finite() || *rate <= 0.0) || least > largest {
+            return Err(
+                "clocks and rates are above 0, and the least is not above the most".to_owned()
+            );
+        }
+        Ok(())
     }
 
     /// Every write, address and value, without the pauses.
@@ -173,19 +224,29 @@ mod tests {
 
     #[test]
     fn sensors_have_registers_that_fit_their_bus() {
+        let find = |name| Sensor::find(name, Path::new("."));
         for (name, _) in SENSORS {
-            let sensor = Sensor::named(name).unwrap();
-            assert!(
-                sensor.i2c.device < 0x80 && (1..=2).contains(&sensor.i2c.address_bytes),
-                "{name}"
-            );
-            let words = sensor.words();
+            let words = find(name).unwrap().words();
             assert!(words.len() > 5 && words.len() < 256, "{name}");
-            for word in words {
-                assert!(word < 2 << (8 * sensor.i2c.address_bytes + 8), "{name}: {word:x}");
-            }
         }
-        let error = Sensor::named("ov7671").unwrap_err().to_string();
+        let error = find("ov7671").unwrap_err().to_string();
         assert!(error.contains("`ov7671`") && error.contains("ov7670-vga"), "{error}");
+        let error = find("ov7671.toml").unwrap_err().to_string();
+        assert!(error.contains("./ov7671.toml"), "{error}");
+        let good = SENSORS[2].1;
+        for (from, to, said) in [
+            ("device = 0x21", "device = 0x84", "7 bits"),
+            ("address_bytes = 1", "address_bytes = 3", "1 or 2"),
+            ("[0x12, 0x80]", "[0x112, 0x80]", "the last is 0xFF"),
+            ("left = 0", "left = 320", "leave nothing"),
+            ("xclk_mhz = [10.0", "xclk_mhz = [50.0", "the least is not above"),
+            ("frames_per_mhz = 1.25", "frames_per_mhz = nan", "above 0"),
+            ("[0x12, 0x80]", "[0x12, 0x180]", "invalid"),
+            ("luma-first", "luma", "unknown variant `luma`"),
+        ] {
+            assert!(good.contains(from), "{from}");
+            let error = Sensor::from_toml("mine", &good.replace(from, to)).unwrap_err().to_string();
+            assert!(error.contains(said), "{to}: {error}");
+        }
     }
 }

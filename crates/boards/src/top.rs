@@ -266,7 +266,10 @@ pub(crate) fn clock(project: &Project, simulated: bool) -> String {
 }
 
 fn direct(clock: &str) -> String {
-    format!("    assign clk_o = {clock};\n    assign raw_o = {clock};\n    assign locked_o = 1'b1;")
+    let other = if clock == "clk_i" { "" } else { "    wire unused_half = clk_n_i;\n" };
+    format!(
+        "{other}    assign clk_o = {clock};\n    assign raw_o = {clock};\n    assign locked_o = 1'b1;"
+    )
 }
 
 fn pair_of_wires() -> String {

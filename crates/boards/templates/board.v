@@ -84,7 +84,7 @@ module board (
     // Lights: one blinks with frames, one says that something is wrong.
     reg [3:0] frames_q;
     always @(posedge clk) if (rst) frames_q <= 4'd0; else if (pixel_valid && pixel_ready && sof) frames_q <= frames_q + 1'b1;
-    wire [{= leds - 1 =}:0] lit = {= leds =}'d0 | {wrong, frames_q[3]};
+    wire [{= leds - 1 =}:0] lit = {{% if leds > 2 %}{= leds - 2 =}'d0, {% endif %}wrong, frames_q[3]};
     assign led_o = {% if lit_low %}~{% endif %}lit;
 
 endmodule

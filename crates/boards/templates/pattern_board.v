@@ -17,8 +17,8 @@ module board (
     output wire [{= leds - 1 =}:0] led_o     // lights
 );
 
-    wire clk, locked;
-    board_clock u_clock ({% if pair %}.clk_p_i(clk_p_i), .clk_n_i(clk_n_i){% else %}.clk_i(clk_i){% endif %}, .raw_o(), .clk_o(clk), .locked_o(locked));
+    wire clk, unused_raw, locked;
+    board_clock u_clock ({% if pair %}.clk_p_i(clk_p_i), .clk_n_i(clk_n_i){% else %}.clk_i(clk_i){% endif %}, .raw_o(unused_raw), .clk_o(clk), .locked_o(locked));
 
     // Reset, until the clock has been there for a while.
     reg [7:0] awake_q = 8'd0;
@@ -30,11 +30,12 @@ module board (
     // The pattern.
     wire pixel_valid, pixel_ready, sof, eol;
     wire [{= video_bits - 1 =}:0] pixel;
+    wire [31:0] unused_frame;
     pattern_source #(
         .WORDS({= words =}), .LINES({= height =}), .LANES({= lanes =}), .WIDTH(8), .WORD_BITS({= word_bits =}), .LINE_BITS({= line_bits =})
     ) u_pattern (
         .clk_i(clk), .rst_i(rst), .valid_o(pixel_valid), .pixel_o(pixel), .sof_o(sof), .eol_o(eol), .ready_i(pixel_ready),
-        .frame_o()
+        .frame_o(unused_frame)
     );
 
 {% include "core.v" %}
@@ -63,7 +64,7 @@ module board (
     );
 {% include "serial_line.v" %}
     // Lights: one blinks with frames, one says that a sum was wrong, one that all were right.
-    wire [{= leds - 1 =}:0] lit = {= leds =}'d0 | {right, wrong, frames[4]};
+    wire [{= leds - 1 =}:0] lit = {{% if leds > 3 %}{= leds - 3 =}'d0, {% endif %}right, wrong, frames[4]};
     assign led_o = {% if lit_low %}~{% endif %}lit;
 
 endmodule

@@ -5,4 +5,5 @@
 mod common;
 mod film;
 mod pattern;
+mod projects;
 mod simulation;

