@@ -26,8 +26,8 @@ impl Assembler {
         &self.layout
     }
 
-    /// Takes a packet of frame `number`. Returns a frame if it is known now that nothing more comes of it. A REGISTER is of
-    /// no frame and changes nothing.
+    /// Takes a packet of frame `number`. Returns a frame if it is known now that nothing more comes of it. A REGISTER
+    /// is of no frame and changes nothing.
     ///
     /// # Errors
     /// When it is of another format or design.

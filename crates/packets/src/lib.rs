@@ -6,23 +6,23 @@
 //! Knows neither files nor what computes a frame.
 
 mod assemble;
+mod command;
 mod error;
 mod frame;
 mod info;
 mod layout;
 mod loss;
 mod packet;
-mod register;
 mod split;
 mod word;
 pub mod write;
 
 pub use assemble::Assembler;
+pub use command::Command;
 pub use error::PacketError;
 pub use frame::{Content, ReceivedFrame};
 pub use info::FrameInfo;
 pub use layout::{Layout, MAGIC, VERSION};
 pub use loss::Loss;
-pub use packet::{Decision, End, Packet, Region, RegionFlags, Row, Scores};
-pub use register::{Command, Register};
+pub use packet::{Decision, End, Packet, Region, RegionFlags, Register, Row, Scores};
 pub use split::{Found, Splitter};

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Packets as values, and their checks: bytes that are not exactly a packet of the layout are none.
 
+use crate::FrameInfo;
 use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, REGISTER_WORDS, WORD};
 use crate::word::{byte, half, index, short, word};
-use crate::{FrameInfo, Register};
 
 /// What was decided of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -67,6 +67,17 @@ pub struct End {
     pub regions_dropped: u32,
     /// ROW packets that were dropped by the camera.
     pub rows_dropped: u32,
+}
+
+/// What a REGISTER says.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Register {
+    /// Address in bytes.
+    pub address: u16,
+    /// Whether it is or was written, not read.
+    pub written: bool,
+    /// What is or was written, or was read; 0 in a command to read.
+    pub value: u32,
 }
 
 /// A packet.

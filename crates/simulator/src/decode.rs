@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A recorded stream of packets, written as a simulation is: the same files by the same writers, as far as the stream
-//! says what is in them. What is missing is listed in `losses.csv`, and the summary says that the run is not complete.
+//! says what is in them. What is missing is listed in `losses.csv`, and the summary says that the run is not
+//! complete.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -154,8 +155,8 @@ impl Writer<'_> {
         Ok(())
     }
 
-    /// Writes a frame, if its time is known. What is drawn over the frame before the camera in a simulation is drawn over
-    /// the screen.
+    /// Writes a frame, if its time is known. What is drawn over the frame before the camera in a simulation is drawn
+    /// over the screen.
     fn write(
         &mut self,
         frame: ShownFrame,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A stream of packets as what it says, one thing after the other: frames as they are on the receiver's screen, what is missing, and answers of
-//! a board. Writes nothing and does not wait, so it is for recordings and for what is sent just now.
+//! A stream of packets as what it says, one thing after the other: frames as they are on the receiver's screen, what
+//! is missing, and answers of a board. Writes nothing and does not wait, so it is for recordings and for what is sent
+//! just now.
 
 use std::collections::VecDeque;
 
@@ -96,7 +97,8 @@ impl Stream {
     /// What comes next; nothing where more bytes are needed.
     ///
     /// # Errors
-    /// When a FRAME is none of this camera. Whoever asks again gets what follows the next FRAME that is. Damage is no error.
+    /// When a FRAME is none of this camera. Whoever asks again gets what follows the next FRAME that is. Damage is no
+    /// error.
     pub fn receive(&mut self) -> Result<Option<Received>, SimulatorError> {
         loop {
             if let Some(found) = self.found.pop_front() {

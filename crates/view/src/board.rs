@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The registers of a core on a serial line: all are read again and again, and a threshold is written when a browser asks for it. One command at
-//! a time is on the line.
+//! The registers of a core on a serial line: all are read again and again, and a threshold is written when a browser
+//! asks for it. One command at a time is on the line.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use foveate_design::{Config, Design};
+use foveate_design::{Config, Design, Hardware};
 use foveate_emit::{Field, Kind, Register, registers};
 use foveate_simulator::{Command, Register as Answer};
 use serde_json::{Value, json};
@@ -16,7 +16,8 @@ use serde_json::{Value, json};
 use crate::ViewError;
 use crate::live::{Live, Reading};
 
-/// How long an answer is waited for. Longer than the pause after which a board takes the next byte for the first of a command.
+/// How long an answer is waited for. Longer than the pause after which a board takes the next byte for the first of a
+/// command.
 const ANSWER: Duration = Duration::from_millis(300);
 /// How often a command is sent.
 const ATTEMPTS: u32 = 3;
@@ -180,11 +181,21 @@ fn table(design: &Design) -> Option<Vec<Register>> {
         ],
         doc: "the board around the core".to_owned(),
     };
-    let is_told = |field: &Field| !matches!(field.kind, Kind::Constant(_) | Kind::Command);
     // The first says that there is a core at all; what else is constant every FRAME says.
-    let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(is_told);
-    let all = registers(design.raster()?);
+    let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(changes);
+    let all = match design.hardware() {
+        Hardware::Raster(own) => registers(design.on(own)),
+        Hardware::Pipelined(_) | Hardware::Serial(_) => return None,
+    };
     Some(all.into_iter().filter(is_told).chain([board]).collect())
+}
+
+/// Whether it may read as another value.
+fn changes(field: &Field) -> bool {
+    match field.kind {
+        Kind::Status | Kind::Control { .. } | Kind::Threshold { .. } | Kind::Event => true,
+        Kind::Constant(_) | Kind::Command => false,
+    }
 }
 
 fn may_be_written(field: &Field) -> bool {

@@ -49,8 +49,8 @@ pub enum ViewError {
     },
     /// An address that others could reach.
     #[error(
-        "{address} is not an address of this machine alone; take one that begins with 127.0.0.1 or [::1], and from another machine a \
-         tunnel: ssh -L 8000:127.0.0.1:8000"
+        "{address} is not an address of this machine alone; take one that begins with 127.0.0.1 or \
+         [::1], and from another machine a tunnel: ssh -L 8000:127.0.0.1:8000"
     )]
     Address {
         /// The address as given.

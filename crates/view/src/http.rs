@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! As much of HTTP/1.1 as a browser on the same machine needs: requests with a length, one after the other on a connection.
+//! As much of HTTP/1.1 as a browser on the same machine needs: requests with a length, one after the other on a
+//! connection.
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -74,15 +75,17 @@ pub(crate) fn read(stream: &mut BufReader<TcpStream>) -> io::Result<Option<Reque
     Ok(Some(Request { method, target, host, body }))
 }
 
-/// Writes an answer. Nothing of it is kept, shown in other pages, or loads anything; `nonce` is that of its own script.
+/// Writes an answer. Nothing of it is kept, shown in other pages, or loads anything; `nonce` is that of its own
+/// script.
 pub(crate) fn write(stream: &mut TcpStream, answer: &Answer, nonce: &str) -> io::Result<()> {
     let Answer { status, kind, body } = answer;
     let policy = format!(
-        "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; connect-src 'self'; img-src data:; base-uri 'none'; \
-         form-action 'none'; frame-ancestors 'none'"
+        "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; connect-src 'self'; \
+         img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     );
     let head = format!(
-        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nContent-Security-Policy: {policy}\r\nCache-Control: no-store\r\n\
+        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\n\
+         Content-Security-Policy: {policy}\r\nCache-Control: no-store\r\n\
          Referrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\r\n",
         body.len()
     );

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a camera sends, live on a page in the browser: its screen, its decisions, what is lost, and the registers of a core on a serial line.
+//! What a camera sends, live on a page in the browser: its screen, its decisions, what is lost, and the registers of
+//! a core on a serial line.
 //!
-//! A [`View`] has three threads. One reads the stream and never waits for a browser; one asks the board for its registers; one answers
-//! browsers on this machine, each of which asks for the newest frame when it has drawn the last. The library never prints: what there is to say
-//! is fetched with [`View::news`].
+//! A [`View`] has three threads. One reads the stream and never waits for a browser; one asks the board for its
+//! registers; one answers browsers on this machine, each of which asks for the newest frame when it has drawn the
+//! last. The library never prints: what there is to say is fetched with [`View::news`].
 
 mod board;
 mod error;
@@ -72,8 +73,9 @@ impl View {
         let input = Input::find(input, baud)?;
         let play = input.play(play)?;
         // First, so that a port that cannot be used is an error.
-        let first = if input.is_port() { Some(input.open()?) } else { None };
+        let mut first = if input.is_port() { Some(input.open()?) } else { None };
         let (live, board) = (Arc::new(Live::new(&input)), Arc::<Board>::default());
+        board.attach(first.as_mut().and_then(|source| source.port.take()));
         let server = Server::start(address, Arc::clone(&live), Arc::clone(&board))?;
         let answers = board.start(&config, &live, input.is_port())?;
         let reader = Reader { input, config, play, answers, board, live: Arc::clone(&live) };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is known of the stream now: the one value that reader, board and browsers share. Of frames only the newest is kept, so a slow browser
-//! misses some, and nobody waits for it.
+//! What is known of the stream now: the one value that reader, board and browsers share. Of frames only the newest is
+//! kept, so a slow browser misses some, and nobody waits for it.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -212,8 +212,9 @@ impl Live {
         state.registers = (state.change, registers);
     }
 
-    /// What a browser needs that knows all up to `after`: the bytes of a JSON text as a number of 32 bits, the text, and the picture of the
-    /// newest frame if that is new: a byte per region, a byte per pixel. Waits a while for something to tell.
+    /// What a browser needs that knows all up to `after`: the bytes of a JSON text as a number of 32 bits, the text,
+    /// and the picture of the newest frame if that is new: a byte per region, a byte per pixel. Waits a while for
+    /// something to tell.
     pub(crate) fn next(&self, after: Change, patience: Duration) -> Vec<u8> {
         let until = Instant::now() + patience;
         let mut state = self.look();

@@ -50,7 +50,9 @@ impl Reader {
                 let text = format!("`{name}` is open; no frame has come yet");
                 self.live.status(Status::Waiting, text);
             }
-            self.board.attach(source.port);
+            if source.port.is_some() {
+                self.board.attach(source.port);
+            }
             let problem = self.read(source.reader);
             self.board.attach(None);
             match (problem, self.input.is_port(), self.play) {
@@ -138,7 +140,8 @@ struct Pace {
 }
 
 impl Pace {
-    /// Waits until the time of a frame has come. Times begin again where they go back, as those of a camera that was reset do.
+    /// Waits until the time of a frame has come. Times begin again where they go back, as those of a camera that was
+    /// reset do.
     fn wait(&mut self, frame: &ShownFrame, live: &Live) {
         let Some(time_us) = frame.time_us else { return };
         let is_back = time_us < self.last_us;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page for browsers of this machine. Whoever does not know the link gets nothing: every path begins with a random token, and the name of
-//! the host must be ours, so that a page from elsewhere cannot reach it under another name.
+//! The page for browsers of this machine. Whoever does not know the link gets nothing: every path begins with a
+//! random token, and the name of the host must be ours, so that a page from elsewhere cannot reach it under another
+//! name.
 
 use std::io::BufReader;
 use std::net::{SocketAddr, TcpListener, TcpStream};

@@ -58,5 +58,4 @@ fn what_cannot_be_shown_is_refused() {
     refused(&["/dev/null"], &["/dev/null", "no serial port"]);
     refused(&["-", "--play", "looped"], &["no file", "--play"]);
     refused(&["packets.bin", "--address", "0.0.0.0:8000"], &["0.0.0.0:8000", "127.0.0.1"]);
-    refused(&["packets.bin", "--set", "region.size=1"], &["region.size"]);
 }

@@ -11,8 +11,8 @@ use crate::client::{get, open, wait_for, write};
 use crate::line::Line;
 use crate::sent::{CORE, street};
 
-/// Answers with the address plus one, or what was written; returns every command. What `spoil` says comes in place of the
-/// bytes of an answer.
+/// Answers with the address plus one, or what was written; returns every command. What `spoil` says comes in place of
+/// the bytes of an answer.
 fn answer(
     mut line: Line,
     spoil: impl Fn(usize, Vec<u8>) -> Vec<u8> + Send + 'static,

@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Registers of a core on a serial line: commands to it, and its answers. Both are REGISTER packets.
+//! Commands to a core on a serial line, which are REGISTER packets as its answers are.
 
-use crate::write;
-
-/// What a REGISTER says.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Register {
-    /// Address in bytes.
-    pub address: u16,
-    /// Whether it is or was written, not read.
-    pub written: bool,
-    /// What is or was written, or was read; 0 in a command to read.
-    pub value: u32,
-}
+use crate::{Register, write};
 
 /// Asks a board to read or write a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
