@@ -111,7 +111,7 @@ uart_registers   s/(place_q\[4:3\] == 2'd0 || in_crc)/in_crc/
 uart_registers   s/in_crc ? crc_q\[0\] : now/now/
 uart_registers   s/else if (place_q == 5'd0) crc_q/else if (rst_i) crc_q/
 uart_registers   s/else if (forget) place_q/else if (1'b0) place_q/
-uart_registers   s/time_q  <= hear || place_q == 5'd0/time_q  <= place_q == 5'd0/
+uart_registers   s/time_q  <= hear || tells_q/time_q  <= tells_q/
 uart_registers   s/address_q == 16'h1000 ? board_i : 32'd0/board_i/
 uart_registers   s/wire core = address_q\[15:12\] == 4'd0/wire core = 1'b1/
 uart_registers   s/else if (does_q \&\& !write_q) value_q/else if (does_q) value_q/

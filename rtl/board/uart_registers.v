@@ -107,7 +107,7 @@ module uart_registers #(
         does_q  <= heard || (does_q && !done);
         tells_q <= done || (tells_q && !(take && place_q == 5'd0));
         told_q  <= (byte_ends && tells_q) || (told_q && !take);
-        time_q  <= hear || place_q == 5'd0 || tells_q ? {TIME_BITS{1'b0}} : time_q + 1'b1;
+        time_q  <= hear || tells_q ? {TIME_BITS{1'b0}} : time_q + 1'b1;
 
         if (hear) byte_q <= byte_i;
         else if (moves_q) byte_q <= {now, byte_q[7:1]};

@@ -15,6 +15,10 @@ module pattern_bench;
     task fail(input [8*60-1:0] what);
         begin
             errors = errors + 1;
+            if (errors == 20) begin
+                $display("FAIL pattern_bench: too many");
+                $finish;
+            end
             if (errors < 20) $display("FAIL pattern_bench at %0t: %0s", $realtime, what);
         end
     endtask
@@ -93,12 +97,14 @@ module pattern_bench;
         repeat (4) @(posedge clk);
         #1 rst = 0;
         repeat (3000) @(posedge clk);
-        stalls = 0;
+        // A word comes whether it is taken or not.
+        stalls = 100;
         #1 rst = 1;
-        repeat (2) @(posedge clk);
+        repeat (3) @(posedge clk);
         #1 rst = 0;
         repeat (10) @(posedge clk);
         if (!valid) fail("no word behind a reset");
+        stalls = 0;
         while (t < FRAMES) @(posedge clk);
         if (squares == 0 || gradients == 0 || (textures == 0 && WORDS * LANES > 128)) fail("a part of the scene was not seen");
         if (errors == 0) $display("PASS pattern_bench, %0d pixels of %0d bits at a clock: %0d words", LANES, WIDTH, words);
