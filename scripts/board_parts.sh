@@ -157,12 +157,14 @@ for name in "${names[@]}"; do
     runs | grep -q "^$name " || { echo "board_parts: there is no leaf $name; there are $(runs | cut -d' ' -f1 | uniq | xargs)" >&2 && exit 2; }
 done
 
+mkdir "$work/plain"
+cp rtl/*.v rtl/board/*.v "$work/plain"
 began=$SECONDS
 bad=0 good=0
 while read -r leaf bench parameters; do
     chosen "$leaf" || continue
     # shellcheck disable=SC2086
-    if simulate rtl "$bench" $parameters; then good=$((good + 1)); else
+    if simulate "$work/plain" "$bench" $parameters; then good=$((good + 1)); else
         bad=$((bad + 1))
         echo "FAILED: $bench $parameters"
     fi
@@ -176,9 +178,9 @@ began=$SECONDS
 mkdir "$work/rtl"
 while read -r leaf change; do
     chosen "$leaf" || continue
-    cp rtl/*.v "$work/rtl"
+    cp "$work/plain"/*.v "$work/rtl"
     sed -i "$change" "$work/rtl/$leaf.v"
-    if cmp -s "rtl/$leaf.v" "$work/rtl/$leaf.v"; then
+    if cmp -s "$work/plain/$leaf.v" "$work/rtl/$leaf.v"; then
         echo "board_parts: \`$change\` changes nothing in $leaf.v; correct it"
         bad=$((bad + 1))
         continue

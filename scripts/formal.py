@@ -10,6 +10,7 @@ Lines of an .sby file that only this script reads:
     # fault: TASK FILE SED      the proof must fail when FILE of the Verilog is changed so
 """
 import concurrent.futures
+import glob
 import os
 import re
 import shutil
@@ -121,9 +122,8 @@ def prepare(proof, task, fault, index):
     shutil.rmtree(folder, ignore_errors=True)
     shutil.copytree("formal", folder)
     os.makedirs(os.path.join(folder, "rtl"))
-    for name in os.listdir("rtl"):
-        if name.endswith(".v"):
-            shutil.copy(os.path.join("rtl", name), os.path.join(folder, "rtl"))
+    for path in glob.glob("rtl/*.v") + glob.glob("rtl/board/*.v"):
+        shutil.copy(path, os.path.join(folder, "rtl"))
     if "generated/" in proof.text:
         where = os.path.join(folder, "generated", task)
         os.makedirs(where)
