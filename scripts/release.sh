@@ -55,6 +55,7 @@ step_formal() { scripts/formal.sh; }
 step_coverage() { scripts/coverage.sh; }
 step_sdist() { scripts/sdist.sh; }
 step_buses() { scripts/buses.sh; }
+step_boards() { scripts/board_parts.sh --faults && scripts/boards.sh; }
 step_newer() { scripts/newer_tools.sh; }
 step_mutation() { scripts/mutation.sh --table --resume; }
 step_memory() { scripts/memory.sh; }
@@ -62,7 +63,7 @@ step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart cosim benches netlists area lint formal buses coverage sdist newer mutation memory bench)
+steps=(test quickstart cosim benches netlists area lint formal buses boards coverage sdist newer mutation memory bench)
 
 case ${1:-} in
 -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;

@@ -30,7 +30,7 @@ pub enum BoardError {
         known: String,
     },
     /// A file of a board cannot be read.
-    #[error("cannot read the board `{}`: {source}", path.display())]
+    #[error("cannot read `{}`: {source}", path.display())]
     Read {
         /// The file.
         path: PathBuf,

@@ -150,7 +150,7 @@ fn list(json: bool) -> Result<(), CliError> {
             board.name, board.title, "", board.part, board.sensor, board.fps
         );
     }
-    text += "\nAll are simulated, placed and routed, and packed by the project's tests. None has been run on a board.\n";
+    text += "\nEach is simulated whole by the project. All but vcu118, which needs Vivado, are also placed, routed and packed. None has been run on a board.\n";
     output::text(&text)
 }
 

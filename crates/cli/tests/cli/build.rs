@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate build`, as far as it runs no tool: boards are listed, projects written, and what is wrong is said.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::common::{fail_in, run_in, succeed_in};
+
+#[test]
+fn boards_are_listed() {
+    let dir = tempfile::tempdir().unwrap();
+    let text = succeed_in(dir.path(), &["build", "--list"]);
+    for name in ["icebreaker", "icesugar", "upduino", "ulx3s", "tang-nano-20k", "vcu118"] {
+        assert!(text.contains(name), "{text}");
+    }
+    let json = succeed_in(dir.path(), &["build", "--list", "--json"]);
+    let boards: Value = serde_json::from_str(&json).unwrap();
+    assert_eq!(boards.as_array().unwrap().len(), 6);
+    assert_eq!(boards[0]["frame"], serde_json::json!([320, 240]));
+    let both = run_in(dir.path(), &["build", "--list", "-o", "out"]);
+    assert_eq!(both.code, 2, "{}", both.stderr);
+}
+
+#[test]
+fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
+    let dir = tempfile::tempdir().unwrap();
+    let made = ["build", "--board", "icesugar", "--project", "-o", "out"];
+    let text = succeed_in(dir.path(), &[&made[..], &["--set", "periphery.level=9"]].concat());
+    assert!(text.contains("start with README.md") && text.contains("sh build.sh"), "{text}");
+    let toml = fs::read_to_string(dir.path().join("out/design.toml")).unwrap();
+    assert!(toml.contains("level = 9"), "{toml}");
+    fail_in(dir.path(), 2, &made, &["`out`"]);
+
+    // Its files are a start for another board with another sensor.
+    let board = fs::read_to_string(dir.path().join("out/board.toml")).unwrap();
+    let board = board.replace("sensor = \"hm01b0-4\"", "sensor = \"mine.toml\"");
+    let sensor = fs::read_to_string(dir.path().join("out/sensor.toml")).unwrap();
+    fs::create_dir(dir.path().join("own")).unwrap();
+    fs::write(dir.path().join("own/here.toml"), board.replace("data = [\"34\"", "data = [\"32\""))
+        .unwrap();
+    fs::write(dir.path().join("own/mine.toml"), sensor.replace("4-high", "4-low")).unwrap();
+    let own = ["build", "--board", "own/here.toml", "--project", "-o", "out", "--force"];
+    let text = succeed_in(dir.path(), &own);
+    assert!(text.contains("for here,"), "{text}");
+    let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
+    assert!(read("board.pcf").contains("set_io sensor_data_i[0] 32"));
+    assert!(read("rtl/board.v").contains(".FORMAT(4)"));
+    // A core of that design is what cosim takes, too.
+    assert!(read("board.f").lines().all(|path| dir.path().join("out").join(path).is_file()));
+
+    let json =
+        ["build", "--board", "vcu118", "--set", "frame={width=64,height=48}", "-o", "v", "--json"];
+    let report: Value = serde_json::from_str(&succeed_in(dir.path(), &json)).unwrap();
+    assert_eq!((&report["board"], report.get("bitstream")), (&"vcu118".into(), None));
+    assert!(dir.path().join("v/build.tcl").is_file());
+}
+
+#[test]
+fn what_is_wrong_with_a_board_or_its_design_is_said() {
+    let dir = tempfile::tempdir().unwrap();
+    for (args, said) in [
+        (&["--board", "nexys"][..], "there is no board `nexys`; there are icebreaker,"),
+        (&["--board", "none.toml"], "cannot read `none.toml`"),
+        (&["--board", "ulx3s", "--set", "frame.width=648"], "sends 640 x 480 at most"),
+        (
+            &["--board", "ulx3s", "--set", "hardware.interface='ports'"],
+            "set hardware.interface='axi'",
+        ),
+        (&["--board", "ulx3s", "--set", "frame.width=x"], "frame.width"),
+        (&["--board", "ulx3s", "--config", "none.toml"], "none.toml"),
+    ] {
+        fail_in(dir.path(), 2, &[&["build", "-o", "out", "--project"], args].concat(), &[said]);
+    }
+    assert!(!dir.path().join("out").exists());
+}
