@@ -35,8 +35,11 @@ pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
     Project::new(board, design).unwrap()
 }
 
-/// The project in Verilator; `fault` is planted in one of its files.
-pub(crate) fn simulated(project: &Project, fault: Option<(&str, &str, &str)>) -> PathBuf {
+/// What stands in a module, and what stands there instead.
+pub(crate) type Fault<'a> = Option<(&'a str, &'a str, &'a str)>;
+
+/// The Verilog of a project, without its PLL, which is none; a fault may be planted in it.
+pub(crate) fn verilog(project: &Project, fault: Fault<'_>) -> Vec<Source> {
     let mut files = project.files();
     if let Some((name, from, to)) = fault {
         let path = format!("rtl/{name}.v");
@@ -46,24 +49,28 @@ pub(crate) fn simulated(project: &Project, fault: Option<(&str, &str, &str)>) ->
     }
     let text = |path: &str| files.iter().find(|file| file.path == path).unwrap().contents.clone();
     let source = |path: &str| {
-        // A PLL is no Verilog.
         let from = if path == "rtl/board_clock.v" { "sim/board_clock.v" } else { path };
         Source::from((path.to_owned(), text(from)))
     };
-    let mut sources: Vec<Source> = text("board.f").lines().map(source).collect();
-    let lines = if project.sensor_title().contains("4 lines") { 4 } else { 8 };
-    let bench = format!("`define DATA {lines}\n{BENCH}");
-    sources.push(Source::from(("board_bench.v".to_owned(), bench)));
-    let cpp_main =
-        format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET}\n{SENSOR}");
-    let job = VerilatorJob {
-        sources,
-        top: "board_bench".to_owned(),
-        cpp_main,
-        lint: Lint::Lenient,
-        ..VerilatorJob::default()
-    };
+    text("board.f").lines().map(source).collect()
+}
+
+/// A program that plays these modules.
+pub(crate) fn compiled(sources: Vec<Source>, top: &str, cpp_main: String) -> PathBuf {
+    let top = top.to_owned();
+    let job =
+        VerilatorJob { sources, top, cpp_main, lint: Lint::Lenient, ..VerilatorJob::default() };
     verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
+}
+
+/// A project before its sensor, in Verilator.
+pub(crate) fn simulated(project: &Project, fault: Fault<'_>) -> PathBuf {
+    let mut sources = verilog(project, fault);
+    let (sensor, _) = project.board.eye().unwrap().unwrap();
+    let bench = format!("`define DATA {}\n{BENCH}", sensor.format.lines());
+    sources.push(Source::from(("board_bench.v".to_owned(), bench)));
+    let constants = format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET}\n");
+    compiled(sources, "board_bench", constants + SENSOR)
 }
 
 /// What a run left.

@@ -5,12 +5,12 @@
 use std::fs;
 use std::process::Command as Process;
 
+use crate::common::{Fault, compiled, verilog};
 use foveate_boards::{Board, Project};
 use foveate_design::Config;
 use foveate_packets::{Command, Found, Layout, Packet, Splitter};
+use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
-use foveate_toolchain::{Cache, Source, Tool, Toolchain};
 
 const BENCH: &str = include_str!("pattern.cpp");
 /// Clocks with the serial line, and most until a light is on.
@@ -27,30 +27,9 @@ fn vcu118(keys: &[&str]) -> Project {
 }
 
 /// Lights of a run, and what was heard after that.
-fn play(project: &Project, fault: Option<(&str, &str, &str)>, host: &[u8]) -> (String, Vec<u8>) {
-    let mut files = project.files();
-    if let Some((name, from, to)) = fault {
-        let path = format!("rtl/{name}.v");
-        let file = files.iter_mut().find(|file| file.path == path).unwrap();
-        assert_eq!(file.contents.matches(from).count(), 1, "`{from}` in {path}");
-        file.contents = file.contents.replace(from, to);
-    }
-    let text = |path: &str| files.iter().find(|file| file.path == path).unwrap().contents.clone();
-    let source = |path: &str| {
-        let from = if path == "rtl/board_clock.v" { "sim/board_clock.v" } else { path };
-        Source::from((path.to_owned(), text(from)))
-    };
-    let job = VerilatorJob {
-        sources: text("board.f").lines().map(source).collect(),
-        top: "board".to_owned(),
-        cpp_main: format!(
-            "#define DIVISOR 136\n#define AFTER {AFTER}\n#define LIMIT {LIMIT}\n{BENCH}"
-        ),
-        lint: Lint::Lenient,
-        ..VerilatorJob::default()
-    };
-    let program =
-        verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap();
+fn play(project: &Project, fault: Fault<'_>, host: &[u8]) -> (String, Vec<u8>) {
+    let constants = format!("#define DIVISOR 136\n#define AFTER {AFTER}\n#define LIMIT {LIMIT}\n");
+    let program = compiled(verilog(project, fault), "board", constants + BENCH);
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("host"), host).unwrap();
     let run = Process::new(program).arg(dir.path()).output().unwrap();

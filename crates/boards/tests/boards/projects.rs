@@ -7,10 +7,11 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
+use crate::common::verilog;
 use foveate_boards::{Board, BoardError, Project, build, write_project};
 use foveate_design::Config;
 use foveate_toolchain::testing::require_tools;
-use foveate_toolchain::{Source, Tool, Toolchain, verilator};
+use foveate_toolchain::{Tool, Toolchain, verilator};
 
 /// A board with some keys of its design changed.
 fn project(name: &str, keys: &[&str]) -> Result<Project, BoardError> {
@@ -55,17 +56,7 @@ fn no_tool_warns_of_a_board() {
     }
     for board in Board::all() {
         let project = project(&board.name, &[]).unwrap();
-        let mut files = project.files();
-        let simulated = files.iter().position(|file| file.path == "sim/board_clock.v").unwrap();
-        let clock = files.remove(simulated).contents;
-        let list = files.iter().find(|file| file.path == "board.f").unwrap().contents.clone();
-        let source = |path: &str| {
-            let file = files.iter().find(|file| file.path == path).unwrap();
-            let is_clock = path == "rtl/board_clock.v";
-            let text = if is_clock { clock.clone() } else { file.contents.clone() };
-            Source::from((path.to_owned(), text))
-        };
-        let sources: Vec<_> = list.lines().map(source).collect();
+        let sources = verilog(&project, None);
         let said = verilator::lint(&Toolchain::system(), &sources, "board", None);
         assert!(said.is_ok(), "{}: {}", board.name, said.unwrap_err());
     }
