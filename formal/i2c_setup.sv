@@ -34,7 +34,7 @@ module properties #(parameter ADDRESS_BYTES = 1) (
     reg [5:0] rises;   // of scl since the start
     reg [3:0] bits;    // of the byte
     reg [2:0] bytes;
-    reg [1:0] starts;  // of the step
+    reg [2:0] starts;  // of the step
     wire start = sda_moves && !sda && scl;
     wire stop = sda_moves && sda && scl;
     reg step_of_start;
