@@ -25,14 +25,6 @@ module properties #(parameter RESET = 0) (input wire write_clk, read_clk, rst, w
                 if (valid) assert(count != 0 && found == kept[2*out[1:0]+:2]);
                 if (count == 4) assert(full);
             end
-
-            // What crosses: the counters at the flip-flops that the other clock reads.
-            reg [2:0] write_before = 0, read_before = 0;
-            always @(posedge write_clk) write_before <= dut.write_gray_q;
-            always @(posedge read_clk) read_before <= dut.read_gray_q;
-            wire [2:0] written = write_before ^ dut.write_gray_q;
-            wire [2:0] taken = read_before ^ dut.read_gray_q;
-            always @* assert((written & (written - 1)) == 0 && (taken & (taken - 1)) == 0);
         end else begin : g_reset
             // Words say whether they were written behind the first reset. Of those before it none comes, if they were written three
             // edges of the read clock or more ahead. What is nearer may come, as there is no order between two clocks.

@@ -57,8 +57,8 @@ module dvp_capture #(
         next_q  <= data_i;
         data_q  <= next_q;
     end
-    wire href = href_q[0] && href_q[1] || href_q[0] && href_q[2] || href_q[1] && href_q[2];
-    wire between = vsync_q[0] && vsync_q[1] || vsync_q[0] && vsync_q[2] || vsync_q[1] && vsync_q[2];
+    wire href = (href_q[0] && href_q[1]) || (href_q[0] && href_q[2]) || (href_q[1] && href_q[2]);
+    wire between = (vsync_q[0] && vsync_q[1]) || (vsync_q[0] && vsync_q[2]) || (vsync_q[1] && vsync_q[2]);
 
     // A line. What follows of one behind vsync is left out.
     reg stale_q;  // vsync has come in this line

@@ -25,7 +25,7 @@ module packet_bytes (
     reg [2:0] place_q;       // of the byte in the word
     wire word_ends = place_q == 3'd7;
 
-    assign valid_o = packet_q && valid_i || answer_q && answer_valid_i;
+    assign valid_o = (packet_q && valid_i) || (answer_q && answer_valid_i);
     assign byte_o = answer_q ? answer_byte_i : data_i[{place_q, 3'd0}+:8];
     assign ready_o = packet_q && ready_i && word_ends;
     assign answer_ready_o = answer_q && ready_i;

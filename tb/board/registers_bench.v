@@ -184,7 +184,6 @@ module registers_bench;
     task silence;
         begin
             rest;
-            rest;
             if (hears != 0) fail("an answer to what is no command");
             hears = 0;
         end
@@ -231,6 +230,7 @@ module registers_bench;
             hear(is_write, where, value);
         end
         if (writes + reads != did) fail("the board's address reaches the core");
+        gap = 12;
         // One wrong bit, anywhere that is looked at: nothing is done or answered, and the next command is.
         for (n = 0; n < 24 * 8; n = n + 1) begin
             make(n & 1, 16'h0104, 32'hA5A5A5A5);
@@ -255,6 +255,7 @@ module registers_bench;
             silence;
             if (writes + reads != did) fail("what is no REGISTER packet is done");
         end
+        gap = 20;
         // A part of a command is forgotten behind a pause, whatever its length; a shorter pause is none.
         for (n = 1; n < 24; n = n + 1) begin
             make(1, 16'h0200, n);
