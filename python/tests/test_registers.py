@@ -381,8 +381,9 @@ def test_an_answer_is_found_in_noise(design, core):
     head = register(0x100, 77, 0)
     noise = [b"\xfa\xfa", head[:9], head[:23], register(0x104, 3, 0), register(0x100, 3, 1), register(0x100, 3, 0, frame=1)]
     port.fate[len(port.commands)] = lambda answer: [*noise, answer, b"\xfa\x06\x03"]
-    assert driver["edge_level"] == 100
-    assert driver["edge_min"] == 5
+    count = len(port.commands)
+    assert (driver["edge_level"], driver["edge_min"]) == (100, 5)
+    assert len(port.commands) == count + 2
     assert driver.received() == b"".join(noise) + b"\xfa\x06\x03"
 
 
@@ -400,13 +401,22 @@ def test_an_old_answer_is_not_taken_for_a_new_one(design, core):
     driver["edge_level"] = 50
     driver["edge_level"] = 50
     assert port.commands.count(register(0x100, 50, 1)) == 3
-    # Where nothing has come at all, the answers may come as well.
+    # Where nothing has come at all, an answer may come as well.
+    driver = over(design, port, attempts=1)
     number = len(port.commands)
-    port.fate = {number: port.hold, number + 1: port.hold, number + 2: port.hold, number + 3: port.late}
+    port.fate = {number: port.hold, number + 1: port.late}
     with pytest.raises(TimeoutError):
         driver["edge_level"]
     core.values[0x100] = 45
     assert driver["edge_level"] == 45
+
+
+def test_a_write_is_answered_by_what_was_written(design, core):
+    port = Port(core)
+    driver = over(design, port)
+    port.fate[len(port.commands)] = lambda answer: [register(0x100, 51, 1)]
+    driver["edge_level"] = 50
+    assert port.commands[-2:] == 2 * [register(0x100, 50, 1)]
 
 
 class Silent:
