@@ -119,6 +119,10 @@ class Registers:
             raise KeyError(f"this core has no register `{name}`; the nearest is `{near[0]}`")
         return self._names[name]
 
+    def __iter__(self) -> Iterator[str]:
+        """All names, of registers and of fields."""
+        return iter(self._names)
+
     def __getitem__(self, name: str) -> int:
         register, field = self._find(name)
         value = int(self._read(register.address))
@@ -130,19 +134,19 @@ class Registers:
     def _ready(self, name: str, value: int) -> tuple[int, int, int]:
         """Address of what is to be written, the bits that stay as they are, and the others."""
         register, field = self._find(name)
-        fields = [one for one in register.fields if one.access != "read"]
-        if field not in [None, *fields] or not fields:
+        meant = [one for one in ([field] if field else register.fields) if one.access != "read"]
+        if not meant:
             raise ValueError(f"`{name}` can only be read")
         low, value = field.low if field else 0, operator.index(value)
-        width = field.width if field else max(one.low + one.width for one in fields)
+        width = max(one.low + one.width for one in meant) - low
         if not 0 <= value < 1 << width:
             raise ValueError(f"{name} = {value}: expected 0 to {(1 << width) - 1}")
         # A 1 that is read of an event and written again would clear it.
-        others = (one for one in fields if field not in (None, one) and one.access == "read, write")
+        others = (one for one in register.fields if field not in (None, one) and one.access == "read, write")
         return register.address, sum(_mask(one) for one in others), value << low
 
-    def _put(self, all: Iterable[tuple[int, int, int]]) -> None:
-        for address, kept, value in all:
+    def _put(self, ready: Iterable[tuple[int, int, int]]) -> None:
+        for address, kept, value in ready:
             self._write(address, (int(self._read(address)) & kept if kept else 0) | value)
 
     def set(self, **values: int) -> None:

@@ -7,6 +7,7 @@ import zlib
 
 import numpy as np
 import pytest
+import tomllib
 
 import foveate as fv
 
@@ -111,6 +112,7 @@ def test_registers_are_read_and_written_by_name(core, driver):
     driver.restart()
     assert core.restarts == 1 and core.values[0x20] == 2
     assert driver.received() == b""
+    assert "status.busy" in driver and "status.bsy" not in driver and len(set(driver)) == len(list(driver)) > 60
     with pytest.raises(RuntimeError, match="over_serial"):
         driver.board()
 
@@ -161,6 +163,7 @@ def test_a_core_runs_on_where_a_write_fails(design, core):
 
 WRONG = [
     (lambda own: own["edge_levl"], KeyError, "no register `edge_levl`; the nearest is `edge_level`"),
+    (lambda own: own["q"], KeyError, "the nearest is"),
     (lambda own: own["status.bsy"], KeyError, "nearest is `status.busy`"),
     (lambda own: own.set(edge_level=1, egde_min=2), KeyError, "nearest is `edge_min`"),
     (lambda own: own.clear("frame_dune"), KeyError, "nearest is `events.frame_done`"),
@@ -202,6 +205,16 @@ def test_another_core_is_refused(design, core):
     refused(other, {}, f"{digits}, not {other.fingerprint}", "`region.size` is 8, not 16", "`grid.columns` is 8, not 4")
     with pytest.raises(ValueError, match="not on AXI"):
         fv.Registers("paper", core.read, core.write)
+
+
+def test_a_core_may_be_that_of_a_camera(design, core):
+    camera = fv.Camera({key: value for key, value in tomllib.loads(design.toml()).items() if key != "frame"})
+    refused = "`frame.width` is 64, not 224"
+    with pytest.raises(RuntimeError, match=refused):
+        fv.Registers(camera, core.read, core.write)
+    # With its first frame it has a size.
+    camera.step(np.zeros((40, 64), np.uint8))
+    assert fv.Registers(camera, core.read, core.write)["frame.width"] == 64
 
 
 def register(address, value, written, frame=0):
@@ -423,12 +436,13 @@ class Silent:
     """A port on which nothing comes, or for ever something else."""
 
     def __init__(self, what):
-        self.what, self.commands = what, []
+        self.what, self.commands, self.reads = what, [], 0
 
     def write(self, data):
         self.commands.append(data)
 
     def read(self, size):
+        self.reads += 1
         return self.what and self.what[:size]
 
 
@@ -438,6 +452,8 @@ def test_a_board_that_does_not_answer_is_a_timeout(what, design, clock):
     with pytest.raises(TimeoutError, match="asked 3 times to read register 0x0, and had 0.3 s each time"):
         over(design, port)
     assert port.commands == 3 * [register(0, 0, 0)] and 0.9 < clock.now < 1
+    # Where nothing comes the processor rests.
+    assert what or port.reads < 1000
     port = Silent(what)
     with pytest.raises(TimeoutError, match="asked 2 times to read register 0x0, and had 2 s each time"):
         over(design, port, timeout=2, attempts=2)
