@@ -21,6 +21,7 @@ from foveate._foveate import (
     presets,
     simulate,
 )
+from foveate._registers import Register, RegisterField, Registers
 from foveate._results import Estimate, Explanation, Fidelity, Inference
 from foveate._tables import events
 from foveate._work import estimate, explain, fidelity, generate, infer
@@ -38,6 +39,9 @@ __all__ = [
     "Fidelity",
     "Inference",
     "Outcome",
+    "Register",
+    "RegisterField",
+    "Registers",
     "Run",
     "ToolError",
     "__version__",

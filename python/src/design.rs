@@ -7,6 +7,7 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 
 use crate::config;
 use crate::error::raise;
+use crate::registers::registers_of;
 use crate::tools;
 
 /// A validated configuration with the numbers that follow from it. Immutable, hashable, and can be pickled.
@@ -193,6 +194,23 @@ impl Design {
     /// Area and logic levels of the design; see `foveate.estimate`.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         tools::estimate_of(slf)
+    }
+
+    /// The registers of a core of this design on AXI.
+    ///
+    /// Returns
+    /// -------
+    /// tuple of Register
+    ///     By address: `name`, `address` in bytes, `doc`, and `fields`, each with `name`, `low` (its lowest bit), `width`,
+    ///     `access` ("read", "read, write", "write 1" or "read, write 1 to clear"), `reset` (its value after a reset, None
+    ///     where the core says) and `doc`.
+    ///
+    /// Raises
+    /// ------
+    /// ValueError
+    ///     If the design is not on AXI: it needs `hardware={"interface": "axi"}`.
+    fn registers<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        registers_of(slf.py(), slf.get())
     }
 
     #[classmethod]

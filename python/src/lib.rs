@@ -15,6 +15,7 @@ mod inference;
 mod options;
 mod outcome;
 mod picture;
+mod registers;
 mod study;
 mod table;
 mod tools;

@@ -18,6 +18,13 @@ scores: np.ndarray = outcome.scores["edge"]
 for outcome in fv.simulate(["a.png", "b.png"], camera, max_frames=3, resize=(64, 48)):
     number: int = outcome.number
 rows: np.ndarray = fv.events([outcome])
+words = np.zeros(1024, np.uint32)
+core = fv.Registers(camera, lambda address: int(words[address // 4]), lambda address, value: words.__setitem__(address // 4, value))
+core["edge_level"] = core["status.busy"]
+core.set(edge_level=1, edge_min=2)
+name: str = core.events()[0]
+width: int = camera.registers()[0].fields[0].width
+fv.Registers.over_serial("design.toml", open("/dev/null", "r+b", buffering=0)).received()
 """
 WRONG = {
     "fv.Camera(size=3)": "size",
@@ -25,6 +32,7 @@ WRONG = {
     "fv.simulate('a.mp4', frame_count=3)": "frame_count",
     "x: str = fv.Design().columns": "columns|str",
     "fv.Design().width = 3": "read-only|width",
+    "fv.Registers.over_serial('paper', 'COM3')": "Port",
 }
 
 
@@ -60,8 +68,9 @@ def test_everything_public_has_its_documentation():
         if name in ("ACTIONS", "__version__"):
             continue
         assert inspect.getdoc(thing), name
-    for made, methods in {fv.Camera: ["step", "reset", "generate", "estimate"], fv.Design: ["toml", "generate", "estimate"]}.items():
+    both = ["generate", "estimate", "registers"]
+    for made, methods in {fv.Camera: ["step", "reset", *both], fv.Design: ["toml", *both]}.items():
         for method in methods:
             assert inspect.getdoc(getattr(made, method)), method
-    for thing in (fv.Camera, fv.Design, fv.Camera.step, fv.simulate, fv.events, fv.explain, fv.fidelity, fv.infer, fv.generate):
+    for thing in (fv.Camera, fv.Design, fv.Camera.step, fv.simulate, fv.events, fv.explain, fv.fidelity, fv.infer, fv.generate, fv.Registers):
         assert "Parameters\n----------" in inspect.getdoc(thing), thing

@@ -18,27 +18,6 @@ struct PackageIp<'a> {
     registers: Vec<String>,
 }
 
-/// What may be done with a field, as documents have it.
-fn access(kind: &Kind) -> &'static str {
-    match kind {
-        Kind::Constant(_) | Kind::Status => "read",
-        Kind::Control { .. } | Kind::Threshold { .. } => "read, write",
-        Kind::Command => "write 1",
-        Kind::Event => "read, write 1 to clear",
-    }
-}
-
-/// What a field reads as after a reset; none where the core says.
-fn reset(kind: &Kind) -> Option<u32> {
-    match *kind {
-        Kind::Constant(value)
-        | Kind::Control { reset: value }
-        | Kind::Threshold { reset: value } => Some(value),
-        Kind::Command | Kind::Event => Some(0),
-        Kind::Status => None,
-    }
-}
-
 fn high(field: &Field) -> u32 {
     field.low + field.width - 1
 }
@@ -55,10 +34,10 @@ pub(super) fn markdown(banner: &str, registers: &[Register]) -> String {
                 0 => (format!("0x{:03X}", register.address), format!("`{}`", register.name)),
                 _ => Default::default(),
             };
-            let value = reset(&field.kind).map_or(String::new(), |value| format!("0x{value:X}"));
+            let value = field.kind.reset().map_or(String::new(), |value| format!("0x{value:X}"));
             let bits = format!("[{}:{}]", high(field), field.low);
             let row =
-                [address, name, bits, format!("`{}`", field.name), access(&field.kind).to_owned()];
+                [address, name, bits, format!("`{}`", field.name), field.kind.access().to_owned()];
             let doc = match field.name.as_str() {
                 "value" => format!("{}: {}", register.doc, field.doc),
                 _ => field.doc.clone(),
@@ -124,7 +103,7 @@ pub(super) fn rdl(banner: &str, registers: &[Register]) -> String {
             let reset = match &field.kind {
                 // A value that hardware says has none that software could rely on.
                 Kind::Status => String::new(),
-                kind => format!(" = {}'h{:X}", field.width, reset(kind).unwrap_or_default()),
+                kind => format!(" = {}'h{:X}", field.width, kind.reset().unwrap_or_default()),
             };
             writeln!(
                 text,

@@ -35,6 +35,31 @@ pub enum Kind {
     Event,
 }
 
+impl Kind {
+    /// What software may do with it, as documents have it.
+    #[must_use]
+    pub fn access(&self) -> &'static str {
+        match self {
+            Self::Constant(_) | Self::Status => "read",
+            Self::Control { .. } | Self::Threshold { .. } => "read, write",
+            Self::Command => "write 1",
+            Self::Event => "read, write 1 to clear",
+        }
+    }
+
+    /// What it reads as after a reset; none where the core says.
+    #[must_use]
+    pub fn reset(&self) -> Option<u32> {
+        match *self {
+            Self::Constant(value)
+            | Self::Control { reset: value }
+            | Self::Threshold { reset: value } => Some(value),
+            Self::Command | Self::Event => Some(0),
+            Self::Status => None,
+        }
+    }
+}
+
 /// Some bits of a register that say one thing.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {

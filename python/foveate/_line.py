@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""A serial line to a board: commands go out, and answers are found among the packets that come."""
+from __future__ import annotations
+
+import struct
+import time
+import zlib
+from typing import Any, Protocol
+
+#: A register that always reads the same, if there is a core.
+IDENTITY = 0
+#: Bytes of the head of a packet, and of a whole REGISTER.
+HEAD, SIZE = 8, 24
+
+
+class Port(Protocol):
+    """What ``serial.Serial`` of pyserial does, and may be done by others."""
+
+    def read(self, size: int, /) -> bytes | None:
+        """Up to so many bytes; fewer when a time is over."""
+
+    def write(self, data: bytes, /) -> Any:
+        """Send all of them."""
+
+
+def packet(address: int, value: int, is_written: bool) -> bytes:
+    """A REGISTER packet: head, what it carries, and tail."""
+    body = struct.pack("<BBHHHIII", 0xFA, 6 | is_written << 4, SIZE // 8, address, 0, value, 0, 0)
+    return body + struct.pack("<I", zlib.crc32(body))
+
+
+class Line:
+    """Reads and writes registers over a port. What else comes is kept."""
+
+    def __init__(self, port: Port, timeout: float, attempts: int) -> None:
+        self._port, self._timeout, self._attempts = port, timeout, attempts
+        self._bytes = bytearray()
+        #: A command was sent again, so an answer to it may still come.
+        self._is_late = False
+
+    def read(self, address: int) -> int:
+        """What a register reads."""
+        return self._ask(address, 0, False)
+
+    def write(self, address: int, value: int) -> None:
+        """Writes a register."""
+        self._ask(address, value, True)
+
+    def received(self) -> bytes:
+        """The bytes of other packets since this was called last."""
+        found = bytes(self._bytes)
+        self._bytes.clear()
+        return found
+
+    def _ask(self, address: int, value: int, is_written: bool) -> int:
+        if self._is_late and address != IDENTITY:
+            # Answers come in the order of commands: behind this one there is no old one that the next would be taken for.
+            self._ask(IDENTITY, 0, False)
+            self._is_late = False
+        command, start = packet(address, value, is_written), len(self._bytes)
+        for attempt in range(self._attempts):
+            self._is_late |= attempt > 0
+            self._port.write(command)
+            until = time.monotonic() + self._timeout
+            while True:
+                self._hear()
+                answer, start = self._answer(command, start)
+                # Another value answers an older command.
+                if answer is not None and (answer == value or not is_written):
+                    return answer
+                if answer is None and time.monotonic() > until:
+                    break
+        self._is_late = True
+        what = f"write {value:#x} to" if is_written else "read"
+        raise TimeoutError(
+            f"the board did not answer: it was asked {self._attempts} times to {what} register {address:#x}, and had {self._timeout} s "
+            "each time; are the port and its rate right, and is the board configured?"
+        )
+
+    def _hear(self) -> None:
+        """Takes what has come."""
+        # Beyond what has come a port would wait for more.
+        came = self._port.read(max(1, getattr(self._port, "in_waiting", 1)))
+        if came:
+            self._bytes += came
+        else:
+            time.sleep(0.001)
+
+    def _answer(self, command: bytes, start: int) -> tuple[int | None, int]:
+        """The value of the first answer from here on, which is taken out; and from where on to look next."""
+        address, is_written = struct.unpack_from("<H", command, 4)[0], command[1] >> 4 == 1
+        while (at := self._bytes.find(command[:HEAD], start)) >= 0:
+            found = bytes(self._bytes[at : at + SIZE])
+            if len(found) < SIZE:
+                return None, at
+            (value,) = struct.unpack_from("<I", found, HEAD)
+            if found == packet(address, value, is_written):
+                del self._bytes[at : at + SIZE]
+                return value, at
+            start = at + 1
+        return None, max(start, len(self._bytes) - HEAD + 1)

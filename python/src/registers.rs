@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The registers of a core on AXI, as the table of `foveate._registers`.
+
+use foveate_emit::{Field, Register, registers};
+use pyo3::prelude::*;
+
+use crate::design::Design;
+use crate::error::value_error;
+
+/// Name, lowest bit, width, access, value after a reset, and what it means.
+type FieldRow = (String, u32, u32, &'static str, Option<u32>, String);
+/// Name, address, what it is, and its fields.
+type Row = (String, u32, String, Vec<FieldRow>);
+
+fn field(own: Field) -> FieldRow {
+    let Field { name, low, width, kind, doc } = own;
+    (name, low, width, kind.access(), kind.reset(), doc)
+}
+
+fn row(own: Register) -> Row {
+    let Register { name, address, fields, doc } = own;
+    (name, address, doc, fields.into_iter().map(field).collect())
+}
+
+/// The table of a design, or why there is none.
+pub(crate) fn registers_of<'py>(py: Python<'py>, design: &Design) -> PyResult<Bound<'py, PyAny>> {
+    let inner = design.inner();
+    let (true, Some(raster)) = (inner.is_on_axi(), inner.raster()) else {
+        return Err(value_error(format!(
+            "design {} has no registers, because it is not on AXI: organization `{}`, interface `{}`; registers have \
+             designs with hardware.organization = 'raster' and hardware.interface = 'axi'",
+            inner.fingerprint(),
+            inner.organization().name(),
+            inner.bus().name(),
+        )));
+    };
+    let rows: Vec<Row> = registers(raster).into_iter().map(row).collect();
+    py.import("foveate._registers")?.call_method1("table", (rows,))
+}
