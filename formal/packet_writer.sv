@@ -139,13 +139,13 @@ module properties #(
         if (rst_i) words <= 0;
     end
 
-    // Clocks without a word, though the sink is ready and something waits or is under way.
+    // Clocks without a word on the port, though something waits or is under way; a source does not wait for `ready`.
     wire offers = open ? row_fits || region_fits || closed : announced;
     reg [4:0] quiet, offered;
     always @(posedge clk_i) begin
-        quiet   <= ready && (offers || !idle) && !leaves ? quiet + 1 : 0;
-        // For so many clocks, the last ones, the sink was ready and there was something to send.
-        offered <= ready && offers ? (offered == 31 ? 31 : offered + 1) : 0;
+        quiet   <= (offers || !idle) && !valid ? quiet + 1 : 0;
+        // For so many clocks, the last ones in which the sink held up nothing, there was something to send.
+        offered <= !offers ? 0 : offered == 31 || (valid && !ready) ? offered : offered + 1;
         if (rst_i) {quiet, offered} <= 0;
     end
 
