@@ -87,7 +87,7 @@ if [ "${1:-}" != --quick ]; then
         "bare $raster --grid 5x2 --set region.size=4 --set frame={width=222,height=221} $sync"
         "paper $axi --rounds 3 --set region.size=4 --set frame={width=24,height=16}"
         "bare $axi --rounds 3 --set region.size=4 --set frame={width=30,height=20,pixel_bits=10} --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set render={irrelevant='mean',payload='raw'} --set spatial=$all"
-        "bare $axi --rounds 3 --set region.size=5 --set frame={width=16,height=12} --set hardware.store='external' --set hardware.thresholds='constant'"
+        "bare $axi --rounds 3 --set region.size=8 --set frame={width=32,height=16} --set hardware.store='external' --set hardware.thresholds='constant'"
     )
 fi
 chosen=()

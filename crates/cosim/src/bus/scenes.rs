@@ -52,12 +52,17 @@ pub(super) fn with_other_thresholds(design: &Design) -> Option<Design> {
     let level = temporal.level_at(design.pixel_bits());
     temporal.level = Some(if level == 0 { 1 } else { level / 2 });
     temporal.min_count = if temporal.min_count > 1 { 1 } else { 3 };
-    // Each register has another value, or nobody would see whether it is taken over.
+    // Each register has another value, or nobody would see whether it is taken over. Of noise, some regions are relevant by
+    // each level and each minimum.
+    let most = (1_u32 << design.pixel_bits()) - 1;
     for feature in &mut config.camera.spatial {
-        feature.level = feature.level.map(|level| if level == 0 { 1 } else { level / 2 });
-        let one = Decimal::whole(1);
-        feature.min_score =
-            Some(if feature.min_score == Some(one) { Decimal::whole(2) } else { one });
+        feature.level = feature.level.map(|level| match level {
+            0 => 1,
+            _ if level <= most / 2 => 2 * level,
+            _ => level / 2,
+        });
+        let min = feature.min_score.and_then(Decimal::as_whole);
+        feature.min_score = min.map(|min| Decimal::whole(if min > 1 { min / 2 } else { min + 1 }));
     }
     config.validate().ok()
 }
