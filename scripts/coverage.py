@@ -3,8 +3,9 @@
 
 A line of a leaf is one point, covered where one design covers it: what a feature needs is idle in a design without it. So is a
 bit of a serial or a raster leaf: one sequencer, or one core, is there for all features and feeds, and much of it stays still in
-each design; so is a bit of the leaves around a core on AXI, of which only these count: the array inside has runs of its own. Other bits are points of each design, because the same bit is the highest of one and not of another; so are the lines
-of a rendered module, which are other lines in another design.
+each design; and a bit of a leaf around a core on AXI, of which no others count: the array inside has runs of its own. Other bits
+are points of each design, because the same bit is the highest of one and not of another; so are the lines of a rendered module,
+which are other lines in another design.
 """
 import collections
 import functools

@@ -223,10 +223,15 @@ class BusDesign(Design):
         done = proof.limited(command, limit or 600, env=env)
         if done.returncode in (0, 1):
             return "fail" if done.returncode else "pass"
-        if done.returncode == 2 and "does not" not in done.stderr and "refused" in done.stderr:
+        # The simulation was ended, or found that a loop never settles; or the limit struck.
+        if re.search(r"ended after \d+ of \d+ clocks", done.stderr):
+            return "abort"
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+            return "hang"
+        # What Icarus takes and Verilator does not.
+        if "%Error" in done.stderr:
             return "refused"
-        # The program was ended, or Verilator found that a loop never settles.
-        return "abort"
+        raise RuntimeError(f"{self.name}: co-simulation has no result: {done.stderr[-300:]}")
 
     def clocks(self, stage):
         return self.seconds[stage]
