@@ -2,15 +2,17 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Line and toggle coverage of the Verilog under the vectors of `foveate cosim`, per module, over a few designs, and what the
 # vectors never reach. The vectors are those that co-simulation gives to Icarus; they are replayed in Verilator. A serial
-# design is an array of 3x2 regions, a raster core has 4x3 or more.
+# design is an array of 3x2 regions, a raster core has 4x3 or more. Cores on AXI are run as `foveate cosim --level axi` runs them.
 # What docs/verification.md explains is listed in scripts/coverage_holes.txt; any other hole is an error. Installs what is missing.
 #
-#   scripts/coverage.sh [--quick]
+#   scripts/coverage.sh            all designs
+#   scripts/coverage.sh --quick    two of them
+#   scripts/coverage.sh NAME...    some of them; what only others need is no error then
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
--h | --help) sed -n '3,8s/^# \{0,1\}//p' "$0" && exit 0 ;;
-'' | --quick) ;;
+-h | --help) sed -n '3,10s/^# \{0,1\}//p' "$0" && exit 0 ;;
+'' | --quick | [a-z]*) ;;
 *) echo "coverage: unknown option $1; see scripts/coverage.sh --help" >&2 && exit 2 ;;
 esac
 scripts/install_tools.sh
@@ -50,12 +52,13 @@ serial="--level rcm --grid 3x2 --set hardware.organization='serial'"
 raster="--level rcm --set hardware.organization='raster'"
 deep="--set hardware.pipelining='deep'"
 sync="--set hardware.sync=true"
+axi="--level axi --set hardware.organization='raster' --set hardware.interface='axi'"
 names=(paper all)
 settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='last-sent' --set spatial=$all")
 if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
         serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute raster_means
-        array_sync serial_sync raster_sync)
+        array_sync serial_sync raster_sync axi axi_means axi_outside)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
@@ -82,14 +85,32 @@ if [ "${1:-}" != --quick ]; then
         "bare --level rcm --grid 3x2 --set region.size=4 $sync"
         "bare $serial --set region.size=4 --set hardware.feed='raster' $sync"
         "bare $raster --grid 5x2 --set region.size=4 --set frame={width=222,height=221} $sync"
+        "paper $axi --rounds 3 --set region.size=4 --set frame={width=24,height=16}"
+        "bare $axi --rounds 3 --set region.size=4 --set frame={width=30,height=20,pixel_bits=10} --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set render={irrelevant='mean',payload='raw'} --set spatial=$all"
+        "bare $axi --rounds 3 --set region.size=8 --set frame={width=32,height=16} --set hardware.store='external' --set hardware.thresholds='constant'"
     )
 fi
-for index in "${!names[@]}"; do
+chosen=()
+for word in "$@"; do
+    [[ $word != --* ]] || continue
+    for index in "${!names[@]}"; do [ "${names[index]}" != "$word" ] || chosen+=("$index"); done
+    [[ " ${names[*]} " == *" $word "* ]] || { echo "coverage: there is no design $word; there are ${names[*]}" >&2 && exit 2; }
+done
+[ ${#chosen[@]} -gt 0 ] || chosen=("${!names[@]}")
+done_of=()
+for index in "${chosen[@]}"; do
     name=${names[index]}
+    done_of+=("$name")
     read -ra words <<<"${settings[index]}"
     export KEEP=$work/$name
     mkdir -p "$KEEP"
     echo "$name: foveate cosim --preset ${words[*]}"
+    if [[ $name == axi* ]]; then
+        # The program around the model is compiled with it, and each scene is a run of its own.
+        FOVEATE_CACHE=off FOVEATE_VERILATOR=$PWD/scripts/keeping/verilator FOVEATE_CXX=$PWD/scripts/keeping/cxx \
+            "$foveate" cosim --preset "${words[@]}" --replay "$work/replay" --quiet
+        continue
+    fi
     FOVEATE_CACHE=off FOVEATE_IVERILOG=$PWD/scripts/keeping/iverilog FOVEATE_VVP=$PWD/scripts/keeping/vvp \
         "$foveate" cosim --simulator iverilog --preset "${words[@]}" --replay "$work/replay" --quiet | sed -n 1p
     (
@@ -105,4 +126,6 @@ for index in "${!names[@]}"; do
         grep -q '^PASS' run.log || { echo "coverage: the replay of $name does not pass, see $KEEP/run.log" >&2 && exit 1; }
     )
 done
-exec python3 scripts/coverage.py "$work" "${names[@]}"
+some=()
+[ ${#done_of[@]} -eq ${#names[@]} ] || some=(--some)
+exec python3 scripts/coverage.py "$work" "${some[@]}" "${done_of[@]}"

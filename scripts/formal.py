@@ -86,10 +86,14 @@ def generate(name, settings):
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode != 0:
         fail(f"design {name} of formal/designs.txt: {run.stderr.strip()}")
-    with open(os.path.join(folder, "rtl", "rpu.v")) as file:
-        header = instances(file.read(), open(os.path.join(folder, "design.toml")).read())
+    # A core on AXI has registers, and no unit of its own.
+    rpu, table = os.path.join(folder, "rtl", "rpu.v"), os.path.join(folder, "REGISTERS.md")
+    verilog = open(rpu).read() if os.path.exists(rpu) else ""
     with open(os.path.join(folder, "instances.vh"), "w") as file:
-        file.write(header)
+        file.write(instances(verilog, open(os.path.join(folder, "design.toml")).read()))
+    if os.path.exists(table):
+        with open(os.path.join(folder, "registers.vh"), "w") as file:
+            file.write(registers(open(table).read()))
 
 
 def instances(rpu, toml):
@@ -114,6 +118,25 @@ def instances(rpu, toml):
     return "".join(lines)
 
 
+def registers(table):
+    """What REGISTERS.md says that another design may have otherwise: macros that a property file gives a meaning to."""
+    lines, ports, address, register = [], {}, "", ""
+    for row in re.findall(r"^\|(.*)\|$", table, re.M)[2:]:
+        first, name, bits, field, access, value, _ = (cell.strip(" `") for cell in row.split(" | "))
+        address, register = first or address, name or register
+        high, low = re.fullmatch(r"\[(\d+):(\d+)\]", bits).groups()
+        word = f"10'd{int(address, 16) // 4}"
+        if access == "read" and value:
+            lines.append(f"`CONSTANT({word}, {high}, {low}, 32'd{int(value, 16)})\n")
+        elif int(address, 16) >= 0x100:
+            # A threshold of more than 32 bits has two registers and one port.
+            port, half = re.fullmatch(r"(\w+?)(_low|_high|)", register).groups()
+            ports[port] = int(high) + (33 if half == "_high" else 1)
+            low = 32 if half == "_high" else 0
+            lines.append(f"`THRESHOLD({register}, {port}_o[{low}+:{int(high) + 1}], {word}, {high}, 32'd{int(value, 16)})\n")
+    return "".join([f"`PORT({port}_o, {bits})\n" for port, bits in ports.items()] + lines)
+
+
 def prepare(proof, task, fault, index):
     """The folder in which a run finds all its files, by the names that the .sby file gives."""
     folder = os.path.join(WORK, "runs", proof.name if fault is None else f"{proof.name}-fault{index}")
@@ -128,9 +151,9 @@ def prepare(proof, task, fault, index):
         where = os.path.join(folder, "generated", task)
         os.makedirs(where)
         source = os.path.join(WORK, "generated", task)
-        shutil.copy(os.path.join(source, "instances.vh"), where)
-        for top in ("rpu.v", "rcm.v"):
-            shutil.copy(os.path.join(source, "rtl", top), where)
+        for name in ("instances.vh", "registers.vh", "rtl/rpu.v", "rtl/rcm.v", "rtl/axi_registers.v"):
+            if os.path.exists(os.path.join(source, name)):
+                shutil.copy(os.path.join(source, name), where)
     for change in proof.changes:
         if change[0] in (task, "*"):
             plant(proof, task, folder, change)

@@ -18,7 +18,10 @@ TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
 WORK = os.path.join(TARGET, "mutation")
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 DESIGNS = "mutation/designs.txt"
-ORGANIZATIONS = ["pipelined", "serial", "raster"]
+# The last is what stands around a raster array on AXI; the array inside has mutants of its own.
+BUS = "axi"
+ORGANIZATIONS = ["pipelined", "serial", "raster", BUS]
+AROUND = ("axi_", "packet_", "rcm_axi")
 # Rounds and seed of the vectors of each stage.
 STAGES = ((1, 1), (3, 2))
 LATER = 1
@@ -97,6 +100,10 @@ class Design:
     def has(self, module):
         return f"rtl/{module}.v" in self.files
 
+    def mutable(self):
+        """The texts by name of which there are mutants."""
+        return self.texts
+
     def compiled(self, module, text):
         """The program for Icarus with another text of a module, if it elaborates, and where it is; addresses and the values of
         parameters, which the code has as constants, are left out."""
@@ -109,13 +116,16 @@ class Design:
                 out.write(text)
             files[self.files.index(f"rtl/{module}.v")] = mutant
         path = os.path.join(folder, "program.vvp")
-        built = proof.limited(["iverilog", "-g2005", "-s", f"{self.top}_replay", "-o", path, *files], 60)
+        built = proof.limited(["iverilog", "-g2005", "-s", self.elaborated(), "-o", path, *files], 60)
         if built.returncode != 0:
             return None, path
         code = re.sub(r"^P_.*\n", "", open(path).read().split("\n# The file index")[0], flags=re.M)
         known = {}
         code = re.sub(r"0x[0-9a-f]{6,}", lambda match: known.setdefault(match[0], str(len(known))), code)
         return hashlib.sha256(code.encode()).hexdigest(), path
+
+    def elaborated(self):
+        return f"{self.top}_replay"
 
     def alike(self, module, text):
         """Whether Icarus makes the same program with another text of a module."""
@@ -184,6 +194,82 @@ class Design:
         return proof.equal(self, WORK, module, text, inside)
 
 
+class BusDesign(Design):
+    """A core on AXI. Its packets are compared as co-simulation compares them, in Verilator: when they leave is in no contract."""
+
+    def record(self, stage):
+        with self.lock:
+            if stage in self.seconds:
+                return
+            core = os.path.join(self.folder, "core")
+            if not self.seconds:
+                shutil.rmtree(core, ignore_errors=True)
+                settings = [word for word in self.options if word not in ("--level", BUS)]
+                subprocess.run([FOVEATE, "generate", "--preset", "bare", *settings, "--output", core], check=True, capture_output=True)
+                self.files = sorted(f"rtl/{name}" for name in os.listdir(os.path.join(core, "rtl")))
+                self.texts = {name: open(os.path.join(core, name)).read() for name in self.files}
+                self.sources, self.bench, self.top = core, None, "rcm_axi"
+            began = os.times()
+            if self.cosim(stage, os.path.join(core, "rtl"), None) != "pass":
+                sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant")
+            ended = os.times()
+            self.seconds[stage] = ended.children_user + ended.children_system - began.children_user - began.children_system
+
+    def cosim(self, stage, rtl, limit):
+        rounds, seed = STAGES[0 if self.late else stage]
+        command = [FOVEATE, "cosim", "--config", os.path.join(self.sources, "design.toml"), "--rtl", rtl, "--level", BUS, "--quiet",
+                   "--seed", str(seed), "--rounds", str(rounds), "--replay", os.path.join(WORK, "run", f"replay{threading.get_ident()}")]
+        env = dict(os.environ, FOVEATE_CACHE=os.path.join(WORK, "cache"))
+        done = proof.limited(command, limit or 600, env=env)
+        if done.returncode in (0, 1):
+            return "fail" if done.returncode else "pass"
+        # The simulation was ended, or found that a loop never settles; or the limit struck.
+        if re.search(r"ended after \d+ of \d+ clocks", done.stderr):
+            return "abort"
+        if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
+            return "hang"
+        # What Icarus takes and Verilator does not.
+        if "%Error" in done.stderr:
+            return "refused"
+        raise RuntimeError(f"{self.name}: co-simulation has no result: {done.stderr[-300:]}")
+
+    def clocks(self, stage):
+        return self.seconds[stage]
+
+    def digest(self, phase):
+        with self.lock:
+            if phase not in self.digests:
+                method = "" if phase == "long" else open(proof.__file__).read()
+                self.digests[phase] = hashlib.sha256(json.dumps([self.texts, STAGES, method, executable()]).encode()).hexdigest()
+            return self.digests[phase]
+
+    def mutable(self):
+        return {name: text for name, text in self.texts.items() if os.path.basename(name).startswith(AROUND)}
+
+    def elaborated(self):
+        return self.top
+
+    def run(self, stage, module, text):
+        self.record(stage)
+        with self.lock:
+            if not self.program:
+                self.program = self.compiled(None, None)[0]
+        code, _ = self.compiled(module, text)
+        if code is None:
+            return "refused"
+        if code == self.program:
+            return "same"
+        rtl = os.path.join(WORK, "run", str(threading.get_ident()), "rtl")
+        shutil.rmtree(rtl, ignore_errors=True)
+        shutil.copytree(os.path.join(self.sources, "rtl"), rtl)
+        with open(os.path.join(rtl, f"{module}.v"), "w") as out:
+            out.write(text)
+        return self.cosim(stage, rtl, int(max(60, SLOWER * self.seconds[stage])))
+
+    def chparam(self):
+        return ""
+
+
 @functools.cache
 def executable():
     """Tells one Foveate from another."""
@@ -200,6 +286,10 @@ def designs(organization):
             sys.exit(f"mutation: {DESIGNS}:{number}: wants `{'|'.join(ORGANIZATIONS)} NAME OPTIONS`")
         if words[0] == organization:
             options = words[2:]
+            if organization == BUS:
+                options += ["--set", "hardware.organization='raster'", "--set", "hardware.interface='axi'"]
+                yield BusDesign(organization, words[1], options)
+                continue
             if organization != ORGANIZATIONS[0]:
                 options += ["--set", f"hardware.organization='{organization}'"]
             yield Design(organization, words[1], options)

@@ -49,7 +49,7 @@ def pools(all_of, seed):
     leaves = re.findall(r'^    "(\w+)" => \[', open(LEAVES).read(), re.M)
     texts, pools = {}, {}
     for design in all_of:
-        for name, text in design.texts.items():
+        for name, text in design.mutable().items():
             module = re.fullmatch(r"rtl/(\w+)\.v", name)
             if not module:
                 continue

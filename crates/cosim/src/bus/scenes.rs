@@ -6,7 +6,7 @@ use super::damage::Damage;
 use super::film::Film;
 use super::traffic::{Answer, Fate, Sent, Traffic};
 use crate::stimulus::Random;
-use foveate_design::{Camera, Design, RasterDesign, Reference, Thresholds};
+use foveate_design::{Camera, Decimal, Design, RasterDesign, Reference, Thresholds};
 use foveate_emit::{Kind, Register};
 use foveate_frame::Frame;
 
@@ -52,6 +52,18 @@ pub(super) fn with_other_thresholds(design: &Design) -> Option<Design> {
     let level = temporal.level_at(design.pixel_bits());
     temporal.level = Some(if level == 0 { 1 } else { level / 2 });
     temporal.min_count = if temporal.min_count > 1 { 1 } else { 3 };
+    // Each register has another value, or nobody would see whether it is taken over. Of noise, some regions are relevant by
+    // each level and each minimum.
+    let most = (1_u32 << design.pixel_bits()) - 1;
+    for feature in &mut config.camera.spatial {
+        feature.level = feature.level.map(|level| match level {
+            0 => 1,
+            _ if level <= most / 2 => 2 * level,
+            _ => level / 2,
+        });
+        let min = feature.min_score.and_then(Decimal::as_whole);
+        feature.min_score = min.map(|min| Decimal::whole(if min > 1 { min / 2 } else { min + 1 }));
+    }
     config.validate().ok()
 }
 
@@ -180,7 +192,7 @@ impl<'a> Stage<'a> {
         let mut traffic = self.waiting();
         let middle = self.design.height() / 2;
         traffic.frame(taken(self.film.quiet()));
-        let camera = self.other_thresholds(&mut traffic, middle);
+        let camera = self.thresholds(&mut traffic, middle, 0, 1);
         let next = |film: &mut Film| Sent { camera, ..taken(film.next()) };
         traffic.frame(next(&mut self.film));
         traffic.frame(next(&mut self.film));
@@ -207,18 +219,31 @@ impl<'a> Stage<'a> {
         traffic.write(control, restart);
         traffic.frame(Sent { first: true, ..next(&mut self.film) });
         traffic.frame(next(&mut self.film));
+        let camera = self.thresholds(&mut traffic, middle, camera, 0);
+        for _ in 0..2 {
+            traffic.frame(Sent { camera, ..taken(self.film.next()) });
+        }
         self.end(&mut traffic, 0);
         traffic
     }
 
-    /// Writes other thresholds within a frame, which hold from the next one on. Returns the number of their camera.
-    fn other_thresholds(&mut self, traffic: &mut Traffic<'a>, middle: u32) -> usize {
-        let Some(others) = self.others else { return 0 };
-        let written: Vec<(u32, u32)> = others.iter().filter_map(threshold).collect();
-        traffic.frame_around(taken(self.film.quiet()), middle, |traffic| {
+    /// Writes thresholds within a frame, which hold from the next one on: those of camera `to`, where there are two. Returns the
+    /// number of the camera of the next frame.
+    fn thresholds(
+        &mut self,
+        traffic: &mut Traffic<'a>,
+        middle: u32,
+        from: usize,
+        to: usize,
+    ) -> usize {
+        let Some(others) = self.others else { return from };
+        let registers = if to == 0 { self.registers } else { others };
+        let written: Vec<(u32, u32)> = registers.iter().filter_map(threshold).collect();
+        let frame = Sent { camera: from, ..taken(self.film.quiet()) };
+        traffic.frame_around(frame, middle, |traffic| {
             written.iter().for_each(|&(address, value)| traffic.write(address, value));
         });
-        1
+        to
     }
 
     /// Resets at any time: within a frame, while packets leave, and while a word waits for the sink.
