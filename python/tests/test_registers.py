@@ -390,9 +390,9 @@ def test_an_answer_is_found_in_noise(design, core):
     port = Port(core)
     driver = over(design, port)
     driver.received()
-    # The beginning of an answer, then a whole one; of another register; and one that is written, not read.
+    # Beginnings of an answer, the last before a whole one; answers of another register; and one that is written, not read.
     head = register(0x100, 77, 0)
-    noise = [b"\xfa\xfa", head[:9], head[:23], register(0x104, 3, 0), register(0x100, 3, 1), register(0x100, 3, 0, frame=1)]
+    noise = [b"\xfa\xfa", head[:9], head[:23], register(0x104, 3, 0), register(0x100, 3, 1), register(0x100, 3, 0, frame=1), head[:9]]
     port.fate[len(port.commands)] = lambda answer: [*noise, answer, b"\xfa\x06\x03"]
     count = len(port.commands)
     assert (driver["edge_level"], driver["edge_min"]) == (100, 5)
