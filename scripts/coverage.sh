@@ -58,7 +58,7 @@ settings=("paper" "paper --set denoise.filter='none' --set temporal.reference='l
 if [ "${1:-}" != --quick ]; then
     names+=(shared raw odd large means serial_sent serial_all serial_none serial_shared serial_raster serial_block
         serial_means serial_deep serial_swift deep raster_plain raster_sums raster_sent raster_outside raster_single raster_mute raster_means
-        array_sync serial_sync raster_sync axi axi_means axi_outside)
+        array_sync serial_sync raster_sync axi axi_means axi_outside axi_odd)
     settings+=(
         "paper --set region.neighborhood='shared' --set spatial=[$corner,$edge] --set decision.combine='all'"
         "paper --set render.payload='raw' --set render.irrelevant='hold' --set spatial=$all"
@@ -88,6 +88,7 @@ if [ "${1:-}" != --quick ]; then
         "paper $axi --rounds 3 --set region.size=4 --set frame={width=24,height=16}"
         "bare $axi --rounds 3 --set region.size=4 --set frame={width=30,height=20,pixel_bits=10} --set hardware.pixels_per_clock=2 --set temporal.reference='last-sent' --set render={irrelevant='mean',payload='raw'} --set spatial=$all"
         "bare $axi --rounds 3 --set region.size=8 --set frame={width=32,height=16} --set hardware.store='external' --set hardware.thresholds='constant'"
+        "bare $axi --rounds 3 --set region.size=5 --set frame={width=16,height=12} --set hardware.store='external' --set hardware.thresholds='constant'"
     )
 fi
 chosen=()

@@ -72,7 +72,7 @@ module rcm_axi #(
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RREADY" *)
     input  wire        s_axi_rready,          // it is taken
 {%- for port in outside %}
-    {= port.declaration =},  // {= port.doc =}
+    {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
 {%- if !outside.is_empty() %}
     output wire        forget_o,              // at this edge what was stored is to be forgotten

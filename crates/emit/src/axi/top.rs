@@ -146,7 +146,7 @@ pub(super) fn view(design: RasterDesign<'_>) -> Axi {
             .filter(|port| signal(design, port).starts_with("unused_"))
             .cloned()
             .collect(),
-        outside: PortLine::all(&outside, |_| None),
+        outside: continued(PortLine::all(&outside, |_| None)),
         connections: ports.iter().map(|port| (port.name.clone(), signal(design, port))).collect(),
     }
 }
@@ -155,6 +155,16 @@ pub(super) fn view(design: RasterDesign<'_>) -> Axi {
 fn plain(threshold: super::registers::Threshold) -> Port {
     let name = threshold.port.name.trim_end_matches("_i").to_owned();
     Port { name, ..threshold.port }
+}
+
+/// Lines behind which more ports follow: the last one ends in a comma, too.
+fn continued(mut lines: Vec<PortLine>) -> Vec<PortLine> {
+    if let Some(last) = lines.last_mut() {
+        let width = last.declaration.len();
+        let declaration = format!("{},", last.declaration.trim_end());
+        last.declaration = format!("{declaration:width$}");
+    }
+    lines
 }
 
 /// Whether a port of the array is one of the core on a bus, too: those of a frame store outside.

@@ -196,9 +196,11 @@ pub(crate) fn every_design() -> Vec<String> {
     [matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
 }
 
-/// Raster designs on AXI: those of the matrix whose pixels leave.
+/// Raster designs on AXI: those of the matrix whose pixels leave, and one whose frame store is outside.
 pub(crate) fn every_design_on_a_bus() -> Vec<String> {
     let leaves = |toml: &String| design(toml).forwards();
     let on_axi = |toml: String| toml.replacen("[hardware]\n", "[hardware]\ninterface = 'axi'\n", 1);
-    raster_matrix().into_iter().filter(leaves).map(on_axi).collect()
+    let outside = "frame={width=64,height=21}\nhardware={organization='raster',store='external',interface='axi'}";
+    let matrix = raster_matrix().into_iter().filter(leaves).map(on_axi);
+    matrix.chain(std::iter::once(outside.to_owned())).collect()
 }
