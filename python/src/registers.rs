@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The registers of a core on AXI, as the table of `foveate._registers`.
 
-use foveate_emit::{Field, Register, registers};
+use foveate_emit::{Field, Register, register_table};
 use pyo3::prelude::*;
 
 use crate::design::Design;
@@ -25,7 +25,7 @@ fn row(own: Register) -> Row {
 /// The table of a design, or why there is none.
 pub(crate) fn registers_of<'py>(py: Python<'py>, design: &Design) -> PyResult<Bound<'py, PyAny>> {
     let inner = design.inner();
-    let (true, Some(raster)) = (inner.is_on_axi(), inner.raster()) else {
+    let Some(table) = register_table(inner) else {
         return Err(value_error(format!(
             "design {} has no registers, because it is not on AXI: organization `{}`, interface `{}`; registers have \
              designs with hardware.organization = 'raster' and hardware.interface = 'axi'",
@@ -34,6 +34,6 @@ pub(crate) fn registers_of<'py>(py: Python<'py>, design: &Design) -> PyResult<Bo
             inner.bus().name(),
         )));
     };
-    let rows: Vec<Row> = registers(raster).into_iter().map(row).collect();
+    let rows: Vec<Row> = table.into_iter().map(row).collect();
     py.import("foveate._registers")?.call_method1("table", (rows,))
 }

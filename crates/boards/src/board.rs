@@ -85,6 +85,17 @@ pub enum Family {
     Vivado,
 }
 
+impl Family {
+    /// How the file is called that is loaded into a device.
+    pub(crate) fn extension(self) -> &'static str {
+        match self {
+            Self::Ice40 => "bin",
+            Self::Ecp5 | Self::Vivado => "bit",
+            Self::Gowin => "fs",
+        }
+    }
+}
+
 /// The clock of a board, and that of the core.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]

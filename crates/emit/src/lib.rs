@@ -27,7 +27,7 @@ mod thresholds;
 mod top;
 mod verilog;
 
-pub use crate::axi::{AXI_TOP, Field, Kind, Register, on_bus, registers, software};
+pub use crate::axi::{AXI_TOP, Field, Kind, Register, on_bus, register_table, registers, software};
 pub use crate::core::core;
 pub use error::EmitError;
 pub use leaf::{LEAVES, Leaf};

@@ -9,7 +9,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
 use foveate_design::{Config, Design, Hardware};
-use foveate_emit::{Field, Kind, Register, registers};
+use foveate_emit::{Field, Kind, Register, register_table};
 use foveate_simulator::{Command, Register as Answer};
 use serde_json::{Value, json};
 
@@ -183,10 +183,7 @@ fn table(design: &Design) -> Option<Vec<Register>> {
     };
     // The first says that there is a core at all; what else is constant every FRAME says.
     let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(changes);
-    let all = match design.hardware() {
-        Hardware::Raster(own) => registers(design.on(own)),
-        Hardware::Pipelined(_) | Hardware::Serial(_) => return None,
-    };
+    let all = register_table(design)?;
     Some(all.into_iter().filter(is_told).chain([board]).collect())
 }
 

@@ -33,7 +33,7 @@ pub fn on_bus(design: &Design) -> Option<Vec<SourceFile>> {
 /// a bus.
 #[must_use]
 pub fn software(design: &Design) -> Vec<SourceFile> {
-    let Some(list) = list(design) else { return Vec::new() };
+    let Some(list) = register_table(design) else { return Vec::new() };
     let banner = banner(design);
     let files = [
         ("REGISTERS.md", pages::markdown(&banner, &list)),
@@ -48,13 +48,18 @@ pub fn software(design: &Design) -> Vec<SourceFile> {
 /// The script that makes IP for Vivado of a core on a bus; none without a bus.
 pub(crate) fn package_ip(design: &Design, prefix: &Prefix) -> Option<SourceFile> {
     let sources = prefix.apply(on_bus(design)?);
-    let contents =
-        pages::package_ip(&banner(design), &prefix.name(AXI_TOP), &sources, &list(design)?);
+    let contents = pages::package_ip(
+        &banner(design),
+        &prefix.name(AXI_TOP),
+        &sources,
+        &register_table(design)?,
+    );
     Some(SourceFile { path: "package_ip.tcl".to_owned(), contents })
 }
 
 /// The registers of a core on a bus; none without a bus.
-fn list(design: &Design) -> Option<Vec<Register>> {
+#[must_use]
+pub fn register_table(design: &Design) -> Option<Vec<Register>> {
     match (design.bus(), design.hardware()) {
         (Bus::Ports, _) | (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
         (Bus::Axi, Hardware::Raster(own)) => Some(registers(design.on(own))),

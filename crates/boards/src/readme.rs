@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The README of a project.
+
+use askama::Template;
+
+use crate::pattern::FRAMES;
+use crate::project::{Project, Wire};
+use crate::script;
+use crate::text::text_of;
+
+#[derive(Template)]
+#[template(path = "README.md")]
+struct Readme<'a> {
+    banner: String,
+    title: &'a str,
+    page: &'a str,
+    sensor: &'a str,
+    width: u32,
+    height: u32,
+    regions: u32,
+    side: u32,
+    core_mhz: u32,
+    baud: u32,
+    fps: String,
+    most: String,
+    wires: Vec<Wire>,
+    is_open: bool,
+    has_sensor: bool,
+    frames: u32,
+    install: &'static str,
+    flash: String,
+}
+
+pub(crate) fn readme(project: &Project) -> String {
+    let Project { board, design, .. } = project;
+    let tools = script::tools(board.device.family);
+    text_of(&Readme {
+        banner: project.banner(),
+        title: &board.title,
+        page: &board.page,
+        sensor: project.sensor_title(),
+        width: design.width(),
+        height: design.height(),
+        regions: design.regions(),
+        side: design.region_size(),
+        core_mhz: board.clock.core_mhz,
+        baud: board.serial.baud,
+        fps: format!("{:.0}", project.fps()),
+        most: format!("{:.0}", project.core_fps(f64::from(board.clock.core_mhz))),
+        wires: project.wires(),
+        is_open: project.is_open(),
+        has_sensor: project.eye.is_some(),
+        frames: FRAMES,
+        install: tools.map_or("", |tools| tools.install),
+        flash: project.flash(),
+    })
+}
