@@ -8,7 +8,7 @@ use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
-use foveate_design::{Config, Design, Hardware};
+use foveate_design::{Config, Design};
 use foveate_emit::{Field, Kind, Register, register_table};
 use foveate_simulator::{Command, Register as Answer};
 use serde_json::{Value, json};
