@@ -21,6 +21,7 @@ module packet_sample #(
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
+        if (WORD_BITS != $clog2(WORDS)) begin : g_word_bits WORD_BITS_must_be_clog2_of_WORDS u_refused (); end
     endgenerate
 
     reg [63:0] words_q[0:WORDS-1];

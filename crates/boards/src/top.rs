@@ -3,7 +3,7 @@
 
 use askama::Template;
 use foveate_design::index_bits;
-use foveate_emit::SourceFile;
+use foveate_emit::{BOARD_LEAVES, Leaf, SourceFile};
 use foveate_packets::Layout;
 
 use crate::board::SensorPins;
@@ -17,17 +17,10 @@ use crate::text::{file, text_of};
 const I2C_HZ: u32 = 100_000;
 const QUARTERS: u32 = 4;
 
-macro_rules! leaves {
-    ($name:ident: $($leaf:literal),+) => {
-        const $name: &[(&str, &str)] =
-            &[$(($leaf, include_str!(concat!("../../../rtl/board/", $leaf, ".v")))),+];
-    };
-}
-
-// Each after what it instantiates.
-leaves!(BEFORE_A_SENSOR: "clock_crossing", "dvp_capture", "i2c_setup");
-leaves!(BEFORE_A_PATTERN: "pattern_source", "packet_signature", "packet_sample");
-leaves!(SERIAL: "packet_bytes", "uart_sender", "uart_receiver", "uart_registers");
+/// What stands before the core, and behind it.
+const BEFORE_A_SENSOR: &[&str] = &["clock_crossing", "dvp_capture", "i2c_setup"];
+const BEFORE_A_PATTERN: &[&str] = &["pattern_source", "packet_signature", "packet_sample"];
+const BEHIND: &[&str] = &["packet_bytes", "uart_sender", "uart_receiver", "uart_registers"];
 
 #[derive(Template)]
 #[template(path = "board.v")]
@@ -126,8 +119,9 @@ pub(crate) fn around(project: &Project) -> Vec<SourceFile> {
             [("expected_sums", expected(project)), ("board", pattern_top(project))],
         ),
     };
-    let leaves = leaves.iter().chain(SERIAL);
-    let leaves = leaves.map(|&(name, text)| file(&path(name), text.to_owned()));
+    let stands = |leaf: &&Leaf| leaves.contains(&leaf.name) || BEHIND.contains(&leaf.name);
+    let leaves = BOARD_LEAVES.iter().filter(stands);
+    let leaves = leaves.map(|leaf| file(&path(leaf.name), leaf.contents.to_owned()));
     let clock = file(&path("board_clock"), clock(project, false));
     leaves.chain([clock]).chain(own.map(|(name, text)| file(&path(name), text))).collect()
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The hand-written leaf modules, and which of them a design needs.
+//! The hand-written leaf modules, which of them a design needs, and those around a core on a board.
 
 use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining, Reference};
 
@@ -15,17 +15,33 @@ pub struct Leaf {
 }
 
 macro_rules! leaves {
-    ($($name:literal => [$($uses:literal),* $(,)?]),+ $(,)?) => {
-        /// Every leaf, each after those that it instantiates.
-        pub const LEAVES: &[Leaf] = &[$(Leaf {
+    ($folder:literal: $($name:literal => [$($uses:literal),* $(,)?]),+ $(,)?) => {
+        &[$(Leaf {
             name: $name,
-            contents: include_str!(concat!("../../../rtl/", $name, ".v")),
+            contents: include_str!(concat!("../../../", $folder, "/", $name, ".v")),
             uses: &[$($uses),*],
-        }),+];
+        }),+]
     };
 }
 
-leaves! {
+/// What stands around a core on a board, each after those that it instantiates; `packet_crc` is one of the core's.
+pub const BOARD_LEAVES: &[Leaf] = leaves! {
+    "rtl/board":
+    "clock_crossing" => [],
+    "dvp_capture" => ["clock_crossing"],
+    "i2c_setup" => [],
+    "pattern_source" => [],
+    "packet_signature" => [],
+    "packet_sample" => [],
+    "packet_bytes" => [],
+    "uart_sender" => [],
+    "uart_receiver" => [],
+    "uart_registers" => ["packet_crc"],
+};
+
+/// Every leaf of a core, each after those that it instantiates.
+pub const LEAVES: &[Leaf] = leaves! {
+    "rtl":
     "frame_sync" => [],
     "line_delay" => [],
     "window_isolated" => [],
@@ -129,7 +145,7 @@ leaves! {
         "serial_raster_feed", "serial_parallel_feed", "serial_sequencer", "serial_shown",
         "serial_group", "serial_sides", "serial_lane", "serial_decision", "serial_summary"
     ],
-}
+};
 
 /// The leaves of these names and those that they elaborate, in compile order; `is_taken` says whether a leaf has a part
 /// inside.

@@ -30,7 +30,7 @@ mod verilog;
 pub use crate::axi::{AXI_TOP, Field, Kind, Register, on_bus, register_table, registers, software};
 pub use crate::core::core;
 pub use error::EmitError;
-pub use leaf::{LEAVES, Leaf};
+pub use leaf::{BOARD_LEAVES, LEAVES, Leaf};
 pub use prefix::Prefix;
 pub use top::{Parameter, Top};
 pub use verilog::verilog;

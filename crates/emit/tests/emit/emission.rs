@@ -8,7 +8,7 @@ use std::path::Path;
 
 use crate::common::{design, matrix, raster_matrix, serial_matrix};
 use foveate_design::{Design, Direction, FeatureKind, RasterTiming, SerialTiming};
-use foveate_emit::{LEAVES, Prefix, SourceFile, Top, verilog};
+use foveate_emit::{BOARD_LEAVES, LEAVES, Leaf, Prefix, SourceFile, Top, verilog};
 
 fn core(design: &Design) -> Vec<SourceFile> {
     foveate_emit::core(design, &Prefix::default())
@@ -36,25 +36,28 @@ fn instantiated(text: &str) -> BTreeSet<&str> {
 }
 
 #[test]
-fn every_leaf_of_the_folder_is_embedded() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../rtl");
-    let in_folder: BTreeSet<String> = fs::read_dir(folder)
-        .unwrap()
-        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
-        .filter_map(|name| name.strip_suffix(".v").map(str::to_owned))
-        .collect();
-    let embedded: BTreeSet<String> = LEAVES.iter().map(|leaf| leaf.name.to_owned()).collect();
-    assert_eq!(in_folder, embedded);
+fn every_leaf_of_the_folders_is_embedded() {
+    for (folder, leaves) in [("rtl", LEAVES), ("rtl/board", BOARD_LEAVES)] {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").join(folder);
+        let in_folder: BTreeSet<String> = fs::read_dir(folder)
+            .unwrap()
+            .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+            .filter_map(|name| name.strip_suffix(".v").map(str::to_owned))
+            .collect();
+        let embedded: BTreeSet<String> = leaves.iter().map(|leaf| leaf.name.to_owned()).collect();
+        assert_eq!(in_folder, embedded);
+    }
 }
 
 #[test]
 fn every_leaf_says_what_it_uses_and_stands_after_it() {
-    for (index, leaf) in LEAVES.iter().enumerate() {
+    let all: Vec<&Leaf> = LEAVES.iter().chain(BOARD_LEAVES).collect();
+    for (index, leaf) in all.iter().enumerate() {
         assert!(leaf.contents.contains(&format!("\nmodule {} ", leaf.name)), "{}", leaf.name);
         let uses: BTreeSet<&str> = leaf.uses.iter().copied().collect();
         assert_eq!(instantiated(leaf.contents), uses, "{}", leaf.name);
         for used in uses {
-            assert!(LEAVES[..index].iter().any(|earlier| earlier.name == used), "{used}");
+            assert!(all[..index].iter().any(|earlier| earlier.name == used), "{used}");
         }
     }
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Modules with other parameters than their defaults, from `limits.txt`.
 
-use foveate_emit::{LEAVES, Leaf};
+use foveate_emit::{BOARD_LEAVES, LEAVES, Leaf};
 use foveate_toolchain::Source;
 use std::collections::BTreeSet;
 
@@ -51,8 +51,13 @@ pub(super) fn with_default(text: &str, name: &str, value: &str) -> String {
     text.replacen(line, &format!("{before}{start}{value}{}", &after[end..]), 1)
 }
 
+/// Those of cores, and those of boards.
+pub(super) fn all_leaves() -> impl Iterator<Item = &'static Leaf> {
+    LEAVES.iter().chain(BOARD_LEAVES)
+}
+
 fn leaf(name: &str) -> &'static Leaf {
-    LEAVES.iter().find(|leaf| leaf.name == name).unwrap_or_else(|| panic!("no leaf {name}"))
+    all_leaves().find(|leaf| leaf.name == name).unwrap_or_else(|| panic!("no leaf {name}"))
 }
 
 impl Case {
