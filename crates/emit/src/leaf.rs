@@ -15,18 +15,23 @@ pub struct Leaf {
 }
 
 macro_rules! leaves {
-    ($folder:literal: $($name:literal => [$($uses:literal),* $(,)?]),+ $(,)?) => {
-        &[$(Leaf {
-            name: $name,
-            contents: include_str!(concat!("../../../", $folder, "/", $name, ".v")),
-            uses: &[$($uses),*],
-        }),+]
+    ($of:ident: $($name:literal => [$($uses:literal),* $(,)?]),+ $(,)?) => {
+        &[$(Leaf { name: $name, contents: text!($of, $name), uses: &[$($uses),*] }),+]
+    };
+}
+
+macro_rules! text {
+    (cores, $name:literal) => {
+        include_str!(concat!("../../../rtl/", $name, ".v"))
+    };
+    (boards, $name:literal) => {
+        include_str!(concat!("../../../rtl/board/", $name, ".v"))
     };
 }
 
 /// What stands around a core on a board, each after those that it instantiates; `packet_crc` is one of the core's.
 pub const BOARD_LEAVES: &[Leaf] = leaves! {
-    "rtl/board":
+    boards:
     "clock_crossing" => [],
     "dvp_capture" => ["clock_crossing"],
     "i2c_setup" => [],
@@ -41,7 +46,7 @@ pub const BOARD_LEAVES: &[Leaf] = leaves! {
 
 /// Every leaf of a core, each after those that it instantiates.
 pub const LEAVES: &[Leaf] = leaves! {
-    "rtl":
+    cores:
     "frame_sync" => [],
     "line_delay" => [],
     "window_isolated" => [],
