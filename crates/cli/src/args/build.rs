@@ -11,8 +11,8 @@ use super::at_least_one;
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate build --list
           foveate build --board icebreaker -o out
-          foveate build --board ulx3s -o out --seeds 5 --set 'periphery.level=8'
-          foveate build --board my_board.toml -o out --project")]
+          foveate build --board ulx3s -o out --seeds 5 --set periphery.level=8
+          foveate build --board vcu118 -o out --project")]
 pub(crate) struct BuildArgs {
     /// The board, or a file with one (.toml)
     #[arg(long, value_name = "NAME", required_unless_present = "list")]

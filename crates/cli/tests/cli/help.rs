@@ -12,7 +12,9 @@ use foveate_toolchain::testing::require_tools;
 
 /// Not run here: they take minutes, each is the subject of other tests, and `examples` in the sources
 /// sees that they are taken.
-const LONG: [&str; 15] = [
+const LONG: [&str; 17] = [
+    "foveate build --board icebreaker",
+    "foveate build --board ulx3s",
     "foveate cosim",
     "foveate estimate",
     "foveate bench",
