@@ -262,7 +262,11 @@ impl Board {
                 self.leds.pins.len()
             ));
         }
-        let wires = if self.device.family == Family::Vivado { 2 } else { 1 };
+        let is_closed = self.device.family == Family::Vivado;
+        if is_closed && eye.is_some() {
+            return Err(format!("device.family = vivado takes sensor = \"{PATTERN}\" alone"));
+        }
+        let wires = if is_closed { 2 } else { 1 };
         if self.clock.pins.len() != wires {
             let pins = self.clock.pins.len();
             return Err(format!("clock.pins has {pins} pins; {wires} are needed"));
@@ -343,6 +347,7 @@ mod tests {
             ("family = \"ice40\"", "family = \"ice41\"", "unknown variant `ice41`"),
             ("package = \"sg48\"", "package = \"sg48\"\nspeed = 6", "device.speed"),
             ("sensor = \"ov7670-qvga\"", "sensor = \"ov7671\"", "no sensor `ov7671`"),
+            ("family = \"ice40\"", "family = \"vivado\"", "\"pattern\" alone"),
             ("xclk = \"47\"", "xlck = \"47\"", "unknown field `xlck`"),
         ] {
             assert!(good.contains(from), "{from}");

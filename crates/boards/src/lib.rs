@@ -22,6 +22,5 @@ mod top;
 pub use board::{Board, Clock, Device, Family, Leds, SensorPins, Serial};
 pub use build::{Built, Used, build, write_project};
 pub use error::BoardError;
-pub use pattern::{pattern, sums};
 pub use project::Project;
 pub use sensor::{Format, I2c, Level, Sensor};

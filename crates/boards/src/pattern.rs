@@ -33,8 +33,7 @@ fn pixel(x: u32, y: u32, frame: u32) -> u8 {
 }
 
 /// A frame of the pattern.
-#[must_use]
-pub fn pattern(width: u32, height: u32, frame: u32) -> Raster {
+fn pattern(width: u32, height: u32, frame: u32) -> Raster {
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let pixels = places.map(|(x, y)| pixel(x, y, frame)).collect();
     Raster::from_bytes(width, height, 8, pixels)
@@ -42,8 +41,7 @@ pub fn pattern(width: u32, height: u32, frame: u32) -> Raster {
 }
 
 /// The sum behind each of so many frames of the pattern.
-#[must_use]
-pub fn sums(design: &Design, frames: u32) -> Vec<u32> {
+pub(crate) fn sums(design: &Design, frames: u32) -> Vec<u32> {
     let (layout, mut engine) = (Layout::new(design, false, 1), Engine::new(design));
     let mut sum = 0_u32;
     let mut add = |number: u32| {
