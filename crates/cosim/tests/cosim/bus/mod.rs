@@ -3,7 +3,7 @@
 
 pub(crate) mod faults;
 
-use crate::common::in_parallel;
+use crate::common::{in_parallel, sampled};
 use faults::{FAULTS, Fault};
 use foveate_cosim::{BusJob, CosimReport};
 use foveate_design::{Config, Design};
@@ -99,7 +99,8 @@ fn every_planted_fault_of_what_stands_around_an_array_is_caught() {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let numbered: Vec<(usize, &Fault)> = FAULTS.iter().enumerate().collect();
+    let faults = sampled(FAULTS, |fault| fault.module);
+    let numbered: Vec<(usize, &Fault)> = faults.into_iter().enumerate().collect();
     let failures = in_parallel(&numbered, |(number, fault)| {
         let Fault { module, from, to, design } = fault;
         let design = on_axi(design);
@@ -124,7 +125,7 @@ fn every_planted_fault_of_what_stands_around_an_array_is_caught() {
         failures.is_empty(),
         "{} of {}:\n{}",
         failures.len(),
-        FAULTS.len(),
+        numbered.len(),
         failures.join("\n")
     );
 }

@@ -8,6 +8,7 @@ use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator, Stimulus};
 use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Toolchain};
+use std::collections::BTreeSet;
 use std::path::Path;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -89,6 +90,17 @@ pub(crate) fn agrees(
         Ok(report) => Err(format!("{what}: {report}")),
         Err(error) => Err(format!("{what}: {error}")),
     }
+}
+
+/// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each third of the
+/// others. With `FOVEATE_ALL_FAULTS` set, as `scripts/release.sh` sets it, all are planted.
+pub(crate) fn sampled<'a, T>(faults: &'a [T], module: impl Fn(&T) -> &'static str) -> Vec<&'a T> {
+    let all = std::env::var_os("FOVEATE_ALL_FAULTS").is_some();
+    let mut seen = BTreeSet::new();
+    let numbered = faults.iter().enumerate();
+    let taken =
+        numbered.filter(|(number, fault)| seen.insert(module(fault)) || all || number % 3 == 0);
+    taken.map(|(_, fault)| fault).collect()
 }
 
 /// Does `work` for every item on every core; failures come back together.

@@ -2,7 +2,7 @@
 //! The C driver of a core on AXI: beside a simulated core, and over damaged streams; for processors of 32 and 64 bits.
 
 use crate::bus::on_axi;
-use crate::common::in_parallel;
+use crate::common::{in_parallel, sampled};
 use foveate_design::{Action, Design};
 use foveate_emit::{AXI_TOP, Kind, on_bus, registers, software};
 use foveate_frame::Frame;
@@ -466,7 +466,7 @@ fn every_planted_fault_of_the_driver_is_caught() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let missed = in_parallel(FAULTS, |&fault| {
+    let missed = in_parallel(&sampled(FAULTS, |_| "foveate.c"), |&&fault| {
         let is_missed = DESIGNS.iter().all(|(keys, changes)| {
             let design = on_axi(keys);
             listen(&design, Some(fault)).is_ok()
