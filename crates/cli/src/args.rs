@@ -162,7 +162,8 @@ pub(crate) struct GenerateArgs {
           foveate cosim --full scene:street
           foveate cosim --config core/design.toml --rtl core/rtl
           foveate cosim --level rcm --grid 3x2 --netlist
-          foveate cosim --config core/design.toml --rtl core/rtl clip.mp4 --packets packets.bin")]
+          foveate cosim --config core/design.toml --rtl core/rtl clip.mp4 --packets packets.bin
+          foveate cosim --preset raster --set \"hardware.interface='axi'\" clip.mp4 --end-to-end out")]
 pub(crate) struct CosimArgs {
     /// Frames to run in addition to the directed and random ones: images, folders, globs, scene:NAME
     #[arg(value_name = "INPUT")]
@@ -207,6 +208,10 @@ pub(crate) struct CosimArgs {
     /// Write the packets that leave a core on AXI while the frames of the inputs come, for `foveate decode`
     #[arg(long, value_name = "FILE", requires = "inputs")]
     pub(crate) packets: Option<PathBuf>,
+    /// Write them into this folder as packets.bin, and beside them what a receiver makes of them (`decode`) and what
+    /// `simulate` says of the same frames without any hardware, and compare the two
+    #[arg(long, value_name = "DIR", requires = "inputs", conflicts_with = "packets")]
+    pub(crate) end_to_end: Option<PathBuf>,
     /// Folder to write if a run fails; it replays the mismatch
     #[arg(long, value_name = "DIR", default_value = "foveate-replay")]
     pub(crate) replay: PathBuf,

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate cosim`: model against RTL, every output at every clock.
 
+mod end_to_end;
 mod plan;
 mod text;
+
+use std::fs;
 
 use foveate_cosim::{
     CosimError, CosimReport, Left, Level, Progress, Simulator, Summary, Verdict, junit_error,
@@ -11,24 +14,43 @@ use foveate_cosim::{
 use foveate_emit::AXI_TOP;
 use foveate_staging::{check_file, write_file};
 use foveate_toolchain::{Cache, Toolchain};
+use serde::Serialize;
 
 use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, output};
+use end_to_end::EndToEnd;
 use plan::{Plan, Work};
+
+/// All that is told.
+#[derive(Serialize)]
+struct Told<'a> {
+    #[serde(flatten)]
+    summary: &'a Summary,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    end_to_end: Option<EndToEnd>,
+}
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     let plan = plan::plan(args)?;
     if let Some(file) = &args.junit {
         check_file(file)?;
     }
+    if let Some(folder) = &args.end_to_end {
+        fs::create_dir_all(folder).map_err(CliError::io("make the folder", folder))?;
+    }
     let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
     let summary = all(args, plan, &toolchain, &cache)?;
     let written = write_junit(args, &junit_xml(&summary));
-    tell(args, &summary)?;
+    let passed = summary.verdict() == Verdict::Passed;
+    let folder = args.end_to_end.as_deref().filter(|_| passed);
+    let end_to_end = folder.map(|folder| end_to_end::compare(args, folder)).transpose()?;
+    let is_received = end_to_end.as_ref().is_none_or(EndToEnd::agrees);
+    tell(args, &Told { summary: &summary, end_to_end })?;
     let complaint = match summary.verdict() {
-        Verdict::Passed => return written,
+        Verdict::Passed if is_received => return written,
+        Verdict::Passed => "a receiver does not see what `simulate` says".to_owned(),
         Verdict::Mismatch => "model and RTL do not agree".to_owned(),
         Verdict::Incomplete => incomplete(&summary),
     };
@@ -156,13 +178,15 @@ fn one(
     report
 }
 
-fn tell(args: &CosimArgs, summary: &Summary) -> Result<(), CliError> {
+fn tell(args: &CosimArgs, told: &Told<'_>) -> Result<(), CliError> {
+    let passed = told.summary.verdict() == Verdict::Passed
+        && told.end_to_end.as_ref().is_none_or(EndToEnd::agrees);
     if args.json {
-        output::json(summary)
-    } else if args.quiet && summary.verdict() == Verdict::Passed {
+        output::json(told)
+    } else if args.quiet && passed {
         Ok(())
     } else {
-        output::text(&text::of(summary, output::width()))
+        output::text(&text::of(told, output::width()))
     }
 }
 

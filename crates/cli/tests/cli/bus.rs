@@ -32,14 +32,16 @@ fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
     core(dir.path());
     let cosim = ["cosim", "--config", "core/design.toml", "--rtl", "core/rtl"];
     let clip = ["scene:street", "--frames", "5"];
-    let text = succeed_in(dir.path(), &[&cosim[..], &clip, &["--packets", "packets.bin"]].concat());
+    let text = succeed_in(dir.path(), &[&cosim[..], &clip, &["--end-to-end", "out"]].concat());
     assert!(
         text.contains("axi verilator:") && text.matches("values compared").count() == 3,
         "{text}"
     );
+    // Five pictures, three arrays of decisions, and one of means that were sent.
+    assert!(text.contains("end to end: 5 frames, 9 files"), "{text}");
 
     let design = ["--config", "core/design.toml"];
-    succeed_in(dir.path(), &[&["decode", "packets.bin", "-o", "seen"][..], &design].concat());
+    succeed_in(dir.path(), &[&["decode", "out/packets.bin", "-o", "seen"][..], &design].concat());
     let simulate = [&["simulate", "-o", "sim"][..], &clip, &design].concat();
     succeed_in(dir.path(), &simulate);
     let names = ["active.npy", "srs.npy", "trs.npy"].map(str::to_owned);
@@ -47,7 +49,9 @@ fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
     for name in names.into_iter().chain(pictures) {
         let [seen, sim] =
             ["seen", "sim"].map(|folder| fs::read(dir.path().join(folder).join(&name)));
-        assert_eq!(seen.unwrap(), sim.unwrap(), "{name}");
+        let (seen, received) = (seen.unwrap(), dir.path().join("out/received").join(&name));
+        assert_eq!(seen, sim.unwrap(), "{name}");
+        assert_eq!(seen, fs::read(received).unwrap(), "{name}");
     }
 }
 
@@ -89,6 +93,9 @@ fn options_of_cores_on_axi_are_refused_elsewhere() {
     fail_in(dir.path(), 2, &["cosim", "--preset", "raster", "--level", "axi"], &ports);
     let packets = ["cosim", "--preset", "raster", "scene:street", "--packets", "p.bin"];
     fail_in(dir.path(), 2, &packets, &ports);
+    let whole = ["cosim", "--preset", "raster", "scene:street", "--end-to-end", "out"];
+    fail_in(dir.path(), 2, &whole, &["--end-to-end", "\"axi\""]);
+    assert!(!dir.path().join("out").exists());
     core(dir.path());
     let part = ["cosim", "--config", "core/design.toml", "--level", "axi", "--netlist"];
     fail_in(dir.path(), 2, &part, &["--level axi", "--netlist"]);

@@ -8,6 +8,7 @@ use foveate_cosim::{BusJob, Job, Level, Simulator, Stimulus, prefixes};
 use foveate_design::Design;
 use foveate_emit::{Prefix, SourceFile, Top};
 
+use super::end_to_end::PACKETS;
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
 
@@ -80,17 +81,20 @@ pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
 /// The core on AXI, where it is to be simulated.
 fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
     let is_part = args.full || args.netlist || args.simulator == SimulatorChoice::Iverilog;
-    let is_asked = args.level == Some(args::CosimLevel::Axi) || args.packets.is_some();
-    let option = if args.packets.is_some() { "--packets" } else { "--level axi" };
+    let packets = args.packets.clone().or(args.end_to_end.as_ref().map(|dir| dir.join(PACKETS)));
+    let is_asked = args.level == Some(args::CosimLevel::Axi) || packets.is_some();
+    let option = match (&args.packets, &args.end_to_end) {
+        (Some(_), _) => "--packets",
+        (None, Some(_)) => "--end-to-end",
+        (None, None) => "--level axi",
+    };
     if is_asked && is_part {
         let message = format!("{option} goes without --full, --netlist and --simulator iverilog");
         return Err(CliError::Usage(message));
     }
     let wanted = is_asked || (args.level.is_none() && !is_part);
     match BusJob::new(design, &args.replay) {
-        Some(job) if wanted => {
-            Ok(Some(BusJob { packets: args.packets.clone(), trace: args.trace, ..job }))
-        }
+        Some(job) if wanted => Ok(Some(BusJob { packets, trace: args.trace, ..job })),
         None if is_asked => Err(CliError::Usage(format!(
             "{option} is for a core on AXI; this design has hardware.interface = \"ports\", so set it to \"axi\""
         ))),

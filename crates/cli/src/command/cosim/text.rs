@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A summary of co-simulations for people.
 
-use foveate_cosim::{CosimReport, Summary};
+use foveate_cosim::CosimReport;
+
+use super::Told;
 
 /// The text, in lines of at most `width` columns where words allow it.
-pub(super) fn of(summary: &Summary, width: usize) -> String {
+pub(super) fn of(told: &Told<'_>, width: usize) -> String {
+    let Told { summary, end_to_end } = told;
     let mut text = String::new();
     for report in &summary.runs {
         add(&mut text, &report.to_string(), "", width);
@@ -31,6 +34,9 @@ pub(super) fn of(summary: &Summary, width: usize) -> String {
     }
     for left_out in &summary.not_elaborated {
         add(&mut text, &format!("not elaborated: {left_out}"), "", width);
+    }
+    if let Some(found) = end_to_end {
+        add(&mut text, &found.text(), "", width);
     }
     text
 }

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From a clip through a core on AXI to a receiver's screen, beside what `simulate` says without any hardware.
+
+use std::collections::BTreeSet;
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+
+use foveate_design::Config;
+use foveate_footage::{InputOptions, open};
+use foveate_simulator::{Recording, RunOptions, Simulation};
+use serde::Serialize;
+
+use super::super::simulate::Terminal;
+use crate::args::CosimArgs;
+use crate::error::CliError;
+
+/// What is in the folder: the packets, what a receiver makes of them, and what the model says.
+pub(super) const PACKETS: &str = "packets.bin";
+const RECEIVED: &str = "received";
+const SIMULATED: &str = "simulated";
+
+/// Whether a receiver sees what `simulate` says.
+#[derive(Debug, Serialize)]
+pub(super) struct EndToEnd {
+    frames: u64,
+    /// Arrays and pictures that were compared.
+    files: usize,
+    /// Those that are not the same, or not in both folders.
+    differences: Vec<String>,
+    received: PathBuf,
+    simulated: PathBuf,
+}
+
+impl EndToEnd {
+    pub(super) fn agrees(&self) -> bool {
+        self.differences.is_empty()
+    }
+
+    /// A line for people.
+    pub(super) fn text(&self) -> String {
+        let Self { frames, files, differences, received, simulated } = self;
+        let (received, simulated) = (received.display(), simulated.display());
+        if differences.is_empty() {
+            return format!(
+                "end to end: {frames} frames, {files} files with decisions and rendered frames in {received}, as in {simulated}"
+            );
+        }
+        let names = differences.join(", ");
+        format!("end to end: in {received} these files are not as in {simulated}: {names}")
+    }
+}
+
+/// Decodes the packets that a core has sent, simulates the same frames, and compares.
+pub(super) fn compare(args: &CosimArgs, folder: &Path) -> Result<EndToEnd, CliError> {
+    let config = args.design.read()?;
+    let mut hooks = Terminal::new(true)?;
+    let options = RunOptions { overwrite: true, ..RunOptions::default() };
+    let (received, simulated) = (folder.join(RECEIVED), folder.join(SIMULATED));
+    let simulation = simulation(args, &config)?;
+    // The clip says how large its frames are; packets alone do not.
+    let config = simulation.design().config().clone();
+
+    let packets = folder.join(PACKETS);
+    let mut stream = File::open(&packets).map_err(CliError::io("read the packets", &packets))?;
+    let name = packets.display().to_string();
+    let recording = Recording { config: &config, stream: &mut stream, name: &name };
+    let decoded = recording.decode(&received, &options, &mut hooks)?;
+    hooks.verdict(&received, decoded.summary.problem)?;
+    let summary = simulation.run(&simulated, &options, &mut hooks)?;
+    hooks.verdict(&simulated, summary.problem)?;
+    let (files, differences) = differences(&received, &simulated)?;
+    Ok(EndToEnd { frames: summary.frames, files, differences, received, simulated })
+}
+
+fn simulation(args: &CosimArgs, config: &Config) -> Result<Simulation, CliError> {
+    let input = InputOptions { frames: Some(args.frames), ..InputOptions::default() };
+    Ok(Simulation::new(config, open(&args.inputs, &config.camera, &input)?)?)
+}
+
+/// How many arrays and pictures a receiver has, and which of them differ from those of the model. Of a picture that only one
+/// has, too: the model has no more of them. Scores are in its folder alone, as packets have none.
+fn differences(received: &Path, simulated: &Path) -> Result<(usize, Vec<String>), CliError> {
+    let arrays = names(received)?.into_iter().filter(|name| name.ends_with(".npy"));
+    let pictures = [received, simulated].map(|folder| names(&folder.join("rendered")));
+    let pictures = pictures.into_iter().collect::<Result<Vec<_>, _>>()?.into_iter().flatten();
+    let all: BTreeSet<String> =
+        arrays.chain(pictures.map(|name| format!("rendered/{name}"))).collect();
+    let read = |folder: &Path, name: &str| fs::read(folder.join(name)).ok();
+    let differs = |name: &&String| {
+        let found = read(received, name);
+        found.is_none() || found != read(simulated, name)
+    };
+    Ok((all.len(), all.iter().filter(differs).cloned().collect()))
+}
+
+/// The names of the files of a folder.
+fn names(folder: &Path) -> Result<Vec<String>, CliError> {
+    let entries = fs::read_dir(folder).map_err(CliError::io("read the folder", folder))?;
+    let name = |entry: std::io::Result<fs::DirEntry>| {
+        let entry = entry.map_err(CliError::io("read the folder", folder))?;
+        Ok(entry.file_name().to_string_lossy().into_owned())
+    };
+    entries.map(name).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A folder as `simulate` writes it.
+    fn folder(root: &Path, name: &str, pictures: &[&str]) -> PathBuf {
+        let folder = root.join(name);
+        fs::create_dir_all(folder.join("rendered")).unwrap();
+        fs::write(folder.join("active.npy"), "decisions").unwrap();
+        fs::write(folder.join("frames.csv"), name).unwrap();
+        for picture in pictures {
+            fs::write(folder.join("rendered").join(picture), picture).unwrap();
+        }
+        folder
+    }
+
+    #[test]
+    fn a_picture_that_differs_or_is_missing_is_named() {
+        let dir = tempfile::tempdir().unwrap();
+        let received = folder(dir.path(), RECEIVED, &["0.png", "1.png"]);
+        let simulated = folder(dir.path(), SIMULATED, &["0.png", "1.png"]);
+        fs::write(simulated.join("score_edge.npy"), "scores").unwrap();
+        let said = |received, simulated| differences(received, simulated).unwrap();
+        assert_eq!(said(&received, &simulated), (3, vec![]));
+
+        fs::write(received.join("rendered/1.png"), "another").unwrap();
+        assert_eq!(said(&received, &simulated), (3, vec!["rendered/1.png".to_owned()]));
+        fs::remove_file(received.join("rendered/1.png")).unwrap();
+        assert_eq!(said(&received, &simulated), (3, vec!["rendered/1.png".to_owned()]));
+        fs::write(received.join("active.npy"), "others").unwrap();
+        assert_eq!(said(&received, &simulated).1.len(), 2);
+    }
+}
