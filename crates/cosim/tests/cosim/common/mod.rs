@@ -94,7 +94,7 @@ pub(crate) fn agrees(
 
 /// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each third of the
 /// others. With `FOVEATE_ALL_FAULTS` set, as `scripts/release.sh` sets it, all are planted.
-pub(crate) fn sampled<'a, T>(faults: &'a [T], module: impl Fn(&T) -> &'static str) -> Vec<&'a T> {
+pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let all = std::env::var_os("FOVEATE_ALL_FAULTS").is_some();
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
