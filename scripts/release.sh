@@ -32,8 +32,8 @@ step_cosim() {
 step_benches() {
     # Every output of the shipped benches tied to 0, over sizes, folds and feeds.
     cargo test --locked --package foveate-cosim --test cosim -- --ignored tied
-    # Every planted fault of the lists of which the tests plant a third.
-    FOVEATE_ALL_FAULTS=1 cargo test --locked --package foveate-cosim --test cosim -- planted
+    # Lists of faults and netlists of which the tests take a part.
+    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted netlists
 }
 step_netlists() {
     local array=(--level rcm --rounds 1)

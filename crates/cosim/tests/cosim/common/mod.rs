@@ -92,14 +92,18 @@ pub(crate) fn agrees(
     }
 }
 
+/// Whether lists that take long are taken whole: with `FOVEATE_WHOLE` set, as `scripts/release.sh` sets it.
+pub(crate) fn whole() -> bool {
+    std::env::var_os("FOVEATE_WHOLE").is_some()
+}
+
 /// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each third of the
-/// others. With `FOVEATE_ALL_FAULTS` set, as `scripts/release.sh` sets it, all are planted.
+/// others; or all.
 pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
-    let all = std::env::var_os("FOVEATE_ALL_FAULTS").is_some();
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
     let taken =
-        numbered.filter(|(number, fault)| seen.insert(module(fault)) || all || number % 3 == 0);
+        numbered.filter(|(number, fault)| seen.insert(module(fault)) || whole() || number % 3 == 0);
     taken.map(|(_, fault)| fault).collect()
 }
 
