@@ -242,8 +242,8 @@ fn the_area_of_a_raster_core_is_no_rpus() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let design =
-        ["--set", "hardware.organization='raster'", "--set", "frame={width=128,height=72}"];
+    let frame = "frame={width=128,height=72}";
+    let design = ["--preset", "bare", "--set", "hardware.organization='raster'", "--set", frame];
     let text = succeed_in(dir.path(), &[&["estimate"], &design[..]].concat());
     for (part, is_there) in [
         ("Area of 144 regions, one core for all", true),
