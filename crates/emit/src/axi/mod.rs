@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A core on a bus: the module `rcm_axi` around the array, and its registers.
 
+
 mod pages;
 mod registers;
+mod rpu_array;
 mod top;
 mod verilog;
 
+pub use rpu_array::{
+    ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table,
+};
 pub use registers::{Field, Kind, Register, registers};
 
 use crate::text::{file, text_of};
@@ -73,7 +78,7 @@ fn around(design: RasterDesign<'_>) -> Vec<SourceFile> {
         .map(|leaf| file(leaf.name, leaf.contents.to_owned()));
     let registers = registers(design);
     let own = [
-        file("axi_registers", text_of(&verilog::view(&design, &registers))),
+        file("axi_registers", text_of(&verilog::view(&design, ("axi_registers", false), &registers))),
         file(AXI_TOP, text_of(&top::view(design))),
     ];
     leaves.chain(own).collect()
