@@ -138,9 +138,7 @@ pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
         let name = port.name.trim_end_matches("_i").to_owned();
         thresholds.push(Threshold { name, range: range(port.width), turn: turn(port.role) });
     }
-    let minimum_at = timing.decision_latency
-        + 1
-        + timing.decision_frames * timing.cycles_per_frame;
+    let minimum_at = timing.decision_latency + 1 + timing.decision_frames * timing.cycles_per_frame;
     let mut head: Vec<String> = Vec::new();
     let mut pins = Vec::new();
     let mut low = BYTE;
@@ -214,7 +212,12 @@ pub(crate) fn sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
 }
 
 /// What a region says of the frame that an engine has just taken, byte by byte.
-fn said(design: &Design, scores: &[Score], engine: &Engine, (frame, region): (u32, u32)) -> Vec<u8> {
+fn said(
+    design: &Design,
+    scores: &[Score],
+    engine: &Engine,
+    (frame, region): (u32, u32),
+) -> Vec<u8> {
     let (outcome, at) = (engine.outcome(), region as usize);
     let action = outcome.actions[at];
     let bits = [outcome.srs[at], outcome.trs[at], action == Action::Summarize, outcome.active[at]];

@@ -144,6 +144,9 @@ module board (
         .capture_frame_o(frame), .capture_start_o(start), .capture_captured_i(captured), .captured_frame_i(captured_frame),
         .captured_decision_srs_i(captured_head[0]), .captured_decision_trs_i(captured_head[1]),
         .captured_decision_summary_i(captured_head[2]), .captured_decision_active_i(captured_head[3]),
+{%- for threshold in thresholds %}
+        .{= threshold.name =}_o(written_{= threshold.name =}),
+{%- endfor %}
 {%- for pin in pins %}
         .{= pin.0 =}({= pin.1 =}),
 {%- endfor %}
