@@ -47,9 +47,9 @@ module array_signature #(
             assign nodes[32*row+:32] = chain[31:0];
             for (column = 0; column < COLUMNS; column = column + 1) begin : g_column
                 localparam REGION = row * COLUMNS + column;
-                // The sum of a decision and its scores, four bytes at a time.
+                // The sum of the region's number, which is a constant, and of a decision and its scores, four bytes at a time.
                 wire [32*PIECES+31:0] parts;
-                assign parts[31:0] = 32'hFFFFFFFF;
+                packet_crc #(.BITS(32)) u_number (.crc_i(32'hFFFFFFFF), .data_i(REGION[31:0]), .crc_o(parts[31:0]));
                 for (piece = 0; piece < PIECES; piece = piece + 1) begin : g_piece
                     localparam BITS = HEAD_BITS - 32 * piece < 32 ? HEAD_BITS - 32 * piece : 32;
                     packet_crc #(.BITS(BITS)) u_head (

@@ -221,8 +221,9 @@ fn said(
     let (outcome, at) = (engine.outcome(), region as usize);
     let action = outcome.actions[at];
     let bits = [outcome.srs[at], outcome.trs[at], action == Action::Summarize, outcome.active[at]];
-    let decision = (0_u32..).zip(bits).map(|(bit, value)| u8::from(value) << bit).sum();
-    let mut bytes: Vec<u8> = vec![decision];
+    let decision: u8 = (0_u32..).zip(bits).map(|(bit, value)| u8::from(value) << bit).sum();
+    let mut bytes = region.to_le_bytes().to_vec();
+    bytes.push(decision);
     for score in scores {
         let value = match score.kind {
             None => outcome.temporal_count[at].into(),

@@ -2,12 +2,13 @@
 // An array on a board: runs until a light says right or wrong, and then lets a host send commands, each when the answer to the one
 // before has come.
 //
-//   program FOLDER
+//   program FOLDER [+faultN]
 //
 // FOLDER/host   commands: a byte, and the 24 bytes of one. If the byte is 1, it is sent until bit 1 of its answer is 1
 // FOLDER/heard  is written: the last answer to each
-// prints the lights, and the clocks until they were on
-#include "Vboard.h"
+// FOLDER/sums   is written: the sum behind each frame
+// prints the lights, the clocks until they were on, and the frame from which on what was written last holds
+#include "Varray_bench.h"
 #include "verilated.h"
 
 #include <cstdint>
@@ -19,13 +20,15 @@
 #include <vector>
 
 int main(int count, char **words) {
-    if (count != 2) return 2;
+    if (count < 2) return 2;
+    Verilated::commandArgs(count, words);
     const std::size_t length = 24;
     const std::string folder = words[1];
     std::ifstream file(folder + "/host", std::ios::binary);
     const std::vector<char> script(std::istreambuf_iterator<char>(file), {});
-    const auto top = std::make_unique<Vboard>();
+    const auto top = std::make_unique<Varray_bench>();
     std::vector<char> heard, answer;
+    std::vector<std::uint32_t> sums;
     std::uint64_t clocks = 0, lit = 0;
     std::size_t at = 0, said = 0;
     int send_bits = 0, send_wait = 0, wait = 0, bits = 0;
@@ -40,6 +43,7 @@ int main(int count, char **words) {
         top->clk_n_i = 1;
         top->eval();
         ++clocks;
+        if (top->done_o) sums.push_back(top->sum_o);
         if (!(top->led_o & 6)) continue;
         if (!lit) lit = clocks;
         // A byte that comes. Between answers the line rests.
@@ -81,9 +85,11 @@ int main(int count, char **words) {
             send_bits = 10;
         }
     }
-    std::printf("%d %llu\n", top->led_o & 6, static_cast<unsigned long long>(lit));
+    std::printf("%d %llu %u\n", top->led_o & 6, static_cast<unsigned long long>(lit), top->from_o);
     std::ofstream out(folder + "/heard", std::ios::binary);
     out.write(heard.data(), static_cast<std::streamsize>(heard.size()));
+    std::ofstream added(folder + "/sums", std::ios::binary);
+    added.write(reinterpret_cast<const char *>(sums.data()), static_cast<std::streamsize>(4 * sums.size()));
     top->final();
     return is_broken || at < script.size();
 }
