@@ -5,9 +5,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command as Process;
 
-use crate::common::{compiled, verilog};
-use foveate_boards::{Board, BoardError, Project};
-use foveate_design::{Action, Camera, Config, Irrelevant, Preset, Reference};
+use crate::common::{array_on, compiled, verilog};
+use foveate_boards::{Board, Project};
+use foveate_design::{Action, Camera, Irrelevant, Reference};
 use foveate_emit::{Register, array_table};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
@@ -24,11 +24,9 @@ const WRONG: &str = "2";
 const VALUES: u16 = 0x800;
 
 /// An array on a VCU118, with a serial line as fast as can be.
-fn array(keys: &[&str]) -> Result<Project, BoardError> {
+fn fast(keys: &[&str]) -> Project {
     let toml = VCU118.replace("baud = 921_600", "baud = 31_250_000");
-    let board = Board::from_toml("vcu118", &toml).unwrap();
-    let paper = Preset::find("paper").unwrap().toml;
-    Project::new(board, Config::from_toml_with(paper, keys).unwrap().validate().unwrap())
+    array_on(Board::from_toml("vcu118", &toml).unwrap(), keys).unwrap()
 }
 
 /// 4 x 3 regions of 6 x 6. The gradient is not alike in them, so the first pixel of a region counts, too.
@@ -38,9 +36,9 @@ const SMALL: &[&str] = &[
     "spatial=[{feature='edge',level=20,min_score=3}]",
     "temporal={level=4,min_count=2,reference='last-sent'}",
 ];
-/// 4 x 3 regions of 8 x 8, all features, raw pixels.
+/// 3 x 2 regions of 8 x 8, all features, raw pixels.
 const LARGE: &[&str] = &[
-    "frame={width=32,height=24}",
+    "frame={width=24,height=16}",
     "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},{feature='corner',level=3,min_score=6},\
      {feature='variance',min_score=150}]",
     "decision.combine='all'",
@@ -56,13 +54,6 @@ const DEEP: &[&str] = &[
     "render.irrelevant='mean'",
     "periphery={blocks=2,level=2}",
     "hardware.pipelining='deep'",
-];
-
-/// 2 x 2 regions of 4 x 4, for faults.
-const TINY: &[&str] = &[
-    "frame={width=8,height=8}",
-    "region.size=4",
-    "spatial=[{feature='edge',level=20,min_score=3}]",
 ];
 
 fn pixel(x: u32, y: u32, t: u32) -> u16 {
@@ -382,8 +373,8 @@ fn an_array_on_a_board_says_what_the_model_says() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    for keys in [SMALL, LARGE, DEEP] {
-        let project = array(keys).unwrap();
+    for (keys, thresholds) in [(SMALL, OF_SMALL), (LARGE, OF_LARGE), (DEEP, &[])] {
+        let project = fast(keys);
         let (camera, bench) = (project.design.camera(), Bench::new(&project, &[]));
         // Frames with and without a square. Small regions have far more frames in the same time.
         let (right, low) = (camera.columns() - 1, camera.rows() - 1);
@@ -405,13 +396,16 @@ fn an_array_on_a_board_says_what_the_model_says() {
         }
         assert!(captured.iter().any(|captured| !captured.values.is_empty()), "{keys:?}");
         assert!(captured.iter().any(|captured| captured.decision & 8 == 0), "{keys:?}");
+        for threshold in thresholds {
+            assert_eq!(written(&bench, keys, *threshold), None, "{keys:?}");
+        }
     }
 }
 
 /// Lets a host write a threshold, and says what is wrong with the frames around that, if each is to be computed with all
 /// thresholds of one set.
 fn written(bench: &Bench, keys: &[&str], (name, value, key): (&str, u32, &str)) -> Option<String> {
-    let (project, other) = (array(keys).unwrap(), array(&[keys, &[key]].concat()).unwrap());
+    let (project, other) = (fast(keys), fast(&[keys, &[key]].concat()));
     let cameras = [project.design.camera(), other.design.camera()];
     // Time passes while others are read.
     let mut host = vec![bench.read("frames"), bench.write(name, value), bench.read(name)];
@@ -434,36 +428,28 @@ const LEVEL: (&str, u32, &str) =
     ("edge_level", 0, "spatial=[{feature='edge',level=0,min_score=3}]");
 const LEAST: (&str, u32, &str) = ("edge_min", 0, "spatial=[{feature='edge',level=20,min_score=0}]");
 
-#[test]
-fn thresholds_hold_from_one_frame_on() {
-    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
-        return;
-    }
-    let bench = Bench::new(&array(SMALL).unwrap(), &[]);
-    let (level, count) =
-        (("temporal_level", 0, "temporal.level=0"), ("temporal_min", 9, "temporal.min_count=9"));
-    for threshold in [LEVEL, LEAST, level, count] {
-        assert_eq!(written(&bench, SMALL, threshold), None);
-    }
-    let bench = Bench::new(&array(LARGE).unwrap(), &[]);
-    for threshold in [
-        (
-            "corner_level",
-            0,
-            "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},\
-             {feature='corner',level=0,min_score=6},{feature='variance',min_score=150}]",
-        ),
-        ("temporal_level", 0, "temporal.level=0"),
-        (
-            "corner_min",
-            0,
-            "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},\
-             {feature='corner',level=3,min_score=0},{feature='variance',min_score=150}]",
-        ),
-    ] {
-        assert_eq!(written(&bench, LARGE, threshold), None);
-    }
-}
+/// Thresholds that a host writes, and the same as keys.
+const OF_SMALL: &[(&str, u32, &str)] = &[
+    LEVEL,
+    LEAST,
+    ("temporal_level", 0, "temporal.level=0"),
+    ("temporal_min", 9, "temporal.min_count=9"),
+];
+const OF_LARGE: &[(&str, u32, &str)] = &[
+    (
+        "corner_level",
+        0,
+        "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},\
+         {feature='corner',level=0,min_score=6},{feature='variance',min_score=150}]",
+    ),
+    ("temporal_level", 0, "temporal.level=0"),
+    (
+        "corner_min",
+        0,
+        "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},\
+         {feature='corner',level=3,min_score=0},{feature='variance',min_score=150}]",
+    ),
+];
 
 /// Faults that light the wrong light.
 const LIT: &[Switch] = &[
@@ -500,7 +486,7 @@ fn an_array_that_is_wrong_is_seen() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let project = array(SMALL).unwrap();
+    let project = fast(SMALL);
     let camera = project.design.camera();
     let bench = Bench::new(&project, &[LIT, CAPTURED, TURNED].concat());
     assert_eq!(bench.play(&[]).lights, RIGHT);
@@ -528,7 +514,7 @@ fn an_array_that_is_wrong_is_seen() {
 #[test]
 #[ignore = "takes minutes and gigabytes"]
 fn the_array_of_the_paper_says_what_the_model_says() {
-    let project = array(&[]).unwrap();
+    let project = fast(&[]);
     let (camera, bench) = (project.design.camera(), Bench::new(&project, &[]));
     let wanted = [((0, 0), 1), ((27, 27), 60), ((13, 5), 9)];
     let (run, captured) = captures(&bench, camera, &wanted);
