@@ -54,15 +54,15 @@ pattern_source   pattern_bench    LANES=1 WORDS=150 LINES=70 WIDTH=10
 pattern_source   pattern_bench    LANES=8 WORDS=65 LINES=300 WIDTH=16 FRAMES=2
 pattern_source   pattern_bench    LANES=3 WORDS=2 LINES=2 WIDTH=5 FRAMES=200
 array_pattern    array_pattern_bench    FRAMES=132
-array_pattern    array_pattern_bench    COLUMNS=28 ROWS=10 FRAMES=9
-array_pattern    array_pattern_bench    COLUMNS=1 ROWS=1 SIDE=64 FRAMES=3
-array_pattern    array_pattern_bench    COLUMNS=7 ROWS=45 SIDE=3 FRAMES=30
+array_pattern    array_pattern_bench    COLUMNS=28 ROWS=4 FRAMES=5
+array_pattern    array_pattern_bench    COLUMNS=1 ROWS=1 SIDE=64 FRAMES=2
+array_pattern    array_pattern_bench    COLUMNS=4 ROWS=45 SIDE=3 FRAMES=12
 array_turn       array_turn_bench
 array_turn       array_turn_bench       PIXELS=64
 array_turn       array_turn_bench       LEVEL_AT=1 TEMPORAL_AT=1 MINIMUM_AT=18 PIXELS=16
 array_signature  array_signature_bench
 array_signature  array_signature_bench  COLUMNS=1 ROWS=1 HEAD_BYTES=1 PIXELS=4
-array_signature  array_signature_bench  COLUMNS=9 ROWS=6 HEAD_BYTES=13 SEED=2
+array_signature  array_signature_bench  COLUMNS=2 ROWS=3 HEAD_BYTES=6 SEED=2
 array_snapshot   array_snapshot_bench
 array_snapshot   array_snapshot_bench   COLUMNS=1 ROWS=1 HEAD_BYTES=1 PIXELS=4
 array_snapshot   array_snapshot_bench   COLUMNS=3 ROWS=5 HEAD_BYTES=5 PIXELS=64 SEED=2
@@ -158,7 +158,7 @@ array_turn       s/soon_i \&\& !busy_q/soon_i/
 array_turn       s/count_q == LEVEL_AT/count_q == TEMPORAL_AT/
 array_turn       s/count_q == MINIMUM_AT/count_q == TEMPORAL_AT/
 array_turn       s/!rst_i \&\& (begin_o/(begin_o/
-array_signature  s/REGION\[31:0\]/32'd0/
+array_signature  s/numbered(REGION)/numbered(0)/
 array_signature  s/forward_valid_i\[REGION\] ? more : crc_q/more/
 array_signature  s/decided_i ? ~next : chain/decided_i ? ~crc_q : chain/
 array_signature  s/decided_i ? ~next : chain/decided_i ? next : chain/

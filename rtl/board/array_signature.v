@@ -36,6 +36,15 @@ module array_signature #(
     localparam PIECES = (HEAD_BYTES + 3) / 4;
     localparam HEAD_BITS = HEAD_BYTES * 8;
 
+    // The sum of the number of a region in four bytes.
+    function [31:0] numbered(input integer number);
+        integer step;
+        begin
+            numbered = ~number;
+            for (step = 0; step < 32; step = step + 1) numbered = numbered[0] ? (numbered >> 1) ^ 32'hEDB88320 : numbered >> 1;
+        end
+    endfunction
+
     // Nodes of the tree, from the leaves on; level l begins at node START.
     wire [64*LEAVES-33:0] nodes;
 
@@ -47,9 +56,10 @@ module array_signature #(
             assign nodes[32*row+:32] = chain[31:0];
             for (column = 0; column < COLUMNS; column = column + 1) begin : g_column
                 localparam REGION = row * COLUMNS + column;
-                // The sum of the region's number, which is a constant, and of a decision and its scores, four bytes at a time.
+                // The sum of the region's number, and with it that of a decision and its scores, four bytes at a time.
+                localparam [31:0] NUMBERED = numbered(REGION);
                 wire [32*PIECES+31:0] parts;
-                packet_crc #(.BITS(32)) u_number (.crc_i(32'hFFFFFFFF), .data_i(REGION[31:0]), .crc_o(parts[31:0]));
+                assign parts[31:0] = NUMBERED;
                 for (piece = 0; piece < PIECES; piece = piece + 1) begin : g_piece
                     localparam BITS = HEAD_BITS - 32 * piece < 32 ? HEAD_BITS - 32 * piece : 32;
                     packet_crc #(.BITS(BITS)) u_head (

@@ -68,7 +68,7 @@ module array_signature_bench;
             #1 rst = 0;
             {known, seen, clocks, total, latest} = 0;
             repeat (5) @(posedge clk);
-            for (n = 0; n < 200; n = n + 1) begin
+            for (n = 0; n < 60; n = n + 1) begin
                 #1;
                 // What is decided, and with it the last pixels of the frame before.
                 for (place = 0; place < PIXELS; place = place + 1) begin
@@ -77,7 +77,7 @@ module array_signature_bench;
                     for (region = 0; region < REGIONS; region = region + 1) begin
                         leaves[region]      = n % 3 == 0 ? $random(seed) : n % 3 == 1;
                         pixels[region*8+:8] = $random(seed);
-                        if (leaves[region] && n > 0) crc[region] = with_byte(crc[region], pixels[region*8+:8]);
+                        if (leaves[region] && (n > 0 || place > 0)) crc[region] = with_byte(crc[region], pixels[region*8+:8]);
                     end
                     if (place == 0) begin
                         if (n > 0) begin
@@ -98,7 +98,7 @@ module array_signature_bench;
             end
             decided = 0;
             repeat (COLUMNS + 20) @(posedge clk);
-            if (seen != 199) fail("not all frames came");
+            if (seen != 59) fail("not all frames came");
         end
         if (errors == 0) $display("PASS array_signature_bench, %0d x %0d: %0d frames twice, sum %h", COLUMNS, ROWS, seen, sum);
         else $display("FAIL array_signature_bench: %0d errors", errors);

@@ -84,7 +84,7 @@ module array_snapshot_bench;
         end
     end
 
-    integer tries, waited, k, before;
+    integer tries, waited, k, begun;
     initial begin
         repeat (4) @(posedge clk);
         #2 rst = 0;
@@ -99,7 +99,7 @@ module array_snapshot_bench;
             #2 start = 1;
             @(posedge clk);
             #2 start = 0;
-            before = n;
+            begun = n;
             // One that has begun is forgotten with the next start.
             if (tries % 5 == 4) begin
                 while (n % 128 != (frame + 1) % 128) @(posedge clk);
@@ -117,7 +117,7 @@ module array_snapshot_bench;
             end
             if (!captured) fail("not captured");
             else begin
-                if (number[6:0] !== frame || number >= n || number < before) fail("not a frame that was asked for");
+                if (number[6:0] !== frame || number >= n || number < begun) fail("not a frame that was asked for");
                 if (n - number > 2) fail("captured long after it has left");
                 if (kept !== said_head[number%512]) fail("not its decision and scores");
                 if (count !== said_count[number%512]) fail("not as many pixels as left");
