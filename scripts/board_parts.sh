@@ -171,9 +171,9 @@ array_snapshot   s/next_q\[6:0\] == frame_i/next_q[5:0] == frame_i[5:0]/
 array_snapshot   s/in_column_q\[at\]/in_column_q[0]/
 array_snapshot   s/row_i == row/row_i[0] == row[0] || row_i == row/
 array_snapshot   s/decided_q       <= decided_first_q/decided_q       <= decided_i/
-array_snapshot   s/wire keep = keeps_q \&\& leaves/wire keep = leaves \&\& (keeps_q || waits_q)/
+array_snapshot   s/wire keep = keeps_q \&\& leaves/wire keep = leaves/
 array_snapshot   s/if (keeps_q \&\& decided_q)/if (keeps_q \&\& decided_first_q)/
-array_snapshot   s/keeps_q    <= 1'b0;\n            captured_q <= 1'b0/captured_q <= 1'b0/
+array_snapshot   s/waits_q    <= 1'b1;/waits_q    <= !keeps_q;/
 array_snapshot   s/wire \[31:0\] part = .*/wire [31:0] part = part_q | ({24'd0, pixel} << {count_q[1:0], 3'd0});/
 array_snapshot   s/count_q  <= {COUNT_BITS{1'b0}};/count_q  <= count_q;/
 array_snapshot   s/there_q ? word_q : 32'd0/word_q/
