@@ -53,6 +53,19 @@ pattern_source   pattern_bench
 pattern_source   pattern_bench    LANES=1 WORDS=150 LINES=70 WIDTH=10
 pattern_source   pattern_bench    LANES=8 WORDS=65 LINES=300 WIDTH=16 FRAMES=2
 pattern_source   pattern_bench    LANES=3 WORDS=2 LINES=2 WIDTH=5 FRAMES=200
+array_pattern    array_pattern_bench    FRAMES=132
+array_pattern    array_pattern_bench    COLUMNS=28 ROWS=4 FRAMES=5
+array_pattern    array_pattern_bench    COLUMNS=1 ROWS=1 SIDE=64 FRAMES=2
+array_pattern    array_pattern_bench    COLUMNS=4 ROWS=45 SIDE=3 FRAMES=12
+array_turn       array_turn_bench
+array_turn       array_turn_bench       PIXELS=64
+array_turn       array_turn_bench       LEVEL_AT=1 TEMPORAL_AT=1 MINIMUM_AT=18 PIXELS=16
+array_signature  array_signature_bench
+array_signature  array_signature_bench  COLUMNS=1 ROWS=1 HEAD_BYTES=1 PIXELS=4
+array_signature  array_signature_bench  COLUMNS=2 ROWS=3 HEAD_BYTES=6 SEED=2
+array_snapshot   array_snapshot_bench
+array_snapshot   array_snapshot_bench   COLUMNS=1 ROWS=1 HEAD_BYTES=1 PIXELS=4
+array_snapshot   array_snapshot_bench   COLUMNS=3 ROWS=5 HEAD_BYTES=5 PIXELS=64 SEED=2
 END
 }
 
@@ -131,6 +144,39 @@ pattern_source   s/right\[6:4\] == 3'd0/right[6:3] == 4'd0/
 pattern_source   s/!third_q || ready_i/ready_i/
 pattern_source   s/second_y_q     <= y_q/second_y_q     <= y_q + 1'b1/
 pattern_source   s/(lane_x_q \& second_y_q)/(lane_x_q | second_y_q)/
+array_pattern    s/start_q - 7'd3/start_q - 7'd2/
+array_pattern    s/mix_y_q + 8'd19/mix_y_q + 8'd17/
+array_pattern    s/MIX = 5 \* X/MIX = 4 * X/
+array_pattern    s/MIX = 19 \* Y/MIX = 18 * Y/
+array_pattern    s/down\[6:4\] == 3'd0/down[6:3] == 4'd0/
+array_pattern    s/column_square\[column\] \&\& row_square\[row\]/column_square[column]/
+array_pattern    s/x\[5:0\] \& y\[5:0\]/x[5:0] | y[5:0]/
+array_pattern    s/== 2'd3;/== 2'd2;/
+array_pattern    s/soon_q   <= first_q/soon_q   <= second_q \&\& first_q/
+array_pattern    s/fourth_q <= third_q/fourth_q <= second_q/
+array_turn       s/soon_i \&\& !busy_q/soon_i/
+array_turn       s/count_q == LEVEL_AT/count_q == TEMPORAL_AT/
+array_turn       s/count_q == MINIMUM_AT/count_q == TEMPORAL_AT/
+array_turn       s/!rst_i \&\& (begin_o/(begin_o/
+array_signature  s/numbered(REGION)/numbered(0)/
+array_signature  s/forward_valid_i\[REGION\] ? more : crc_q/more/
+array_signature  s/decided_i ? ~next : chain/decided_i ? ~crc_q : chain/
+array_signature  s/decided_i ? ~next : chain/decided_i ? next : chain/
+array_signature  s/decided_i ? parts\[32\*PIECES+:32\] : next/decided_i ? parts[32*PIECES+:32] : more/
+array_signature  s/if (decided_i \&\& before_q) left_q/if (decided_i) left_q/
+array_signature  s/left_q <= COLUMNS\[LEFT_BITS-1:0\]/left_q <= COLUMNS[LEFT_BITS-1:0] - 1'b1/
+array_signature  s/FROM+2\*node+1/FROM+2*node/
+array_signature  s/done_q <= ends\[LEVELS\]/done_q <= ends[0]/
+array_snapshot   s/next_q\[6:0\] == frame_i/next_q[5:0] == frame_i[5:0]/
+array_snapshot   s/in_column_q\[at\]/in_column_q[0]/
+array_snapshot   s/row_i == row/row_i[0] == row[0] || row_i == row/
+array_snapshot   s/decided_q       <= decided_first_q/decided_q       <= decided_i/
+array_snapshot   s/wire keep = keeps_q \&\& leaves/wire keep = leaves/
+array_snapshot   s/if (keeps_q \&\& decided_q)/if (keeps_q \&\& decided_first_q)/
+array_snapshot   s/waits_q    <= 1'b1;/waits_q    <= !keeps_q;/
+array_snapshot   s/wire \[31:0\] part = .*/wire [31:0] part = part_q | ({24'd0, pixel} << {count_q[1:0], 3'd0});/
+array_snapshot   s/count_q  <= {COUNT_BITS{1'b0}};/count_q  <= count_q;/
+array_snapshot   s/there_q ? word_q : 32'd0/word_q/
 END
 }
 
@@ -142,7 +188,9 @@ simulate() {
     # What a leaf is built of, and what stands behind it in its bench.
     local -A with=([dvp_bench]='dvp_capture clock_crossing axi_video raster_memory' [crossing_bench]=clock_crossing [i2c_bench]=i2c_setup
         [uart_bench]='uart_sender uart_receiver' [bytes_bench]=packet_bytes [registers_bench]='uart_registers packet_crc'
-        [signature_bench]=packet_signature [pattern_bench]=pattern_source)
+        [signature_bench]=packet_signature [pattern_bench]=pattern_source
+        [array_pattern_bench]=array_pattern [array_turn_bench]=array_turn [array_signature_bench]='array_signature packet_crc'
+        [array_snapshot_bench]=array_snapshot)
     local files=() leaf
     for leaf in ${with[$bench]}; do files+=("$rtl/$leaf.v"); done
     iverilog -g2012 -s "$bench" "${parameters[@]}" -o "$work/bench" "${files[@]}" "tb/board/$bench.v" || return 1

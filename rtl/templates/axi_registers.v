@@ -6,7 +6,7 @@
 // same clock.
 `default_nettype none
 
-module axi_registers (
+module {= module =} (
     input  wire        clk_i,     // clock, rising edge
     input  wire        rst_i,     // synchronous reset, active high
     input  wire [11:0] awaddr_i,   // address of a write
@@ -25,6 +25,10 @@ module axi_registers (
     output wire        rvalid_o,   // it is there
     input  wire        rready_i,   // it is taken
     input  wire        begin_i,   // thresholds are taken over at this edge
+{%- if has_window %}
+    output wire [ 8:0] place_o,   // four values of the upper half are asked for
+    input  wire [31:0] values_i,  // those, a clock later
+{%- endif %}
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
@@ -91,12 +95,17 @@ module axi_registers (
             default: found = 32'd0;
         endcase
     end
-    always @(posedge clk_i) if (read_q) found_data_q <= found;
+    always @(posedge clk_i) if (read_q) found_data_q <= {% if has_window %}asked[9] ? values_i : {% endif %}found;
     assign rdata_o = found_data_q;
+{%- if has_window %}
+    assign place_o = asked[8:0];
+{%- endif %}
 {% for output in outputs %}
     assign {= output.0 =}_o = {= output.1 =};
 {%- endfor %}
+{%- if !has_window %}
     assign interrupt_o = {% for event in events %}{% if !loop.first %} || {% endif %}events_{= event.name =}_q && interrupt_enable_{= event.name =}_q{% endfor %};
+{%- endif %}
 
 endmodule
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The files of a project.
 
-use foveate_emit::{SourceFile, on_bus, software};
+use foveate_emit::{SourceFile, array_software, software};
 
 use crate::text::file;
 use crate::{Project, constraints, readme, script, top};
@@ -10,12 +10,14 @@ impl Project {
     /// Every file of the project.
     #[must_use]
     pub fn files(&self) -> Vec<SourceFile> {
-        let mut files = on_bus(&self.design).unwrap_or_default();
-        files.extend(top::around(self));
+        let mut files = top::modules(self);
         let sources: Vec<_> = files.iter().map(|file| file.path.clone()).collect();
         let list: String = sources.iter().map(|path| format!("{path}\n")).collect();
         let toml = format!("# {}\n\n{}", self.banner(), self.design.config().to_toml());
-        files.extend(software(&self.design));
+        files.extend(match self.design.pipelined() {
+            Some(array) => array_software(array),
+            None => software(&self.design),
+        });
         files.push(file("board.f", list));
         files.push(file("sim/board_clock.v", top::clock(self, true)));
         files.push(file("design.toml", toml));

@@ -16,7 +16,7 @@ const WORD: usize = 8;
 const ADDED: [u8; 3] = [2, 4, 5];
 
 /// A pixel of 8 bits of a frame.
-fn pixel(x: u32, y: u32, frame: u32) -> u8 {
+pub(crate) fn pixel(x: u32, y: u32, frame: u32) -> u8 {
     let mix = (5 * x + 19 * y) & 255;
     let noise = mix ^ (mix >> 3) ^ (x & y & 255);
     let ramp = ((x + 2 * y) & 511) >> 2;
@@ -33,7 +33,7 @@ fn pixel(x: u32, y: u32, frame: u32) -> u8 {
 }
 
 /// A frame of the pattern.
-fn pattern(width: u32, height: u32, frame: u32) -> Raster {
+pub(crate) fn pattern(width: u32, height: u32, frame: u32) -> Raster {
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let pixels = places.map(|(x, y)| pixel(x, y, frame)).collect();
     Raster::from_bytes(width, height, 8, pixels)

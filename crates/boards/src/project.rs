@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A design on a board.
 
-use foveate_design::{Bus, Design, Hardware};
+use foveate_design::{Bus, Design, Hardware, RasterDesign};
 
 use crate::BoardError;
+use crate::array;
 use crate::board::{Board, Family, SensorPins};
 use crate::clock::{self, Source};
 use crate::sensor::Sensor;
@@ -15,8 +16,6 @@ pub struct Project {
     pub board: Board,
     /// What stands there.
     pub design: Design,
-    /// Pixels that its core takes at a clock.
-    pub(crate) lanes: u32,
     /// The sensor and its pins; nothing where a pattern takes its place.
     pub(crate) eye: Option<(Sensor, SensorPins)>,
     pub(crate) clock: Source,
@@ -26,13 +25,13 @@ impl Project {
     /// Puts a design on a board.
     ///
     /// # Errors
-    /// When it is not on AXI, or does not fit the sensor or the clock.
+    /// When it is neither on AXI nor an array behind a pattern, or does not fit the sensor or the clock.
     pub fn new(board: Board, design: Design) -> Result<Self, BoardError> {
         let eye = board.eye()?;
         let clock = clock::source(&board)?;
-        match lanes(&design, eye.as_ref().map(|(sensor, _)| sensor)) {
+        match check(&design, eye.as_ref().map(|(sensor, _)| sensor)) {
             Err(reason) => Err(BoardError::Design { name: board.name, reason }),
-            Ok(lanes) => Ok(Self { board, design, lanes, eye, clock }),
+            Ok(()) => Ok(Self { board, design, eye, clock }),
         }
     }
 
@@ -155,34 +154,49 @@ impl Wire {
     }
 }
 
-/// Pixels that the core of a design takes at a clock, or what hinders it from standing on a board, behind this sensor or a
-/// pattern.
-fn lanes(design: &Design, sensor: Option<&Sensor>) -> Result<u32, String> {
-    let raster = match (design.bus(), design.hardware()) {
-        (Bus::Ports, _) => return Err("it has no bus; set hardware.interface='axi'".to_owned()),
-        (Bus::Axi, Hardware::Raster(own)) => design.on(own),
-        (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => {
-            return Err("only organization `raster` is on AXI".to_owned());
+/// What hinders a design from standing on a board, behind this sensor or a pattern.
+fn check(design: &Design, sensor: Option<&Sensor>) -> Result<(), String> {
+    match (design.bus(), design.hardware(), sensor) {
+        (Bus::Axi, Hardware::Raster(own), sensor) => check_raster(design.on(own), sensor),
+        (Bus::Ports, Hardware::Pipelined(own), None) => array::check(design.on(own)),
+        (Bus::Ports, Hardware::Pipelined(_), Some(_)) => {
+            Err("an array takes a pixel of every region at a clock, and a sensor sends one; set hardware.organization='raster' \
+                 and hardware.interface='axi', or take a board with a pattern, vcu118"
+                .to_owned())
         }
-    };
+        (Bus::Ports, Hardware::Serial(_), _) => {
+            Err("organization `serial` stands on no board; set hardware.organization='raster' and hardware.interface='axi', or \
+                 'pipelined' where a pattern is"
+                .to_owned())
+        }
+        (Bus::Ports, Hardware::Raster(_), _) => {
+            Err("it has no bus; set hardware.interface='axi'".to_owned())
+        }
+        (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_), _) => {
+            Err("only organization `raster` is on AXI".to_owned())
+        }
+    }
+}
+
+fn check_raster(raster: RasterDesign<'_>, sensor: Option<&Sensor>) -> Result<(), String> {
     if raster.frames_are_kept_outside() {
         let remedy = "set hardware.store='block'";
         return Err(format!("no board here has a memory for a frame store outside; {remedy}"));
     }
-    if design.pixel_bits() != 8 {
-        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", design.pixel_bits()));
+    if raster.pixel_bits() != 8 {
+        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", raster.pixel_bits()));
     }
     let lanes = raster.pixels_per_clock();
-    let Some(sensor) = sensor else { return Ok(lanes) };
+    let Some(sensor) = sensor else { return Ok(()) };
     if lanes != 1 {
         return Err(format!("hardware.pixels_per_clock = {lanes}: a sensor sends one at a time"));
     }
-    let (width, height) = (design.width(), design.height());
+    let (width, height) = (raster.width(), raster.height());
     let (most, lines) = (sensor.width - sensor.left, sensor.height - sensor.top);
     if width > most || height > lines {
         return Err(format!(
             "frames of {width} x {height}: the sensor sends {most} x {lines} at most"
         ));
     }
-    Ok(lanes)
+    Ok(())
 }

@@ -2,10 +2,13 @@
 //! The Verilog around a core: leaves of `rtl/board/`, and the top that connects them.
 
 use askama::Template;
-use foveate_design::index_bits;
-use foveate_emit::{BOARD_LEAVES, Leaf, SourceFile};
+use foveate_design::{Hardware, PipelinedDesign, RasterDesign, index_bits};
+use foveate_emit::{
+    BOARD_LEAVES, LEAVES, Leaf, SourceFile, Top as CoreTop, array_registers, on_bus, verilog,
+};
 use foveate_packets::Layout;
 
+use crate::array;
 use crate::board::SensorPins;
 use crate::clock::Source;
 use crate::pattern::{FRAMES, sums};
@@ -21,6 +24,17 @@ const QUARTERS: u32 = 4;
 const BEFORE_A_SENSOR: &[&str] = &["clock_crossing", "dvp_capture", "i2c_setup"];
 const BEFORE_A_PATTERN: &[&str] = &["pattern_source", "packet_signature", "packet_sample"];
 const BEHIND: &[&str] = &["packet_bytes", "uart_sender", "uart_receiver", "uart_registers"];
+/// What stands around an array, of a core and of a board.
+const PART_OF_A_CORE: &str = "packet_crc";
+const AROUND_AN_ARRAY: &[&str] = &[
+    "array_pattern",
+    "array_turn",
+    "array_signature",
+    "array_snapshot",
+    "uart_sender",
+    "uart_receiver",
+    "uart_registers",
+];
 
 #[derive(Template)]
 #[template(path = "board.v")]
@@ -106,24 +120,47 @@ struct Clock {
     body: String,
 }
 
-/// The modules around the core, each after those that it instantiates.
-pub(crate) fn around(project: &Project) -> Vec<SourceFile> {
-    let path = |name: &str| format!("rtl/{name}.v");
-    let (leaves, own) = match &project.eye {
-        Some((sensor, pins)) => (
-            BEFORE_A_SENSOR,
-            [("sensor_steps", steps(project, sensor)), ("board", top(project, sensor, pins))],
-        ),
-        None => (
-            BEFORE_A_PATTERN,
-            [("expected_sums", expected(project)), ("board", pattern_top(project))],
-        ),
+/// The Verilog of a project, each module after those that it instantiates.
+pub(crate) fn modules(project: &Project) -> Vec<SourceFile> {
+    let design = &project.design;
+    let (core, leaves, own) = match (design.hardware(), &project.eye) {
+        (Hardware::Pipelined(hardware), _) => {
+            let array = design.on(hardware);
+            let own = [("expected_sums", expected(project)), ("board", array::top(project, array))];
+            (array_core(array), [AROUND_AN_ARRAY, &[]], own)
+        }
+        (Hardware::Raster(_) | Hardware::Serial(_), Some((sensor, pins))) => {
+            let own =
+                [("sensor_steps", steps(project, sensor)), ("board", top(project, sensor, pins))];
+            (on_bus(design).unwrap_or_default(), [BEFORE_A_SENSOR, BEHIND], own)
+        }
+        (Hardware::Raster(hardware), None) => {
+            let top = pattern_top(project, design.on(hardware));
+            let own = [("expected_sums", expected(project)), ("board", top)];
+            (on_bus(design).unwrap_or_default(), [BEFORE_A_PATTERN, BEHIND], own)
+        }
+        // Refused before.
+        (Hardware::Serial(_), None) => return Vec::new(),
     };
-    let stands = |leaf: &&Leaf| leaves.contains(&leaf.name) || BEHIND.contains(&leaf.name);
-    let leaves = BOARD_LEAVES.iter().filter(stands);
-    let leaves = leaves.map(|leaf| file(&path(leaf.name), leaf.contents.to_owned()));
+    let stands = |leaf: &&Leaf| leaves.iter().any(|names| names.contains(&leaf.name));
+    let leaves = BOARD_LEAVES.iter().filter(stands).map(leaf);
     let clock = file(&path("board_clock"), clock(project, false));
-    leaves.chain([clock]).chain(own.map(|(name, text)| file(&path(name), text))).collect()
+    let own = own.map(|(name, text)| file(&path(name), text));
+    core.into_iter().chain(leaves).chain([clock]).chain(own).collect()
+}
+
+fn path(name: &str) -> String {
+    format!("rtl/{name}.v")
+}
+
+fn leaf(leaf: &Leaf) -> SourceFile {
+    file(&path(leaf.name), leaf.contents.to_owned())
+}
+
+/// An array with its registers, and the part of other cores that stands around it, too.
+fn array_core(array: PipelinedDesign<'_>) -> Vec<SourceFile> {
+    let part = LEAVES.iter().filter(|leaf| leaf.name == PART_OF_A_CORE).map(leaf);
+    verilog(&array, CoreTop::Rcm).into_iter().chain(part).chain([array_registers(array)]).collect()
 }
 
 fn top(project: &Project, sensor: &Sensor, pins: &SensorPins) -> String {
@@ -177,11 +214,11 @@ fn steps(project: &Project, sensor: &Sensor) -> String {
     })
 }
 
-fn pattern_top(project: &Project) -> String {
-    let Project { board, design, .. } = project;
-    let lanes = project.lanes;
+fn pattern_top(project: &Project, design: RasterDesign<'_>) -> String {
+    let board = &project.board;
+    let lanes = design.pixels_per_clock();
     let words = design.width().div_ceil(lanes);
-    let layout = Layout::new(design, false, 1);
+    let layout = Layout::new(&design, false, 1);
     let lengths = [layout.frame_bytes(), layout.row_bytes(), layout.region_bytes(false)];
     let packet_words = lengths.into_iter().max().unwrap_or_default() / 8;
     text_of(&PatternTop {
@@ -205,7 +242,11 @@ fn pattern_top(project: &Project) -> String {
 }
 
 fn expected(project: &Project) -> String {
-    let sums = sums(&project.design, FRAMES);
+    let design = &project.design;
+    let sums = match design.pipelined() {
+        Some(array) => array::sums(array, FRAMES),
+        None => sums(design, FRAMES),
+    };
     text_of(&Expected {
         banner: project.banner(),
         sums: sums.iter().map(|sum| format!("{sum:08X}")).collect(),

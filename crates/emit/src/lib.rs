@@ -27,6 +27,7 @@ mod thresholds;
 mod top;
 mod verilog;
 
+pub use crate::axi::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 pub use crate::axi::{AXI_TOP, Field, Kind, Register, on_bus, register_table, registers, software};
 pub use crate::core::core;
 pub use error::EmitError;

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use foveate_boards::{Board, Project};
+use foveate_boards::{Board, BoardError, Project};
+use foveate_design::{Config, Preset};
 use foveate_toolchain::verilator::{self, Lint, VerilatorJob};
 use foveate_toolchain::{Cache, Source, Toolchain};
 
@@ -33,6 +34,17 @@ pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
     let board = Board::from_toml("bench", &toml).unwrap();
     let design = board.config().unwrap().validate().unwrap();
     Project::new(board, design).unwrap()
+}
+
+/// The array of the paper on a VCU118, with keys of its own.
+pub(crate) fn array(keys: &[&str]) -> Result<Project, BoardError> {
+    array_on(Board::find("vcu118").unwrap(), keys)
+}
+
+/// The same on a board.
+pub(crate) fn array_on(board: Board, keys: &[&str]) -> Result<Project, BoardError> {
+    let paper = Preset::find("paper").unwrap().toml;
+    Project::new(board, Config::from_toml_with(paper, keys).unwrap().validate().unwrap())
 }
 
 /// What stands in a module, and what stands there instead.

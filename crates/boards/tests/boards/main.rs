@@ -2,6 +2,7 @@
 //! Boards in simulation: a sensor's wires in, a serial line out.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod array;
 mod common;
 mod film;
 mod pattern;

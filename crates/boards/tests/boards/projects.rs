@@ -7,7 +7,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::process::{Command, Stdio};
 
-use crate::common::verilog;
+use crate::common::{array, verilog};
 use foveate_boards::{Board, BoardError, Project, build, write_project};
 use foveate_design::Config;
 use foveate_toolchain::testing::require_tools;
@@ -24,9 +24,9 @@ fn project(name: &str, keys: &[&str]) -> Result<Project, BoardError> {
 #[test]
 fn projects_are_whole() {
     let mut used = BTreeSet::new();
-    for board in Board::all() {
-        let project = project(&board.name, &[]).unwrap();
-        let files = project.files();
+    let boards = Board::all().map(|board| project(&board.name, &[]).unwrap());
+    for project in boards.chain([array(&[]).unwrap()]) {
+        let (board, files) = (&project.board, project.files());
         let text = |path: &str| &files.iter().find(|file| file.path == path).unwrap().contents;
         used.extend(text("board.f").lines().map(str::to_owned));
         let readme = text("README.md");
@@ -54,11 +54,34 @@ fn no_tool_warns_of_a_board() {
     if !require_tools(&[Tool::Verilator]) {
         return;
     }
-    for board in Board::all() {
-        let project = project(&board.name, &[]).unwrap();
+    let small = "frame={width=24,height=16}";
+    let all = "spatial=[{feature='edge',min_score=1},{feature='mad',min_score=1},{feature='corner',min_score=1},{feature='variance',min_score=1}]";
+    let means = "render.irrelevant='mean'";
+    let arrays: [&[&str]; 5] = [
+        &[small],
+        &[small, all, "hardware.thresholds='constant'"],
+        &[
+            small,
+            all,
+            means,
+            "hardware.pipelining='deep'",
+            "region.size=2",
+            "frame.width=8",
+            "temporal.min_count=2",
+        ],
+        &["frame={width=40,height=8}", means],
+        &[
+            "frame={width=45,height=135}",
+            "region.size=45",
+            "spatial=[{feature='variance',min_score=1}]",
+        ],
+    ];
+    let boards = Board::all().map(|board| project(&board.name, &[]).unwrap());
+    for project in boards.chain(arrays.map(|keys| array(keys).unwrap())) {
         let sources = verilog(&project, None);
         let said = verilator::lint(&Toolchain::system(), &sources, "board", None);
-        assert!(said.is_ok(), "{}: {}", board.name, said.unwrap_err());
+        let toml = project.design.config().to_toml();
+        assert!(said.is_ok(), "{}: {}\n{toml}", project.board.name, said.unwrap_err());
     }
 }
 
@@ -145,6 +168,32 @@ fn designs_that_fit_no_board_are_refused() {
         let error = project("icebreaker", keys).unwrap_err().to_string();
         assert!(error.contains(said) && error.contains("`icebreaker`"), "{error}");
     }
+    for (keys, said) in [
+        (&["region.neighborhood='shared'"][..], "region.neighborhood='isolated'"),
+        (&["hardware.sync=true"], "hardware.sync=false"),
+        (&["frame.pixel_bits=10"], "pixels have 8 bits here"),
+        (&["region.size=64", "frame={width=64,height=64}"], "45 is the largest"),
+        (&["frame.width=225"], "232 is a multiple of 8"),
+        (&["frame.height=220"], "224 is a multiple of 8"),
+        (
+            &[
+                "region.size=2",
+                "frame={width=10,height=4}",
+                "temporal.min_count=2",
+                "spatial=[{feature='edge',min_score=1}]",
+            ],
+            "frame.width = 8 is the most",
+        ),
+        (&["hardware.organization='serial'"], "hardware.organization='raster'"),
+        (&["hardware={organization='raster',sync=true}"], "hardware.interface='axi'"),
+    ] {
+        let error = array(keys).unwrap_err().to_string();
+        assert!(error.contains(said) && error.contains("`vcu118`"), "{keys:?}: {error}");
+    }
+    // No sensor sends a pixel of each region at a time.
+    let design = array(&[]).unwrap().design;
+    let error = Project::new(Board::find("icebreaker").unwrap(), design).unwrap_err().to_string();
+    assert!(error.contains("vcu118") && error.contains("hardware.interface='axi'"), "{error}");
 }
 
 /// Commands of Vivado that its scripts may use; each checks the files that it names.
@@ -176,10 +225,18 @@ fn scripts_for_vivado_execute() {
         eprintln!("skipped: tclsh is missing");
         return;
     }
+    let axi = project("vcu118", &["frame={width=64,height=48}"]).unwrap();
+    let array = array(&["frame={width=16,height=16}"]).unwrap();
+    for (project, module) in [(&axi, "rtl/rcm_axi.v"), (&array, "rtl/array_signature.v")] {
+        executes(project, module);
+    }
+}
+
+/// The scripts of a project execute, with stubs in place of what Vivado does; one of its modules is this.
+fn executes(project: &Project, module: &str) {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("out");
-    let project = project("vcu118", &["frame={width=64,height=48}"]).unwrap();
-    write_project(&project, &folder, false).unwrap();
+    write_project(project, &folder, false).unwrap();
     let stubs = dir.path().join("stubs.tcl");
     fs::write(&stubs, STUBS).unwrap();
     let run = |script: &str| {
@@ -191,13 +248,13 @@ fn scripts_for_vivado_execute() {
             .ok_or(said)
     };
     let called = run("build.tcl").unwrap();
-    for word in ["rtl/board.v", "rtl/rcm_axi.v", "synth_design", "create_clock", "vcu118.bit"] {
+    for word in ["rtl/board.v", module, "synth_design", "create_clock", "vcu118.bit"] {
         assert!(called.contains(word), "{word} is not in {called}");
     }
     assert!(run("program.tcl").unwrap().contains("program_hw_devices"));
     // A file that is missing is seen.
-    fs::remove_file(folder.join("rtl/adder.v")).unwrap();
-    assert!(run("build.tcl").unwrap_err().contains("no rtl/adder.v"));
-    let error = build(&project, &folder, 1, &Toolchain::system()).unwrap_err().to_string();
+    fs::remove_file(folder.join(module)).unwrap();
+    assert!(run("build.tcl").unwrap_err().contains(&format!("no {module}")));
+    let error = build(project, &folder, 1, &Toolchain::system()).unwrap_err().to_string();
     assert!(error.contains("Vivado"), "{error}");
 }

@@ -12,17 +12,22 @@ use super::at_least_one;
 #[command(after_help = "Examples: foveate build --list
           foveate build --board icebreaker -o out
           foveate build --board ulx3s -o out --seeds 5 --set periphery.level=8
-          foveate build --board vcu118 -o out --project")]
+          foveate build --board vcu118 -o out --project
+          foveate build --board vcu118 --preset paper -o out")]
 pub(crate) struct BuildArgs {
     /// The board, or a file with one (.toml)
     #[arg(long, value_name = "NAME", required_unless_present = "list")]
     pub(crate) board: Option<String>,
     /// List the boards that come with the program
-    #[arg(long, conflicts_with_all = ["board", "output", "config", "overrides", "seeds", "project", "force"])]
+    #[arg(long, conflicts_with_all = ["board", "output", "config", "preset", "overrides", "seeds", "project", "force"])]
     pub(crate) list: bool,
-    /// Configuration file (TOML) of a core on AXI, in place of the one that comes with the board
-    #[arg(long, short, value_name = "FILE")]
+    /// Configuration file (TOML) in place of the one that comes with the board: of a core on AXI, or of an array of RPUs
+    /// where a pattern is (vcu118)
+    #[arg(long, short, value_name = "FILE", conflicts_with = "preset")]
     pub(crate) config: Option<PathBuf>,
+    /// Preset in place of it, for example paper, an array of RPUs
+    #[arg(long, value_name = "NAME")]
+    pub(crate) preset: Option<String>,
     /// Change one key of it, for example periphery.level=8
     #[arg(long = "set", value_name = "KEY=TOML_VALUE")]
     pub(crate) overrides: Vec<String>,

@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use foveate_boards::{Board, Built, Project, build, write_project};
-use foveate_design::Config;
+use foveate_design::{Config, Preset};
 use serde::Serialize;
 
 use crate::args::BuildArgs;
@@ -62,13 +62,14 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     output::text(&text(&project, folder, files.len(), built.as_ref()))
 }
 
-/// The configuration of the board, or that of the file, with the changes.
+/// The configuration of the board, that of the file, or the preset, with the changes.
 fn configuration(board: &Board, args: &BuildArgs) -> Result<Config, CliError> {
-    let text = match &args.config {
-        Some(file) => {
+    let text = match (&args.config, &args.preset) {
+        (Some(file), _) => {
             fs::read_to_string(file).map_err(CliError::io("read the configuration", file))?
         }
-        None => board.config()?.to_toml(),
+        (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
+        (None, None) => board.config()?.to_toml(),
     };
     Ok(Config::from_toml_with(&text, &args.overrides)?)
 }

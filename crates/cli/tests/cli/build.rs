@@ -54,6 +54,23 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
     let report: Value = serde_json::from_str(&succeed_in(dir.path(), &json)).unwrap();
     assert_eq!((&report["board"], report.get("bitstream")), (&"vcu118".into(), None));
     assert!(dir.path().join("v/build.tcl").is_file());
+
+    // A preset takes the place of the board's design: here an array, with keys of its own.
+    let array = [
+        "build",
+        "--board",
+        "vcu118",
+        "--preset",
+        "paper",
+        "--set",
+        "frame={width=32,height=16}",
+        "-o",
+        "array",
+    ];
+    let text = succeed_in(dir.path(), &array);
+    assert!(text.contains("32 x 16 pixels") && text.contains("vivado -mode batch"), "{text}");
+    let top = fs::read_to_string(dir.path().join("array/rtl/board.v")).unwrap();
+    assert!(top.contains("localparam COLUMNS = 4;"), "{top}");
 }
 
 #[test]
@@ -68,6 +85,9 @@ fn what_is_wrong_with_a_board_or_its_design_is_said() {
             "set hardware.interface='axi'",
         ),
         (&["--board", "ulx3s", "--set", "frame.width=x"], "frame.width"),
+        (&["--board", "ulx3s", "--preset", "paper"], "a board with a pattern, vcu118"),
+        (&["--board", "vcu118", "--preset", "papers"], "papers"),
+        (&["--board", "vcu118", "--preset", "serial"], "stands on no board"),
         (&["--board", "ulx3s", "--config", "none.toml"], "none.toml"),
     ] {
         fail_in(dir.path(), 2, &[&["build", "-o", "out", "--project"], args].concat(), &[said]);

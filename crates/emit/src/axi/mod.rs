@@ -3,10 +3,12 @@
 
 mod pages;
 mod registers;
+mod rpu_array;
 mod top;
 mod verilog;
 
 pub use registers::{Field, Kind, Register, registers};
+pub use rpu_array::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 
 use crate::text::{file, text_of};
 use crate::{Prefix, SourceFile, Top, banner, leaf, verilog as array};
@@ -73,7 +75,10 @@ fn around(design: RasterDesign<'_>) -> Vec<SourceFile> {
         .map(|leaf| file(leaf.name, leaf.contents.to_owned()));
     let registers = registers(design);
     let own = [
-        file("axi_registers", text_of(&verilog::view(&design, &registers))),
+        file(
+            "axi_registers",
+            text_of(&verilog::view(&design, ("axi_registers", false), &registers)),
+        ),
         file(AXI_TOP, text_of(&top::view(design))),
     ];
     leaves.chain(own).collect()

@@ -100,10 +100,9 @@ const EVENTS: [(&str, &str); 8] = [
     ("frame_done", "the last packet of a frame has left"),
 ];
 
-/// The registers of the core of a design, by address.
-#[must_use]
-pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
-    let fingerprint = fingerprint(&design);
+/// What every map begins with: who this is, and what it computes. `version` has these fields beside that of the version.
+pub(super) fn common(design: &Design, beside: Vec<Field>) -> Vec<Register> {
+    let fingerprint = fingerprint(design);
     let low = u32::try_from(fingerprint & 0xFFFF_FFFF).expect("32 bits");
     let high = u32::try_from(fingerprint >> REGISTER_BITS).expect("32 bits");
     let mut list = Vec::new();
@@ -114,15 +113,13 @@ pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
         field(name, low, width, Kind::Constant(value), doc)
     };
     let all = |value: u32, doc: &str| vec![constant("value", 0, REGISTER_BITS, value, doc)];
-    let status = |width: u32, doc: &str| vec![field("value", 0, width, Kind::Status, doc)];
     let magic = u32::from_le_bytes(*b"FOVE");
     add(0x000, "identity", "says that this is a Foveate core", all(magic, "ASCII `FOVE`"));
-    add(
-        0x004,
-        "version",
-        "version of this map",
-        all(MAP_VERSION, "grows with what is not compatible"),
-    );
+    let width = beside.first().map_or(REGISTER_BITS, |field| field.low);
+    let mut version =
+        vec![constant("value", 0, width, MAP_VERSION, "grows with what is not compatible")];
+    version.extend(beside);
+    add(0x004, "version", "version of this map", version);
     add(0x008, "fingerprint_low", "fingerprint of the design", all(low, "its last 8 digits"));
     add(0x00C, "fingerprint_high", "fingerprint of the design", all(high, "its first 8 digits"));
     add(
@@ -152,10 +149,21 @@ pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
             constant("size", 0, 8, design.region_size(), "N, pixels of a side"),
             constant("pixel_bits", 8, 8, design.pixel_bits(), "P"),
             constant("means", 16, 8, means, "q, means of a side; 0 without summaries"),
-            constant("irrelevant", 24, 4, irrelevant(&design), "0 `zero`, 1 `hold`, 2 `mean`"),
-            constant("raw", 28, 1, raw(&design), "1: raw pixels leave"),
+            constant("irrelevant", 24, 4, irrelevant(design), "0 `zero`, 1 `hold`, 2 `mean`"),
+            constant("raw", 28, 1, raw(design), "1: raw pixels leave"),
         ],
     );
+    list
+}
+
+/// The registers of the core of a design, by address.
+#[must_use]
+pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
+    let mut list = common(&design, Vec::new());
+    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<Field>| {
+        list.push(Register { name: name.to_owned(), address, fields, doc: doc.to_owned() });
+    };
+    let status = |width: u32, doc: &str| vec![field("value", 0, width, Kind::Status, doc)];
     add(
         0x01C,
         "tick_rate",
@@ -225,16 +233,23 @@ pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
     ] {
         add(address, name, doc, status(16, "modulo 2^16"));
     }
-    let mut address = THRESHOLDS;
-    for threshold in thresholds(&design) {
-        for part in threshold.parts() {
-            let reset = Kind::Threshold { reset: part.reset };
-            let value = field("value", 0, part.width, reset, &threshold.port.doc);
-            add(address, &part.name, "threshold, from the next frame on", vec![value]);
-            address += 4;
-        }
-    }
+    list.extend(threshold_registers(&design));
     list
+}
+
+/// A register for each threshold, or as many as it needs.
+pub(super) fn threshold_registers(design: &Design) -> Vec<Register> {
+    let parts = thresholds(design).into_iter().flat_map(|threshold| {
+        let doc = threshold.port.doc.clone();
+        threshold.parts().into_iter().map(move |part| (part, doc.clone()))
+    });
+    let register = |(address, (part, doc)): (u32, (Part, String))| {
+        let reset = Kind::Threshold { reset: part.reset };
+        let fields = vec![field("value", 0, part.width, reset, &doc)];
+        let doc = "threshold, from the next frame on".to_owned();
+        Register { name: part.name, address, fields, doc }
+    };
+    (THRESHOLDS..).step_by(4).zip(parts).map(register).collect()
 }
 
 /// A threshold that is an input of the array.
@@ -298,6 +313,6 @@ pub(crate) fn raw(design: &Design) -> u32 {
     }
 }
 
-fn field(name: &str, low: u32, width: u32, kind: Kind, doc: &str) -> Field {
+pub(super) fn field(name: &str, low: u32, width: u32, kind: Kind, doc: &str) -> Field {
     Field { name: name.to_owned(), low, width, kind, doc: doc.to_owned() }
 }

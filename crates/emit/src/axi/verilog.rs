@@ -10,6 +10,9 @@ use foveate_design::Design;
 #[template(path = "axi_registers.v")]
 pub(super) struct Registers {
     banner: String,
+    module: &'static str,
+    /// The upper half of the addresses shows a memory outside, and nothing interrupts.
+    has_window: bool,
     ports: Vec<Line>,
     state: Vec<State>,
     /// What thresholds become when a frame begins.
@@ -48,9 +51,16 @@ struct Event {
     bit: u32,
 }
 
-pub(super) fn view(design: &Design, registers: &[Register]) -> Registers {
+/// The module of a core on a bus, or that of an array, which interrupts nobody and has a memory in its upper half.
+pub(super) fn view(
+    design: &Design,
+    (module, has_window): (&'static str, bool),
+    registers: &[Register],
+) -> Registers {
     let mut view = Registers {
         banner: banner(design),
+        module,
+        has_window,
         ports: Vec::new(),
         state: Vec::new(),
         taken: Vec::new(),
@@ -75,7 +85,9 @@ pub(super) fn view(design: &Design, registers: &[Register]) -> Registers {
         view.port("output", threshold.port.width, &format!("{name}_o"), &threshold.port.doc);
         view.outputs.push((name.to_owned(), format!("{{{}}}", parts.join(", "))));
     }
-    view.port("output", 1, "interrupt_o", "an enabled event has happened");
+    if !has_window {
+        view.port("output", 1, "interrupt_o", "an enabled event has happened");
+    }
     if let Some(last) = view.ports.last_mut() {
         last.declaration = last.declaration.replace(',', "");
     }

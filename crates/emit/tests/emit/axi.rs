@@ -5,9 +5,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::process::{Command, Stdio};
 
-use crate::common::{design, every_design_on_a_bus};
+use crate::common::{design, every_design, every_design_on_a_bus};
 use foveate_design::Hardware;
-use foveate_emit::{AXI_TOP, Kind, Prefix, SourceFile, core, on_bus, registers};
+use foveate_emit::{AXI_TOP, Kind, Prefix, SourceFile, array_table, core, on_bus, registers};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Source, Tool, Toolchain, verilator};
 use rayon::prelude::*;
@@ -30,10 +30,18 @@ fn verilator_has_nothing_to_say_of_cores_on_a_bus() {
 
 #[test]
 fn registers_and_fields_have_places_and_names_of_their_own() {
-    for toml in every_design_on_a_bus() {
+    let buses = every_design_on_a_bus().into_iter().map(|toml| {
         let design = design(&toml);
         let Hardware::Raster(own) = design.hardware() else { panic!("{toml}") };
-        let list = registers(design.on(own));
+        (registers(design.on(own)), toml)
+    });
+    // Those of arrays on a board leave their upper half to what was captured.
+    let arrays = every_design().into_iter().filter_map(|toml| {
+        let list = array_table(design(&toml).pipelined()?);
+        assert!(list.iter().all(|register| register.address < 0x800), "{toml}");
+        Some((list, toml))
+    });
+    for (list, toml) in buses.chain(arrays) {
         let addresses: BTreeSet<u32> = list.iter().map(|register| register.address).collect();
         let names: BTreeSet<&str> = list.iter().map(|register| register.name.as_str()).collect();
         assert_eq!((addresses.len(), names.len()), (list.len(), list.len()), "{toml}");

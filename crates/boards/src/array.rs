@@ -1,0 +1,255 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! An array of RPUs behind a pattern: what may stand there, the top around it, and what its signature is (docs/boards.md).
+
+use askama::Template;
+use foveate_design::{
+    Action, Design, FeatureKind, Neighborhood, Payload, PipelinedDesign, PipelinedTiming, PortRole,
+    bits_for, index_bits,
+};
+use foveate_emit::array_scores;
+use foveate_engine::Engine;
+
+use crate::pattern::pattern;
+use crate::project::Project;
+use crate::sensor::Level;
+use crate::text::text_of;
+
+/// Values of a region that registers can show: four at each address of their upper half.
+const MOST_VALUES: u32 = 2048;
+/// Bits of a byte.
+const BYTE: u32 = 8;
+
+#[derive(Template)]
+#[template(path = "array_board.v")]
+struct ArrayTop<'a> {
+    banner: String,
+    title: &'a str,
+    pair: bool,
+    mhz: u32,
+    leds: usize,
+    lit_low: bool,
+    columns: u32,
+    rows: u32,
+    side: u32,
+    side_bits: u32,
+    pixels: u32,
+    count_bits: u32,
+    head_bytes: u32,
+    level_at: u32,
+    temporal_at: u32,
+    minimum_at: u32,
+    turn_bits: u32,
+    thresholds: Vec<Threshold>,
+    scores: Vec<Score>,
+    has_summary: bool,
+    head: Vec<String>,
+    pins: Vec<(String, String)>,
+    divisor: u32,
+    blink: u32,
+}
+
+/// A threshold on its way to the array: its name, its range, and which turn it waits for.
+struct Threshold {
+    name: String,
+    range: String,
+    turn: &'static str,
+}
+
+/// A port with a score of each region, or with its count of changed pixels.
+struct Score {
+    name: String,
+    width: u32,
+    kind: Option<FeatureKind>,
+}
+
+impl Score {
+    fn bytes(&self) -> u32 {
+        self.width.div_ceil(BYTE)
+    }
+}
+
+/// What hinders an array from standing behind a pattern.
+pub(crate) fn check(array: PipelinedDesign<'_>) -> Result<(), String> {
+    let side = array.region_size();
+    if array.neighborhood() == Neighborhood::Shared {
+        return Err("an RPU sees the pixels of its own region alone here; set region.neighborhood='isolated'".to_owned());
+    }
+    if array.syncs() {
+        return Err("a pattern loses no pixel; set hardware.sync=false".to_owned());
+    }
+    if array.pixel_bits() != 8 {
+        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", array.pixel_bits()));
+    }
+    if array.region_pixels() > MOST_VALUES {
+        return Err(format!(
+            "region.size = {side}: registers show {MOST_VALUES} pixels; 45 is the largest"
+        ));
+    }
+    for (key, length) in [("width", array.width()), ("height", array.height())] {
+        if !length.is_multiple_of(side) {
+            let right = length.div_ceil(side) * side;
+            return Err(format!(
+                "frame.{key} = {length}: the pattern makes whole regions; {right} is a multiple of {side}"
+            ));
+        }
+    }
+    let (columns, most) = (array.columns(), array.region_pixels());
+    if columns > most {
+        return Err(format!(
+            "{columns} regions side by side: their sum is made in {most} clocks; frame.width = {} is the most with regions of {side} x {side}",
+            most * side
+        ));
+    }
+    Ok(())
+}
+
+/// What each region says beside its decision: the count of changed pixels, then the scores in the order of the design.
+fn scores(design: &Design) -> Vec<Score> {
+    let score = |port: foveate_design::Port| Score {
+        name: port.name.trim_end_matches("_o").to_owned(),
+        width: port.width,
+        kind: match port.role {
+            PortRole::Score(kind) => Some(kind),
+            _ => None,
+        },
+    };
+    array_scores(design).into_iter().map(score).collect()
+}
+
+/// Which turn a threshold waits for.
+fn turn(role: PortRole) -> &'static str {
+    match role {
+        PortRole::Level(_) => "level",
+        PortRole::TemporalLevel => "temporal",
+        _ => "minimum",
+    }
+}
+
+fn range(width: u32) -> String {
+    if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) }
+}
+
+/// The top around an array.
+pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
+    let board = &project.board;
+    let (scores, timing) = (scores(&array), PipelinedTiming::of(array));
+    let mut thresholds = Vec::new();
+    for port in array.rcm_interface().controls {
+        let name = port.name.trim_end_matches("_i").to_owned();
+        thresholds.push(Threshold { name, range: range(port.width), turn: turn(port.role) });
+    }
+    let minimum_at = timing.decision_latency + 1 + timing.decision_frames * timing.cycles_per_frame;
+    let mut head: Vec<String> = Vec::new();
+    let mut pins = Vec::new();
+    let mut low = BYTE;
+    for score in &scores {
+        let (name, width) = (&score.name, score.width);
+        let padding = score.bytes() * BYTE - width;
+        let value = format!("{name}[region*{width}+:{width}]");
+        head.push(if padding == 0 { value } else { format!("{padding}'d0, {value}") });
+        let mut pin = |part: String, from: u32, width: u32| {
+            pins.push((part, format!("captured_head[{}:{from}]", from + width - 1)));
+        };
+        if width > 32 {
+            pin(format!("captured_{name}_low_i"), low, 32);
+            pin(format!("captured_{name}_high_i"), low + 32, width - 32);
+        } else {
+            pin(format!("captured_{name}_i"), low, width);
+        }
+        low += score.bytes() * BYTE;
+    }
+    head.reverse();
+    head.push("4'd0, active[region], summary[region], trs[region], srs[region]".to_owned());
+    text_of(&ArrayTop {
+        banner: project.banner(),
+        title: &board.title,
+        pair: project.has_pair(),
+        mhz: board.clock.mhz,
+        leds: board.leds.pins.len(),
+        lit_low: board.leds.lit == Level::Low,
+        columns: array.columns(),
+        rows: array.rows(),
+        side: array.region_size(),
+        side_bits: index_bits(array.region_size().into()),
+        pixels: array.region_pixels(),
+        count_bits: bits_for(array.region_pixels().into()),
+        head_bytes: low / BYTE,
+        level_at: timing.decision_latency - timing.tail_delay,
+        temporal_at: timing.decision_latency,
+        minimum_at,
+        turn_bits: index_bits(u64::from(minimum_at) + 1),
+        thresholds,
+        scores,
+        has_summary: array.periphery().is_some(),
+        head,
+        pins,
+        divisor: board.divisor(),
+        blink: blink(board.clock.core_mhz * 1_000_000 / timing.cycles_per_frame),
+    })
+}
+
+/// The bit of the number of frames that changes about twice in a second.
+fn blink(fps: u32) -> u32 {
+    fps.max(2).ilog2() - 1
+}
+
+/// The sum behind each of so many frames of the pattern.
+pub(crate) fn sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
+    let (scores, mut engine) = (scores(&array), Engine::new(&array));
+    let mut sum = 0_u32;
+    let mut add = |number: u32| {
+        let frame = pattern(array.width(), array.height(), number);
+        if engine.step_raster(&frame).is_err() {
+            unreachable!("a frame of the pattern fits its design");
+        }
+        for region in 0..array.regions() {
+            let said = said(&array, &scores, &engine, (number, region));
+            sum = sum.wrapping_add(crc32fast::hash(&said));
+        }
+        sum
+    };
+    (0..frames).map(&mut add).collect()
+}
+
+/// What a region says of the frame that an engine has just taken, byte by byte.
+fn said(
+    design: &Design,
+    scores: &[Score],
+    engine: &Engine,
+    (frame, region): (u32, u32),
+) -> Vec<u8> {
+    let (outcome, at) = (engine.outcome(), region as usize);
+    let action = outcome.actions[at];
+    let bits = [outcome.srs[at], outcome.trs[at], action == Action::Summarize, outcome.active[at]];
+    let decision: u8 = (0_u32..).zip(bits).map(|(bit, value)| u8::from(value) << bit).sum();
+    let mut bytes = region.to_le_bytes().to_vec();
+    bytes.push(decision);
+    for score in scores {
+        let value = match score.kind {
+            None => outcome.temporal_count[at].into(),
+            Some(kind) => {
+                let place = design.features().iter().position(|feature| feature.kind() == kind);
+                place.map_or(0, |place| outcome.scores[place][at])
+            }
+        };
+        bytes.extend(&value.to_le_bytes()[..score.bytes() as usize]);
+    }
+    let mut values = Vec::new();
+    match (action, design.payload()) {
+        (Action::Summarize, _) => engine.summary(region, &mut values),
+        (Action::Forward, Payload::Denoised) => engine.denoised_region(region, &mut values),
+        (Action::Forward, Payload::Raw) => values = raw(design, frame, region),
+        (Action::Hold | Action::Blank, _) => {}
+    }
+    // Pixels have 8 bits.
+    bytes.extend(values.iter().map(|value| u8::try_from(*value).unwrap_or(u8::MAX)));
+    bytes
+}
+
+/// The pixels of the pattern in a region.
+fn raw(design: &Design, frame: u32, region: u32) -> Vec<u16> {
+    let side = design.region_size();
+    let (left, top) = (region % design.columns() * side, region / design.columns() * side);
+    let places = (top..top + side).flat_map(|y| (left..left + side).map(move |x| (x, y)));
+    places.map(|(x, y)| crate::pattern::pixel(x, y, frame).into()).collect()
+}

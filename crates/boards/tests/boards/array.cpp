@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// An array on a board: runs until a light says right or wrong, and then lets a host send commands, each when the answer to the one
+// before has come.
+//
+//   program FOLDER [+faultN]
+//
+// FOLDER/host   commands: a byte, and the 24 bytes of one. If the byte is 1, it is sent until bit 1 of its answer is 1
+// FOLDER/heard  is written: the last answer to each
+// FOLDER/sums   is written: the sum behind each frame
+// prints the lights, the clocks until they were on, and the frame from which on what was written last holds
+#include "Varray_bench.h"
+#include "verilated.h"
+
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+#include <vector>
+
+int main(int count, char **words) {
+    if (count < 2) return 2;
+    Verilated::commandArgs(count, words);
+    const std::size_t length = 24;
+    const std::string folder = words[1];
+    std::ifstream file(folder + "/host", std::ios::binary);
+    const std::vector<char> script(std::istreambuf_iterator<char>(file), {});
+    const auto top = std::make_unique<Varray_bench>();
+    std::vector<char> heard, answer;
+    std::vector<std::uint32_t> sums;
+    std::uint64_t clocks = 0, lit = 0;
+    std::size_t at = 0, said = 0;
+    int send_bits = 0, send_wait = 0, wait = 0, bits = 0;
+    unsigned sending = 0, byte = 0;
+    bool is_broken = false;
+    top->rx_i = 1;
+    while (clocks < LIMIT && !is_broken && !(lit && at == script.size())) {
+        top->clk_p_i = 1;
+        top->clk_n_i = 0;
+        top->eval();
+        top->clk_p_i = 0;
+        top->clk_n_i = 1;
+        top->eval();
+        ++clocks;
+        if (top->done_o) sums.push_back(top->sum_o);
+        if (!(top->led_o & 6)) continue;
+        if (!lit) lit = clocks;
+        // A byte that comes. Between answers the line rests.
+        if (bits == 0) {
+            if (!top->tx_o) {
+                wait = DIVISOR + DIVISOR / 2;
+                bits = 1;
+            }
+        } else if (--wait == 0) {
+            wait = DIVISOR;
+            if (bits <= 8) {
+                byte = byte >> 1 | (top->tx_o ? 0x80U : 0U);
+                ++bits;
+            } else {
+                is_broken = !top->tx_o || said < length;
+                answer.push_back(static_cast<char>(byte & 0xFF));
+                bits = 0;
+            }
+        }
+        // An answer that is whole; the command again, or the next one.
+        if (answer.size() == length) {
+            if (script[at] == 0 || (answer[8] & 2)) {
+                heard.insert(heard.end(), answer.begin(), answer.end());
+                at += 1 + length;
+            }
+            answer.clear();
+            said = 0;
+        }
+        // One that is sent.
+        if (send_wait > 0) {
+            --send_wait;
+        } else if (send_bits > 0) {
+            top->rx_i = sending & 1;
+            sending >>= 1;
+            --send_bits;
+            send_wait = DIVISOR - 1;
+        } else if (at < script.size() && said < length) {
+            sending = 0x200U | static_cast<unsigned>(static_cast<unsigned char>(script[at + 1 + said++])) << 1;
+            send_bits = 10;
+        }
+    }
+    std::printf("%d %llu %u\n", top->led_o & 6, static_cast<unsigned long long>(lit), top->from_o);
+    std::ofstream out(folder + "/heard", std::ios::binary);
+    out.write(heard.data(), static_cast<std::streamsize>(heard.size()));
+    std::ofstream added(folder + "/sums", std::ios::binary);
+    added.write(reinterpret_cast<const char *>(sums.data()), static_cast<std::streamsize>(4 * sums.size()));
+    top->final();
+    return is_broken || at < script.size();
+}

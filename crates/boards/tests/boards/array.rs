@@ -1,0 +1,536 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The whole top of an array of RPUs behind a pattern: sums, registers, thresholds and captures are those of the model.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Command as Process;
+use std::sync::OnceLock;
+
+use crate::common::{array_on, compiled, verilog};
+use foveate_boards::{Board, Project};
+use foveate_design::{Action, Camera, Irrelevant, Reference};
+use foveate_emit::{Register, array_table};
+use foveate_frame::Frame;
+use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_packets::{Command, Found, Packet, Splitter};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Source, Tool};
+
+const BENCH: &str = include_str!("array.cpp");
+const WRAPPER: &str = include_str!("array_bench.v");
+const VCU118: &str = include_str!("../../boards/vcu118.toml");
+const RIGHT: &str = "4";
+const WRONG: &str = "2";
+/// Where the values of a capture begin.
+const VALUES: u16 = 0x800;
+
+/// An array on a VCU118, with a serial line as fast as can be.
+fn fast(keys: &[&str]) -> Project {
+    let toml = VCU118.replace("baud = 921_600", "baud = 31_250_000");
+    array_on(Board::from_toml("vcu118", &toml).unwrap(), keys).unwrap()
+}
+
+/// 4 x 3 regions of 6 x 6. The gradient is not alike in them, so the first pixel of a region counts, too.
+const SMALL: &[&str] = &[
+    "frame={width=24,height=18}",
+    "region.size=6",
+    "spatial=[{feature='edge',level=20,min_score=3}]",
+    "temporal={level=4,min_count=2,reference='last-sent'}",
+];
+/// 2 x 2 regions of 8 x 8, all features, raw pixels.
+const LARGE: &[&str] = &[
+    "frame={width=16,height=16}",
+    "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},{feature='corner',level=3,min_score=6},\
+     {feature='variance',min_score=150}]",
+    "decision.combine='all'",
+    "temporal={level=4,min_count=2,reference='last-sent'}",
+    "render.payload='raw'",
+];
+/// 5 x 2 regions of 4 x 4 that send means, with more registers.
+const DEEP: &[&str] = &[
+    "frame={width=20,height=8}",
+    "region.size=4",
+    "spatial=[{feature='variance',min_score=80},{feature='edge',level=30,min_score=6}]",
+    "temporal={level=4,min_count=2,reference='last-sent'}",
+    "render.irrelevant='mean'",
+    "periphery={blocks=2,level=2}",
+    "hardware.pipelining='deep'",
+];
+
+fn pixel(x: u32, y: u32, t: u32) -> u16 {
+    let mix = (5 * x + 19 * y) & 255;
+    let noise = mix ^ (mix >> 3) ^ (x & y & 255);
+    let ramp = ((x + 2 * y) & 511) >> 2;
+    let moved = |at: u32, by: u32| at.wrapping_sub(by.wrapping_mul(t)) & 127;
+    let value = if moved(x, 3) < 16 && moved(y, 1) < 16 {
+        224 | (noise & 31)
+    } else if ((x >> 6) ^ (y >> 6)) & 3 == 3 {
+        (ramp >> 1) + (noise & 63)
+    } else {
+        ramp
+    };
+    u16::try_from(value).unwrap()
+}
+
+fn frame(camera: &Camera, t: u32) -> Frame {
+    let (width, height) = (camera.width(), camera.height());
+    let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
+    Frame::new(width, height, 8, places.map(|(x, y)| pixel(x, y, t)).collect()).unwrap()
+}
+
+/// A board that has been built, and the registers of it.
+#[derive(Clone)]
+struct Bench {
+    program: PathBuf,
+    table: Vec<Register>,
+    fault: Option<usize>,
+}
+
+/// A module, where in it, and what stands at `@` and what stands there instead.
+type Switch = (&'static str, &'static str, &'static str, &'static str);
+
+impl Bench {
+    /// With faults that are there, each in its place, only if they are asked for: so one program has all of them.
+    fn new(project: &Project, faults: &[Switch]) -> Self {
+        let constants = "#define DIVISOR 4\n#define LIMIT 20000000\n";
+        let mut sources = verilog(project, None);
+        for (number, (module, place, from, to)) in faults.iter().enumerate() {
+            let path = format!("rtl/{module}.v");
+            let source = sources.iter_mut().find(|(name, _)| *name == path).unwrap();
+            let from_text = place.replace('@', from);
+            assert_eq!(source.1.matches(&from_text).count(), 1, "`{from_text}` in {path}");
+            let either = format!("($test$plusargs(\"fault{number}\") ? {to} : {from})");
+            source.1 = source.1.replace(&from_text, &place.replace('@', &either));
+        }
+        sources.push(Source::from(("array_bench.v".to_owned(), WRAPPER.to_owned())));
+        let program = compiled(sources, "array_bench", constants.to_owned() + BENCH);
+        let table = array_table(project.design.pipelined().unwrap());
+        Self { program, table, fault: None }
+    }
+
+    /// The same with a fault.
+    fn with(&self, fault: usize) -> Self {
+        let (program, table) = (self.program.clone(), self.table.clone());
+        Self { program, table, fault: Some(fault) }
+    }
+
+    fn address(&self, name: &str) -> u16 {
+        let register = self.table.iter().find(|register| register.name == name).unwrap();
+        u16::try_from(register.address).unwrap()
+    }
+
+    fn read(&self, name: &str) -> Said {
+        Said { until: false, command: Command::read(self.address(name)) }
+    }
+
+    fn write(&self, name: &str, value: u32) -> Said {
+        Said { until: false, command: Command::write(self.address(name), value) }
+    }
+
+    fn play(&self, host: &[Said]) -> Run {
+        let dir = tempfile::tempdir().unwrap();
+        let bytes: Vec<u8> = host.iter().flat_map(Said::bytes).collect();
+        fs::write(dir.path().join("host"), bytes).unwrap();
+        let run = Process::new(&self.program)
+            .arg(dir.path())
+            .args(self.fault.map(|fault| format!("+fault{fault}")))
+            .output()
+            .unwrap();
+        let said = String::from_utf8(run.stdout).unwrap();
+        assert!(run.status.success(), "an answer did not come as it should; lights {said}");
+        let sums = fs::read(dir.path().join("sums")).unwrap();
+        let (sums, rest) = sums.as_chunks();
+        assert!(rest.is_empty());
+        let answers = answers(&dir.path().join("heard"));
+        assert_eq!(answers.len(), host.len());
+        let [lights, clocks, from] = said.split_whitespace().collect::<Vec<_>>()[..] else {
+            panic!("{said}")
+        };
+        Run {
+            lights: lights.to_owned(),
+            clocks: clocks.parse().unwrap(),
+            from: from.parse().unwrap(),
+            answers,
+            sums: sums.iter().map(|sum| u32::from_le_bytes(*sum)).collect(),
+        }
+    }
+
+    /// What a host does to see what a region said of a frame.
+    fn capture(&self, (column, row): (u32, u32), frame: u32, camera: &Camera) -> Vec<Said> {
+        let wait = Said { until: true, command: Command::read(self.address("capture")) };
+        let mut host = vec![
+            self.write("capture_region", row << 16 | column),
+            self.write("capture_frame", frame),
+            self.write("capture", 1),
+            wait,
+            self.read("captured_frame"),
+            self.read("captured_decision"),
+        ];
+        let rest = self.table.iter().filter(|register| (0x54..0x100).contains(&register.address));
+        host.extend(rest.map(|register| self.read(&register.name)));
+        let words = u16::try_from(camera.region_pixels().div_ceil(4)).unwrap();
+        let value = |word| Said { until: false, command: Command::read(VALUES + 4 * word) };
+        host.extend((0..words).map(value));
+        host
+    }
+}
+
+/// What a run left: lights, clocks until one was on, the frame at which what was written last was taken over,
+/// answers, and the sum behind each frame.
+struct Run {
+    lights: String,
+    clocks: u64,
+    from: u32,
+    answers: Vec<u32>,
+    sums: Vec<u32>,
+}
+
+/// A command, maybe sent until the answer says that a capture is there.
+struct Said {
+    until: bool,
+    command: Command,
+}
+
+impl Said {
+    fn bytes(&self) -> Vec<u8> {
+        [vec![u8::from(self.until)], self.command.bytes().to_vec()].concat()
+    }
+}
+
+fn answers(path: &Path) -> Vec<u32> {
+    let mut splitter = Splitter::default();
+    splitter.feed(&fs::read(path).unwrap());
+    let mut values = Vec::new();
+    loop {
+        match splitter.next(None) {
+            Found::Packet { packet: Packet::Register(answer), .. } => values.push(answer.value),
+            Found::Nothing => return values,
+            _ => panic!("no answer"),
+        }
+    }
+}
+
+/// What a region says of a frame: decision bits, count and scores, values that leave.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Says {
+    frame: u32,
+    decision: u32,
+    scores: Vec<u64>,
+    values: Vec<u16>,
+}
+
+impl Says {
+    /// From the answers to [`Bench::capture`].
+    fn read(answers: &[u32], camera: &Camera) -> Self {
+        let [frame, decision, rest @ ..] = &answers[4..] else { panic!("{answers:?}") };
+        let mut rest = rest.iter().copied();
+        let mut next = |bits: u32| {
+            let low = u64::from(rest.next().unwrap());
+            if bits > 32 { low | u64::from(rest.next().unwrap()) << 32 } else { low }
+        };
+        let widths = camera.features().iter().map(|feature| feature.score_bits());
+        let widths: Vec<u32> = std::iter::once(camera.count_bits()).chain(widths).collect();
+        let scores = widths.into_iter().map(&mut next).collect();
+        let bytes = rest.flat_map(u32::to_le_bytes).map(u16::from);
+        let count = (decision >> 16) as usize;
+        Self {
+            frame: *frame,
+            decision: decision & 0xFFFF,
+            scores,
+            values: bytes.take(count).collect(),
+        }
+    }
+
+    /// What the model says.
+    fn of(outcome: &FunctionalOutcome, camera: &Camera, frame: u32, place: (u32, u32)) -> Self {
+        let at = (place.1 * camera.columns() + place.0) as usize;
+        let action = outcome.actions[at];
+        let bits =
+            [outcome.srs[at], outcome.trs[at], action == Action::Summarize, outcome.active[at]];
+        let count = u64::from(outcome.temporal_count[at]);
+        let scores = outcome.scores.iter().map(|scores| scores[at]);
+        let values = match action {
+            Action::Forward => region(outcome.payload(camera), camera, place),
+            Action::Summarize => outcome.means[at].clone(),
+            Action::Hold | Action::Blank => Vec::new(),
+        };
+        Self {
+            frame,
+            decision: (0..).zip(bits).map(|(bit, value)| u32::from(value) << bit).sum(),
+            scores: std::iter::once(count).chain(scores).collect(),
+            values,
+        }
+    }
+}
+
+/// The pixels of a region of a frame without padding.
+fn region(frame: &Frame, camera: &Camera, (column, row): (u32, u32)) -> Vec<u16> {
+    let side = camera.region_size();
+    let places = (0..side * side).map(|at| (column * side + at % side, row * side + at / side));
+    places.map(|(x, y)| frame.pixels()[(y * camera.width() + x) as usize]).collect()
+}
+
+impl Says {
+    /// The CRC of it, as the page has it.
+    fn crc(&self, region: u32, camera: &Camera) -> u32 {
+        let widths = camera.features().iter().map(|feature| feature.score_bits());
+        let widths = std::iter::once(camera.count_bits()).chain(widths);
+        let mut bytes = region.to_le_bytes().to_vec();
+        bytes.push(u8::try_from(self.decision).unwrap());
+        for (score, bits) in self.scores.iter().zip(widths) {
+            bytes.extend(&score.to_le_bytes()[..bits.div_ceil(8) as usize]);
+        }
+        bytes.extend(self.values.iter().map(|value| u8::try_from(*value).unwrap()));
+        crc32fast::hash(&bytes)
+    }
+}
+
+fn places(camera: &Camera) -> Vec<(u32, u32)> {
+    let columns = camera.columns();
+    (0..camera.regions()).map(|region| (region % columns, region / columns)).collect()
+}
+
+/// What all regions say of each of so many frames, as the model has it.
+fn model(camera: &Camera, frames: u32) -> Vec<Vec<Says>> {
+    let mut functional = FunctionalCamera::new(camera);
+    let places = places(camera);
+    let all = |t| {
+        let outcome = functional.step(&frame(camera, t)).unwrap();
+        places.iter().map(|place| Says::of(outcome, camera, t, *place)).collect()
+    };
+    (0..frames).map(all).collect()
+}
+
+/// The same, if another camera takes over before a frame; with references of `[temporal]` as the contract has them. Without
+/// summaries.
+fn changed(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Says>> {
+    let mut functional = cameras.map(FunctionalCamera::new);
+    let places = places(cameras[0]);
+    let mut references: Vec<Option<Vec<u16>>> = vec![None; places.len()];
+    let mut all = |t: u32| {
+        let own = usize::from(t >= at);
+        let camera = cameras[own];
+        let given = frame(camera, t);
+        let [old, new] = &mut functional;
+        let outcomes = [old.step(&given).unwrap(), new.step(&given).unwrap()];
+        let one = |(place, reference): (&(u32, u32), &mut Option<Vec<u16>>)| {
+            let mut says = Says::of(outcomes[own], camera, t, *place);
+            let seen = region(&outcomes[own].denoised, camera, *place);
+            let level = camera.temporal().level;
+            let differs = |(a, b): (&u16, &u16)| u32::from(a.abs_diff(*b)) > level;
+            let count = match reference {
+                None => seen.len(),
+                Some(reference) => {
+                    seen.iter().zip(&*reference).filter(|pair| differs(*pair)).count()
+                }
+            };
+            says.scores[0] = count as u64;
+            let trs = count as u64 >= u64::from(camera.temporal().min_count);
+            let srs = says.decision & 1 == 1;
+            let active = srs && trs;
+            says.decision = u32::from(srs) | u32::from(trs) << 1 | u32::from(active) << 3;
+            says.values.clear();
+            if active {
+                says.values = region(outcomes[own].payload(camera), camera, *place);
+            }
+            match camera.temporal().reference {
+                Reference::Previous => *reference = Some(seen),
+                Reference::LastSent if active => *reference = Some(seen),
+                Reference::LastSent if !srs && camera.irrelevant() == Irrelevant::Zero => {
+                    *reference = None;
+                }
+                Reference::LastSent => {}
+            }
+            says
+        };
+        places.iter().zip(&mut references).map(one).collect()
+    };
+    (0..frames).map(&mut all).collect()
+}
+
+/// The sum behind each frame.
+fn sums(camera: &Camera, frames: &[Vec<Says>]) -> Vec<u32> {
+    let mut sum = 0_u32;
+    let each = frames.iter().map(|regions| {
+        for (region, says) in (0..).zip(regions) {
+            sum = sum.wrapping_add(says.crc(region, camera));
+        }
+        sum
+    });
+    each.collect()
+}
+
+/// Lets a host capture these regions of these frames.
+fn captures(bench: &Bench, camera: &Camera, wanted: &[((u32, u32), u32)]) -> (Run, Vec<Says>) {
+    let each = wanted.iter().map(|(place, frame)| bench.capture(*place, *frame, camera));
+    let host: Vec<Vec<Said>> = each.collect();
+    let length = host[0].len();
+    let run = bench.play(&host.into_iter().flatten().collect::<Vec<_>>());
+    let captured = run.answers.chunks(length).map(|part| Says::read(part, camera)).collect();
+    (run, captured)
+}
+
+#[test]
+fn an_array_on_a_board_says_what_the_model_says() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    for (keys, thresholds) in [(SMALL, OF_SMALL), (LARGE, OF_LARGE), (DEEP, &[])] {
+        let project = fast(keys);
+        let camera = project.design.camera();
+        let bench = if keys == SMALL { small().clone() } else { Bench::new(&project, &[]) };
+        // Frames with and without a square. Small regions have far more frames in the same time.
+        let (right, low) = (camera.columns() - 1, camera.rows() - 1);
+        let mut wanted = vec![((0, 0), 1), ((right, low), 60)];
+        if camera.region_size() > 4 {
+            wanted.push(((right, 0), 5));
+        }
+        let (run, captured) = captures(&bench, camera, &wanted);
+        assert_eq!(run.lights, RIGHT, "{keys:?}");
+        let frames = u32::try_from(run.sums.len()).unwrap() + 1;
+        let said = model(camera, frames);
+        let expected = sums(camera, &said);
+        let first = run.sums.iter().zip(&expected).position(|(sum, expected)| sum != expected);
+        assert_eq!(first, None, "the frame whose sum is wrong; {keys:?}");
+        for (((column, row), frame), captured) in wanted.iter().zip(&captured) {
+            assert_eq!(captured.frame % 128, *frame);
+            let region = (row * camera.columns() + column) as usize;
+            assert_eq!(*captured, said[captured.frame as usize][region], "{keys:?}");
+        }
+        assert!(captured.iter().any(|captured| !captured.values.is_empty()), "{keys:?}");
+        assert!(captured.iter().any(|captured| captured.decision & 8 == 0), "{keys:?}");
+        for threshold in thresholds {
+            assert_eq!(written(&bench, keys, *threshold), None, "{keys:?}");
+        }
+    }
+}
+
+/// Lets a host write a threshold, and says what is wrong with the frames around that, if each is to be computed with all
+/// thresholds of one set.
+fn written(bench: &Bench, keys: &[&str], (name, value, key): (&str, u32, &str)) -> Option<String> {
+    let (project, other) = (fast(keys), fast(&[keys, &[key]].concat()));
+    let cameras = [project.design.camera(), other.design.camera()];
+    // Time passes while others are read.
+    let mut host = vec![bench.read("frames"), bench.write(name, value), bench.read(name)];
+    host.extend((0..4).map(|_| bench.read("frames")));
+    let run = bench.play(&host);
+    assert_eq!(run.lights, RIGHT);
+    assert_eq!(run.answers[2], value);
+    let frames = u32::try_from(run.sums.len()).unwrap();
+    let differ = |at: u32| {
+        let expected = sums(cameras[0], &changed(cameras, at, frames));
+        run.sums.iter().zip(&expected).position(|(sum, expected)| sum != expected)
+    };
+    assert!(run.from > run.answers[0], "{name}: frame {}", run.from);
+    assert!(differ(frames).is_some(), "{name} changes nothing");
+    let wrong = differ(run.from);
+    wrong.map(|frame| format!("{name}: frame {frame} is wrong; taken over at {}", run.from))
+}
+
+const LEVEL: (&str, u32, &str) =
+    ("edge_level", 0, "spatial=[{feature='edge',level=0,min_score=3}]");
+const LEAST: (&str, u32, &str) = ("edge_min", 0, "spatial=[{feature='edge',level=20,min_score=0}]");
+
+/// Thresholds that a host writes, and the same as keys.
+const OF_SMALL: &[(&str, u32, &str)] = &[
+    LEVEL,
+    LEAST,
+    ("temporal_level", 0, "temporal.level=0"),
+    ("temporal_min", 9, "temporal.min_count=9"),
+];
+const OF_LARGE: &[(&str, u32, &str)] = &[
+    (
+        "corner_level",
+        0,
+        "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},\
+         {feature='corner',level=0,min_score=6},{feature='variance',min_score=150}]",
+    ),
+    ("temporal_level", 0, "temporal.level=0"),
+    (
+        "corner_min",
+        0,
+        "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},\
+         {feature='corner',level=3,min_score=0},{feature='variance',min_score=150}]",
+    ),
+];
+
+/// Faults that light the wrong light.
+const LIT: &[Switch] = &[
+    // Two regions have each other's pixels, and each has its neighbor's on the way out.
+    ("board", ".pixel_i(@),", "pixel", "{pixel[REGIONS*8-1:16], pixel[7:0], pixel[15:8]}"),
+    (
+        "board",
+        "forward_pixel_q <= @;",
+        "forward_pixel",
+        "{forward_pixel[REGIONS*8-9:0], forward_pixel[REGIONS*8-1-:8]}",
+    ),
+    ("array_pattern", "frame_ends ? @ : start_q;", "start_q - 7'd3", "start_q - 7'd2"),
+    ("array_signature", "left_q <= @;", "COLUMNS[LEFT_BITS-1:0]", "COLUMNS[LEFT_BITS-1:0] - 1'b1"),
+];
+/// Those that a capture shows.
+const CAPTURED: &[Switch] = &[
+    ("array_snapshot", "waits_q && @;", "next_q[6:0] == frame_i", "next_q[5:0] == frame_i[5:0]"),
+    ("array_registers", "place_o = @;", "asked[8:0]", "~asked[8:0]"),
+];
+/// Those by which a threshold changes a clock too early or too late.
+const TURNED: &[Switch] = &[
+    ("board", "if (@ || rst) edge_level_q", "level_turn", "minimum_turn"),
+    (
+        "array_turn",
+        "level_o = busy_q && @;",
+        "count_q == LEVEL_AT[COUNT_BITS-1:0]",
+        "count_q + 1'b1 == LEVEL_AT[COUNT_BITS-1:0]",
+    ),
+    ("board", "if (@ || rst) edge_min_q", "minimum_turn", "temporal_turn"),
+];
+
+/// The array of 4 x 3 regions with all of these faults, each of which is asked for: tests share its program.
+fn small() -> &'static Bench {
+    static BENCH: OnceLock<Bench> = OnceLock::new();
+    BENCH.get_or_init(|| Bench::new(&fast(SMALL), &[LIT, CAPTURED, TURNED].concat()))
+}
+
+#[test]
+fn an_array_that_is_wrong_is_seen() {
+    if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
+        return;
+    }
+    let project = fast(SMALL);
+    let camera = project.design.camera();
+    let bench = small();
+    for (number, fault) in LIT.iter().enumerate() {
+        assert_eq!(bench.with(number).play(&[]).lights, WRONG, "{fault:?}");
+    }
+    for (number, fault) in (LIT.len()..).zip(CAPTURED) {
+        let wanted = [((1, 0), 67), ((0, 0), 1)];
+        let (run, captured) = captures(&bench.with(number), camera, &wanted);
+        assert_eq!(run.lights, RIGHT);
+        let said = model(camera, u32::try_from(run.sums.len()).unwrap() + 1);
+        let right = |(says, ((column, _), frame)): (&Says, ((u32, u32), u32))| {
+            says.frame % 128 == frame && *says == said[says.frame as usize][column as usize]
+        };
+        assert!(!captured.iter().zip(wanted).all(right), "{fault:?}");
+    }
+    let turned = LIT.len() + CAPTURED.len();
+    for (number, threshold) in (turned..).zip([LEVEL, LEVEL, LEAST]) {
+        let seen = written(&bench.with(number), SMALL, threshold);
+        assert!(seen.is_some(), "{:?}", TURNED[number - turned]);
+    }
+}
+
+/// The whole array of the paper at the rate of the board, for hand: a compiler takes minutes for its 784 RPUs.
+#[test]
+#[ignore = "takes minutes and gigabytes"]
+fn the_array_of_the_paper_says_what_the_model_says() {
+    let project = fast(&[]);
+    let (camera, bench) = (project.design.camera(), Bench::new(&project, &[]));
+    let wanted = [((0, 0), 1), ((27, 27), 60), ((13, 5), 9)];
+    let (run, captured) = captures(&bench, camera, &wanted);
+    assert_eq!(run.lights, RIGHT);
+    let said = model(camera, u32::try_from(run.sums.len()).unwrap() + 1);
+    assert_eq!(run.sums[..], sums(camera, &said)[..run.sums.len()]);
+    for (((column, row), _), captured) in wanted.iter().zip(&captured) {
+        assert_eq!(*captured, said[captured.frame as usize][(row * 28 + column) as usize]);
+    }
+    println!("{} clocks until the light, {} frames in all", run.clocks, run.sums.len());
+}

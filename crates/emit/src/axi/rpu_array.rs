@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The registers of an array of RPUs on a board (docs/boards.md): a table as that of a core on a bus, and what is made of it.
+
+use super::pages;
+use super::registers::{Field, Kind, Register, common, field, threshold_registers};
+use super::verilog;
+use crate::text::{file, text_of};
+use crate::{SourceFile, banner};
+use foveate_design::{Design, PipelinedDesign, Port, PortRole, bits_for};
+
+/// The module with the registers of an array.
+pub const ARRAY_REGISTERS: &str = "array_registers";
+/// Frames behind which the pattern begins again.
+const PERIOD_BITS: u32 = 7;
+/// Bits of a register.
+const WORD: u32 = 32;
+
+/// The registers of an array of RPUs behind a pattern, by address.
+#[must_use]
+pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
+    let is_array = field("array", 16, 1, Kind::Constant(1), "1: the map of an array of RPUs");
+    let mut list = common(&design, vec![is_array]);
+    let mut add = |address: u32, name: &str, doc: &str, fields: Vec<Field>| {
+        list.push(Register { name: name.to_owned(), address, fields, doc: doc.to_owned() });
+    };
+    let status = |width: u32, doc: &str| vec![field("value", 0, width, Kind::Status, doc)];
+    let control = |name: &str, low: u32, width: u32, doc: &str| {
+        field(name, low, width, Kind::Control { reset: 0 }, doc)
+    };
+    add(0x034, "frames", "whole frames", status(WORD, "modulo 2^32"));
+    add(
+        0x040,
+        "capture_region",
+        "the region that is kept",
+        vec![control("column", 0, 16, "its column"), control("row", 16, 16, "its row")],
+    );
+    let period = vec![control("value", 0, PERIOD_BITS, "its number modulo 128")];
+    add(0x044, "capture_frame", "the frame that is kept", period);
+    add(
+        0x048,
+        "capture",
+        "a capture",
+        vec![
+            field("start", 0, 1, Kind::Command, "the next such frame is kept"),
+            field("captured", 1, 1, Kind::Status, "it is there"),
+        ],
+    );
+    add(0x04C, "captured_frame", "the frame that is there", status(WORD, "its number since reset"));
+    let bits = ["srs", "trs", "summary", "active"].into_iter().zip(0..);
+    let mut decision: Vec<_> =
+        bits.map(|(name, low)| field(name, low, 1, Kind::Status, "as the RPU said it")).collect();
+    let values = bits_for(design.region_pixels().into());
+    decision.push(field("values", 16, values, Kind::Status, "how many pixels or means left"));
+    add(0x050, "captured_decision", "its decision", decision);
+    let mut address = 0x054;
+    for port in array_scores(&design) {
+        let name = format!("captured_{}", port.name.trim_end_matches("_o"));
+        let mut part = |name: &str, width: u32, doc: &str| {
+            add(address, name, doc, status(width, "as the RPU said it"));
+            address += 4;
+        };
+        match port.width.checked_sub(WORD).filter(|more| *more > 0) {
+            None => part(&name, port.width, "a score"),
+            Some(more) => {
+                part(&format!("{name}_low"), WORD, "a score, its low bits");
+                part(&format!("{name}_high"), more, "a score, its high bits");
+            }
+        }
+    }
+    list.extend(threshold_registers(&design));
+    list
+}
+
+/// The ports with the count of changed pixels and with the scores, in this order.
+#[must_use]
+pub fn array_scores(design: &Design) -> Vec<Port> {
+    let ports = design.rcm_ports();
+    let features = design.features().iter().map(|feature| PortRole::Score(feature.kind()));
+    let roles = std::iter::once(PortRole::TemporalCount).chain(features);
+    roles.filter_map(|role| ports.iter().find(|port| port.role == role).cloned()).collect()
+}
+
+/// The module with the registers.
+#[must_use]
+pub fn array_registers(design: PipelinedDesign<'_>) -> SourceFile {
+    let view = verilog::view(&design, (ARRAY_REGISTERS, true), &array_table(design));
+    file(ARRAY_REGISTERS, text_of(&view))
+}
+
+/// What software needs of the registers: a page, a C header and SystemRDL.
+#[must_use]
+pub fn array_software(design: PipelinedDesign<'_>) -> Vec<SourceFile> {
+    let (banner, list) = (banner(&design), array_table(design));
+    let files = [
+        ("REGISTERS.md", pages::markdown(&banner, &list)),
+        ("software/foveate_registers.h", pages::header(&banner, &list)),
+        ("software/foveate.rdl", pages::rdl(&banner, &list)),
+    ];
+    files.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }).into()
+}
