@@ -58,12 +58,16 @@ while [ "$seed" -le "$seeds" ]; do
 done
 sort -n build/clocks >build/sorted
 worst=$(head -n 1 build/sorted)
-best=$(tail -n 1 build/sorted)
+# Packed is the fastest core of those whose other clock is fast enough, too, or else the fastest.
+best=$(awk '$1 >= {= core_mhz =} && $2 >= {= pclk_mhz =}' build/sorted | tail -n 1)
+fast=${best:+yes}
+[ -n "$best" ] || best=$(tail -n 1 build/sorted)
 median=$(sed -n "$(((seeds + 1) / 2))p" build/sorted)
 seed=${best##* }
 run build/pack.log "$pack" {= packs =}
 cp "build/seed$seed.json" build/report.json
-echo "clock of the core: best ${best%% *} MHz (seed $seed, packed), median ${median%% *}, worst ${worst%% *} of $seeds seeds; {= core_mhz =} needed"
+echo "$best" >build/packed
+echo "clock of the core: ${best%% *} MHz (seed $seed, packed), median ${median%% *}, worst ${worst%% *} of $seeds seeds; {= core_mhz =} needed"
 pixels=${best#* }
 echo "clock of the sensor: ${pixels%% *} MHz; {= pclk_mhz =} needed"
-echo "$best" | awk '{ exit !($1 >= {= core_mhz =} && $2 >= {= pclk_mhz =}) }' || { echo "too slow: {= bitstream =} may not work" >&2 && exit 1; }
+[ -n "$fast" ] || { echo "too slow: {= bitstream =} may not work" >&2 && exit 1; }

@@ -46,20 +46,25 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let files = write_project(&project, folder, args.force)?;
     let built =
         if args.project || !project.is_open() { None } else { Some(make(&project, folder, args)?) };
+    let complaint = built.as_ref().filter(|built| !built.is_fast_enough()).map(|built| {
+        format!(
+            "too slow: `{}` may not work; try more --seeds",
+            folder.join(&built.bitstream).display()
+        )
+    });
     if args.json {
-        return output::json(&Report {
+        output::json(&Report {
             format_version: 1,
             board: &project.board.name,
             fingerprint: project.design.fingerprint(),
             folder: folder.display().to_string(),
             files,
             built,
-        });
+        })?;
+    } else if !args.quiet {
+        output::text(&text(&project, folder, files.len(), built.as_ref()))?;
     }
-    if args.quiet {
-        return Ok(());
-    }
-    output::text(&text(&project, folder, files.len(), built.as_ref()))
+    complaint.map_or(Ok(()), |complaint| Err(CliError::Failed(complaint)))
 }
 
 /// The configuration of the board, that of the file, or the preset, with the changes.
@@ -106,11 +111,11 @@ fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -
     for cell in &built.used {
         let _ = writeln!(text, "{:24}{:>8} of {}", cell.cell, cell.used, cell.available);
     }
-    let (worst, best) = (built.reached_mhz.first(), built.reached_mhz.last());
-    let (worst, best) = (worst.copied().unwrap_or(0.0), best.copied().unwrap_or(0.0));
+    let worst = built.reached_mhz.first().copied().unwrap_or(0.0);
     let _ = writeln!(
         text,
-        "core    {best:.1} MHz (slowest of {} seeds {worst:.1}), needs {}",
+        "core    {:.1} MHz (slowest of {} seeds {worst:.1}), needs {}",
+        built.packed_mhz,
         built.reached_mhz.len(),
         built.core_mhz
     );

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate build`, as far as it runs no tool: boards are listed, projects written, and what is wrong is said.
+//! `foveate build`, without the tools of a device: boards are listed, projects written, a slow bitstream is told from a missing
+//! one, and what is wrong is said.
 
 use std::fs;
 
 use serde_json::Value;
 
-use crate::common::{fail_in, run_in, succeed_in};
+use crate::common::{fail_in, foveate, run_in, succeed_in};
 
 #[test]
 fn boards_are_listed() {
@@ -93,4 +94,40 @@ fn what_is_wrong_with_a_board_or_its_design_is_said() {
         fail_in(dir.path(), 2, &[&["build", "-o", "out", "--project"], args].concat(), &[said]);
     }
     assert!(!dir.path().join("out").exists());
+}
+
+/// A bitstream that is too slow is there, and a failed check; a tool that fails is another thing.
+#[cfg(unix)]
+#[test]
+fn a_slow_bitstream_is_no_failure_of_a_tool() {
+    use std::os::unix::fs::PermissionsExt as _;
+    let dir = tempfile::tempdir().unwrap();
+    let tool = |name: &str, script: &str| {
+        let path = dir.path().join(name);
+        fs::write(&path, format!("#!/bin/sh\n{script}\n")).unwrap();
+        fs::set_permissions(&path, fs::Permissions::from_mode(0o755)).unwrap();
+        path
+    };
+    let place = "echo \"Info: Max frequency for clock 'clk': 20.00 MHz (FAIL at 24.00 MHz)\"\n\
+                 echo \"Info: Max frequency for clock 'sensor_pclk_i': 60.00 MHz\"\n\
+                 while [ $# -gt 0 ]; do case $1 in --report | --asc) echo {} >\"$2\" ;; esac; shift; done";
+    let (fine, place) = (tool("fine", "exit 0"), tool("place", place));
+    let run = |pack: &std::path::Path, more: &[&str]| {
+        let args = [&["build", "--board", "icebreaker", "-o", "out", "--force"], more].concat();
+        let mut command = foveate(&args);
+        command.current_dir(dir.path()).env("YOSYS", &fine).env("NEXTPNR", &place);
+        let output = command.env("PACK", pack).output().unwrap();
+        let text = |bytes: Vec<u8>| String::from_utf8(bytes).unwrap();
+        (output.status.code(), text(output.stdout), text(output.stderr))
+    };
+    let pack = tool("pack", "for last; do :; done; echo bits >\"$last\"");
+    let (code, told, said) = run(&pack, &["--seeds", "2"]);
+    assert!(code == Some(1) && said.contains("too slow: `out/icebreaker.bin`"), "{code:?} {said}");
+    assert!(told.contains("core    20.0 MHz (slowest of 2 seeds 20.0), needs 24"), "{told}");
+    let (code, told, _) = run(&pack, &["--json"]);
+    let report: Value = serde_json::from_str(&told).unwrap();
+    assert_eq!((code, &report["packed_mhz"]), (Some(1), &serde_json::json!(20.0)));
+
+    let (code, told, said) = run(&tool("torn", "exit 1"), &[]);
+    assert!(code == Some(3) && told.is_empty() && said.contains("torn failed"), "{code:?} {said}");
 }
