@@ -32,8 +32,9 @@ step_cosim() {
 step_benches() {
     # Every output of the shipped benches tied to 0, over sizes, folds and feeds.
     cargo test --locked --package foveate-cosim --test cosim -- --ignored tied
-    # Lists of faults and netlists of which the tests take a part.
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted netlists
+    # Lists of faults, netlists and designs of which the tests take a part.
+    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted netlists without_forwarding
+    FOVEATE_WHOLE=1 cargo test --locked --package foveate-boards --test boards -- faults
 }
 step_netlists() {
     local array=(--level rcm --rounds 1)

@@ -5,7 +5,9 @@
 use std::collections::VecDeque;
 
 use crate::common::vectors::{clocks, field, value};
-use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, name, simulators};
+use crate::common::{
+    agrees, design, directed, feature, in_parallel, in_turn, name, simulators, whole,
+};
 use foveate_cosim::{Level, Recording, Simulator};
 use foveate_design::{
     CameraConfig, Config, Design, FeatureKind, Filter, Neighborhood, Organization, Payload,
@@ -232,7 +234,10 @@ fn check_all(store: Store, forward: bool) {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    let designs: Vec<(usize, Design)> = matrix(store, forward).into_iter().enumerate().collect();
+    let mut designs: Vec<(usize, Design)> =
+        matrix(store, forward).into_iter().enumerate().collect();
+    // Without forwarding there is less of everything: of each set of features one, plain and deep by turns.
+    designs.retain(|(number, _)| forward || whole() || matches!(number % 4, 0 | 3));
     let failures = in_parallel(&designs, |(number, design)| {
         // Icarus knows unknown values, and takes seconds for each: every third, plain and deep.
         let simulator = if number % 3 == 0 { Simulator::Iverilog } else { Simulator::Verilator };

@@ -97,13 +97,13 @@ pub(crate) fn whole() -> bool {
     std::env::var_os("FOVEATE_WHOLE").is_some()
 }
 
-/// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each third of the
+/// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each fourth of the
 /// others; or all.
 pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
     let taken =
-        numbered.filter(|(number, fault)| seen.insert(module(fault)) || whole() || number % 3 == 0);
+        numbered.filter(|(number, fault)| seen.insert(module(fault)) || whole() || number % 4 == 0);
     taken.map(|(_, fault)| fault).collect()
 }
 
