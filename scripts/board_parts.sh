@@ -158,7 +158,7 @@ array_turn       s/soon_i \&\& !busy_q/soon_i/
 array_turn       s/count_q == LEVEL_AT/count_q == TEMPORAL_AT/
 array_turn       s/count_q == MINIMUM_AT/count_q == TEMPORAL_AT/
 array_turn       s/!rst_i \&\& (begin_o/(begin_o/
-array_signature  s/numbered(REGION)/numbered(0)/
+array_signature  s/numbered(REGION\[31:0\])/numbered(32'd0)/
 array_signature  s/forward_valid_i\[REGION\] ? more : crc_q/more/
 array_signature  s/decided_i ? ~next : chain/decided_i ? ~crc_q : chain/
 array_signature  s/decided_i ? ~next : chain/decided_i ? next : chain/

@@ -37,7 +37,7 @@ module array_signature #(
     localparam HEAD_BITS = HEAD_BYTES * 8;
 
     // The sum of the number of a region in four bytes.
-    function [31:0] numbered(input integer number);
+    function [31:0] numbered(input [31:0] number);
         integer step;
         begin
             numbered = ~number;
@@ -57,7 +57,7 @@ module array_signature #(
             for (column = 0; column < COLUMNS; column = column + 1) begin : g_column
                 localparam REGION = row * COLUMNS + column;
                 // The sum of the region's number, and with it that of a decision and its scores, four bytes at a time.
-                localparam [31:0] NUMBERED = numbered(REGION);
+                localparam [31:0] NUMBERED = numbered(REGION[31:0]);
                 wire [32*PIECES+31:0] parts;
                 assign parts[31:0] = NUMBERED;
                 for (piece = 0; piece < PIECES; piece = piece + 1) begin : g_piece

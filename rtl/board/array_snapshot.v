@@ -136,7 +136,7 @@ module array_snapshot #(
             words_q[count_q[INDEX_BITS+1:2]] <= part;
         end
         word_q  <= words_q[place_i[INDEX_BITS-1:0]];
-        there_q <= {23'd0, place_i} < WORDS;
+        there_q <= {23'd0, place_i} < WORDS[31:0];
     end
     assign word_o = there_q ? word_q : 32'd0;
 

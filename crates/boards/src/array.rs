@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An array of RPUs behind a pattern: what may stand there, the top around it, and what its signature is (docs/boards.md).
+//! An array of RPUs behind a pattern: the top around it, and what its signature is (docs/boards.md).
 
 use askama::Template;
 use foveate_design::{
-    Action, Design, FeatureKind, Neighborhood, Payload, PipelinedDesign, PipelinedTiming, PortRole,
-    bits_for, index_bits,
+    Action, Design, FeatureKind, Payload, PipelinedDesign, PipelinedTiming, PortRole, bits_for,
+    index_bits,
 };
 use foveate_emit::array_scores;
 use foveate_engine::Engine;
@@ -14,8 +14,6 @@ use crate::project::Project;
 use crate::sensor::Level;
 use crate::text::text_of;
 
-/// Values of a region that registers can show: four at each address of their upper half.
-const MOST_VALUES: u32 = 2048;
 /// Bits of a byte.
 const BYTE: u32 = 8;
 
@@ -66,41 +64,6 @@ impl Score {
     fn bytes(&self) -> u32 {
         self.width.div_ceil(BYTE)
     }
-}
-
-/// What hinders an array from standing behind a pattern.
-pub(crate) fn check(array: PipelinedDesign<'_>) -> Result<(), String> {
-    let side = array.region_size();
-    if array.neighborhood() == Neighborhood::Shared {
-        return Err("an RPU sees the pixels of its own region alone here; set region.neighborhood='isolated'".to_owned());
-    }
-    if array.syncs() {
-        return Err("a pattern loses no pixel; set hardware.sync=false".to_owned());
-    }
-    if array.pixel_bits() != 8 {
-        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", array.pixel_bits()));
-    }
-    if array.region_pixels() > MOST_VALUES {
-        return Err(format!(
-            "region.size = {side}: registers show {MOST_VALUES} pixels; 45 is the largest"
-        ));
-    }
-    for (key, length) in [("width", array.width()), ("height", array.height())] {
-        if !length.is_multiple_of(side) {
-            let right = length.div_ceil(side) * side;
-            return Err(format!(
-                "frame.{key} = {length}: the pattern makes whole regions; {right} is a multiple of {side}"
-            ));
-        }
-    }
-    let (columns, most) = (array.columns(), array.region_pixels());
-    if columns > most {
-        return Err(format!(
-            "{columns} regions side by side: their sum is made in {most} clocks; frame.width = {} is the most with regions of {side} x {side}",
-            most * side
-        ));
-    }
-    Ok(())
 }
 
 /// What each region says beside its decision: the count of changed pixels, then the scores in the order of the design.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The files of a project.
 
+use foveate_design::Hardware;
 use foveate_emit::{SourceFile, array_software, software};
 
 use crate::text::file;
@@ -14,9 +15,9 @@ impl Project {
         let sources: Vec<_> = files.iter().map(|file| file.path.clone()).collect();
         let list: String = sources.iter().map(|path| format!("{path}\n")).collect();
         let toml = format!("# {}\n\n{}", self.banner(), self.design.config().to_toml());
-        files.extend(match self.design.pipelined() {
-            Some(array) => array_software(array),
-            None => software(&self.design),
+        files.extend(match self.design.hardware() {
+            Hardware::Pipelined(own) => array_software(self.design.on(own)),
+            Hardware::Serial(_) | Hardware::Raster(_) => software(&self.design),
         });
         files.push(file("board.f", list));
         files.push(file("sim/board_clock.v", top::clock(self, true)));

@@ -12,6 +12,7 @@ mod clock;
 mod constraints;
 mod error;
 mod files;
+mod fit;
 mod pattern;
 mod project;
 mod readme;

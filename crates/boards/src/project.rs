@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A design on a board.
 
-use foveate_design::{Bus, Design, Hardware, RasterDesign};
+use foveate_design::{Design, Hardware};
 
 use crate::BoardError;
-use crate::array;
 use crate::board::{Board, Family, SensorPins};
 use crate::clock::{self, Source};
+use crate::fit::check;
 use crate::sensor::Sensor;
 
 /// A design on a board.
@@ -86,6 +86,14 @@ impl Project {
         mhz * 1e6 / clocks
     }
 
+    /// Whether an array of RPUs stands there, without packets.
+    pub(crate) fn is_array(&self) -> bool {
+        match self.design.hardware() {
+            Hardware::Pipelined(_) => true,
+            Hardware::Serial(_) | Hardware::Raster(_) => false,
+        }
+    }
+
     /// Who made a file, from which design.
     pub(crate) fn banner(&self) -> String {
         let fingerprint = self.design.fingerprint();
@@ -152,51 +160,4 @@ impl Wire {
         let pins = pins.iter().enumerate();
         pins.map(move |(index, pin)| Self::new(&format!("{name}[{index}]"), pin, standard))
     }
-}
-
-/// What hinders a design from standing on a board, behind this sensor or a pattern.
-fn check(design: &Design, sensor: Option<&Sensor>) -> Result<(), String> {
-    match (design.bus(), design.hardware(), sensor) {
-        (Bus::Axi, Hardware::Raster(own), sensor) => check_raster(design.on(own), sensor),
-        (Bus::Ports, Hardware::Pipelined(own), None) => array::check(design.on(own)),
-        (Bus::Ports, Hardware::Pipelined(_), Some(_)) => {
-            Err("an array takes a pixel of every region at a clock, and a sensor sends one; set hardware.organization='raster' \
-                 and hardware.interface='axi', or take a board with a pattern, vcu118"
-                .to_owned())
-        }
-        (Bus::Ports, Hardware::Serial(_), _) => {
-            Err("organization `serial` stands on no board; set hardware.organization='raster' and hardware.interface='axi', or \
-                 'pipelined' where a pattern is"
-                .to_owned())
-        }
-        (Bus::Ports, Hardware::Raster(_), _) => {
-            Err("it has no bus; set hardware.interface='axi'".to_owned())
-        }
-        (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_), _) => {
-            Err("only organization `raster` is on AXI".to_owned())
-        }
-    }
-}
-
-fn check_raster(raster: RasterDesign<'_>, sensor: Option<&Sensor>) -> Result<(), String> {
-    if raster.frames_are_kept_outside() {
-        let remedy = "set hardware.store='block'";
-        return Err(format!("no board here has a memory for a frame store outside; {remedy}"));
-    }
-    if raster.pixel_bits() != 8 {
-        return Err(format!("frame.pixel_bits = {}: pixels have 8 bits here", raster.pixel_bits()));
-    }
-    let lanes = raster.pixels_per_clock();
-    let Some(sensor) = sensor else { return Ok(()) };
-    if lanes != 1 {
-        return Err(format!("hardware.pixels_per_clock = {lanes}: a sensor sends one at a time"));
-    }
-    let (width, height) = (raster.width(), raster.height());
-    let (most, lines) = (sensor.width - sensor.left, sensor.height - sensor.top);
-    if width > most || height > lines {
-        return Err(format!(
-            "frames of {width} x {height}: the sensor sends {most} x {lines} at most"
-        ));
-    }
-    Ok(())
 }

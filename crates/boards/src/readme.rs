@@ -53,7 +53,7 @@ pub(crate) fn readme(project: &Project) -> String {
         wires: project.wires(),
         is_open: project.is_open(),
         has_sensor: project.eye.is_some(),
-        is_array: design.pipelined().is_some(),
+        is_array: project.is_array(),
         columns: design.columns(),
         rows: design.rows(),
         frames: FRAMES,

@@ -243,9 +243,9 @@ fn pattern_top(project: &Project, design: RasterDesign<'_>) -> String {
 
 fn expected(project: &Project) -> String {
     let design = &project.design;
-    let sums = match design.pipelined() {
-        Some(array) => array::sums(array, FRAMES),
-        None => sums(design, FRAMES),
+    let sums = match design.hardware() {
+        Hardware::Pipelined(own) => array::sums(design.on(own), FRAMES),
+        Hardware::Serial(_) | Hardware::Raster(_) => sums(design, FRAMES),
     };
     text_of(&Expected {
         banner: project.banner(),
