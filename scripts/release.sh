@@ -33,7 +33,7 @@ step_benches() {
     # Every output of the shipped benches tied to 0, over sizes, folds and feeds.
     cargo test --locked --package foveate-cosim --test cosim -- --ignored tied
     # Lists of faults, netlists and designs of which the tests take a part.
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted netlists without_forwarding
+    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted netlists without_forwarding every_feature one_lane
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-boards --test boards -- faults
 }
 step_netlists() {

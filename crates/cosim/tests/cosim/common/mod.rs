@@ -39,6 +39,25 @@ pub(crate) fn name(config: &Config) -> String {
     )
 }
 
+/// Of a list that goes through all values of these axes, the last axis fastest, one half, in which every value of an axis still
+/// meets every value of any other; or the whole.
+pub(crate) fn half<T>(list: Vec<T>, axes: &[usize]) -> Vec<T> {
+    assert_eq!(list.len(), axes.iter().product::<usize>());
+    let is_in = |number: usize| {
+        let digits = axes.iter().rev().scan(number, |rest, axis| {
+            let digit = *rest % axis;
+            *rest /= axis;
+            Some(digit)
+        });
+        whole() || digits.sum::<usize>() % 2 == 0
+    };
+    list.into_iter()
+        .enumerate()
+        .filter(|(number, _)| is_in(*number))
+        .map(|(_, item)| item)
+        .collect()
+}
+
 /// One of all values of a key, by turns.
 pub(crate) fn in_turn<T: Copy>(all: &[T], turn: usize) -> T {
     all[turn % all.len()]
