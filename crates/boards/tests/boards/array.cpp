@@ -27,12 +27,11 @@ int main(int count, char **words) {
     std::ifstream file(folder + "/host", std::ios::binary);
     const std::vector<char> script(std::istreambuf_iterator<char>(file), {});
     const auto top = std::make_unique<Varray_bench>();
-    std::vector<char> heard, answer;
+    Host host;
+    Bytes heard;
     std::vector<std::uint32_t> sums;
     std::uint64_t clocks = 0, lit = 0;
     std::size_t at = 0, said = 0;
-    int send_bits = 0, send_wait = 0, wait = 0, bits = 0;
-    unsigned sending = 0, byte = 0;
     bool is_broken = false;
     top->rx_i = 1;
     while (clocks < LIMIT && !is_broken && !(lit && at == script.size())) {
@@ -46,23 +45,11 @@ int main(int count, char **words) {
         if (top->done_o) sums.push_back(top->sum_o);
         if (!(top->led_o & 6)) continue;
         if (!lit) lit = clocks;
-        // A byte that comes. Between answers the line rests.
-        if (bits == 0) {
-            if (!top->tx_o) {
-                wait = DIVISOR + DIVISOR / 2;
-                bits = 1;
-            }
-        } else if (--wait == 0) {
-            wait = DIVISOR;
-            if (bits <= 8) {
-                byte = byte >> 1 | (top->tx_o ? 0x80U : 0U);
-                ++bits;
-            } else {
-                is_broken = !top->tx_o || said < length;
-                answer.push_back(static_cast<char>(byte & 0xFF));
-                bits = 0;
-            }
-        }
+        // Between answers the line rests.
+        Bytes &answer = host.heard;
+        const auto before = answer.size();
+        host.listen(top->tx_o);
+        is_broken = host.bad || (answer.size() != before && said < length);
         // An answer that is whole; the command again, or the next one.
         if (answer.size() == length) {
             if (script[at] == 0 || (answer[8] & 2)) {
@@ -72,22 +59,13 @@ int main(int count, char **words) {
             answer.clear();
             said = 0;
         }
-        // One that is sent.
-        if (send_wait > 0) {
-            --send_wait;
-        } else if (send_bits > 0) {
-            top->rx_i = sending & 1;
-            sending >>= 1;
-            --send_bits;
-            send_wait = DIVISOR - 1;
-        } else if (at < script.size() && said < length) {
-            sending = 0x200U | static_cast<unsigned>(static_cast<unsigned char>(script[at + 1 + said++])) << 1;
-            send_bits = 10;
+        if (host.sent(top->rx_i) && at < script.size() && said < length) {
+            host.send(script[at + 1 + said++]);
         }
     }
     std::printf("%d %llu %u\n", top->led_o & 6, static_cast<unsigned long long>(lit), top->from_o);
     std::ofstream out(folder + "/heard", std::ios::binary);
-    out.write(heard.data(), static_cast<std::streamsize>(heard.size()));
+    out.write(reinterpret_cast<const char *>(heard.data()), static_cast<std::streamsize>(heard.size()));
     std::ofstream added(folder + "/sums", std::ios::binary);
     added.write(reinterpret_cast<const char *>(sums.data()), static_cast<std::streamsize>(4 * sums.size()));
     top->final();

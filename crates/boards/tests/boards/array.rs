@@ -103,7 +103,7 @@ impl Bench {
             source.1 = source.1.replace(&from_text, &place.replace('@', &either));
         }
         sources.push(Source::from(("array_bench.v".to_owned(), WRAPPER.to_owned())));
-        let program = compiled(sources, "array_bench", constants.to_owned() + BENCH);
+        let program = compiled(sources, "array_bench", constants, BENCH);
         let table = array_table(project.design.pipelined().unwrap());
         Self { program, table, fault: None }
     }

@@ -12,6 +12,7 @@ use foveate_toolchain::{Cache, Source, Toolchain};
 
 const BENCH: &str = include_str!("board_bench.v");
 const SENSOR: &str = include_str!("sensor.cpp");
+const SERIAL: &str = include_str!("serial.h");
 pub(crate) const CORE_MHZ: u32 = 24;
 /// Clocks without a byte after which a run ends.
 const QUIET: u32 = 30_000;
@@ -67,9 +68,9 @@ pub(crate) fn verilog(project: &Project, fault: Fault<'_>) -> Vec<Source> {
     text("board.f").lines().map(source).collect()
 }
 
-/// A program that plays these modules.
-pub(crate) fn compiled(sources: Vec<Source>, top: &str, cpp_main: String) -> PathBuf {
-    let top = top.to_owned();
+/// A program that plays these modules: constants, the host's end of the serial line, and a main.
+pub(crate) fn compiled(sources: Vec<Source>, top: &str, constants: &str, main: &str) -> PathBuf {
+    let (top, cpp_main) = (top.to_owned(), format!("{constants}{SERIAL}{main}"));
     let job =
         VerilatorJob { sources, top, cpp_main, lint: Lint::Lenient, ..VerilatorJob::default() };
     verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
@@ -82,7 +83,7 @@ pub(crate) fn simulated(project: &Project, fault: Fault<'_>) -> PathBuf {
     let bench = format!("`define DATA {}\n{BENCH}", sensor.format.lines());
     sources.push(Source::from(("board_bench.v".to_owned(), bench)));
     let constants = format!("#define DIVISOR 4\n#define MHZ {CORE_MHZ}\n#define QUIET {QUIET}\n");
-    compiled(sources, "board_bench", constants + SENSOR)
+    compiled(sources, "board_bench", &constants, SENSOR)
 }
 
 /// What a run left.

@@ -23,11 +23,9 @@ int main(int count, char **words) {
     std::ifstream file(folder + "/host", std::ios::binary);
     const std::vector<char> script(std::istreambuf_iterator<char>(file), {});
     const auto top = std::make_unique<Vboard>();
-    std::vector<char> heard;
+    Host host;
     std::uint64_t clocks = 0, after = 0, lit = 0;
     std::size_t said = 0;
-    int send_bits = 0, send_wait = 0, wait = 0, bits = 0;
-    unsigned sending = 0, byte = 0;
     top->rx_i = 1;
     while (after < AFTER && clocks < LIMIT) {
         top->clk_p_i = 1;
@@ -39,38 +37,12 @@ int main(int count, char **words) {
         ++clocks;
         if (!(top->led_o & 6)) continue;
         if (after++ == 0) lit = clocks;
-        // A byte that comes.
-        if (bits == 0) {
-            if (!top->tx_o) {
-                wait = DIVISOR + DIVISOR / 2;
-                bits = 1;
-            }
-        } else if (--wait == 0) {
-            wait = DIVISOR;
-            if (bits <= 8) {
-                byte = byte >> 1 | (top->tx_o ? 0x80U : 0U);
-                ++bits;
-            } else {
-                heard.push_back(static_cast<char>(byte & 0xFF));
-                bits = 0;
-            }
-        }
-        // One that is sent.
-        if (send_wait > 0) {
-            --send_wait;
-        } else if (send_bits > 0) {
-            top->rx_i = sending & 1;
-            sending >>= 1;
-            --send_bits;
-            send_wait = DIVISOR - 1;
-        } else if (said < script.size()) {
-            sending = 0x200U | static_cast<unsigned char>(script[said++]) << 1;
-            send_bits = 10;
-        }
+        host.listen(top->tx_o);
+        if (host.sent(top->rx_i) && said < script.size()) host.send(script[said++]);
     }
     std::printf("%d %llu\n", top->led_o & 6, static_cast<unsigned long long>(lit));
     std::ofstream out(folder + "/heard", std::ios::binary);
-    out.write(heard.data(), static_cast<std::streamsize>(heard.size()));
+    out.write(reinterpret_cast<const char *>(host.heard.data()), static_cast<std::streamsize>(host.heard.size()));
     top->final();
     return 0;
 }

@@ -29,7 +29,7 @@ fn vcu118(keys: &[&str]) -> Project {
 /// Lights of a run, and what was heard after that.
 fn play(project: &Project, fault: Fault<'_>, host: &[u8]) -> (String, Vec<u8>) {
     let constants = format!("#define DIVISOR 136\n#define AFTER {AFTER}\n#define LIMIT {LIMIT}\n");
-    let program = compiled(verilog(project, fault), "board", constants + BENCH);
+    let program = compiled(verilog(project, fault), "board", &constants, BENCH);
     let dir = tempfile::tempdir().unwrap();
     fs::write(dir.path().join("host"), host).unwrap();
     let run = Process::new(program).arg(dir.path()).output().unwrap();

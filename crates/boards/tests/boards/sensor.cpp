@@ -22,8 +22,6 @@
 
 namespace {
 
-using Bytes = std::vector<std::uint8_t>;
-
 Bytes read(const std::string &path) {
     std::ifstream file(path, std::ios::binary);
     return Bytes(std::istreambuf_iterator<char>(file), {});
@@ -75,34 +73,6 @@ struct Slave {
     }
 };
 
-// The host's end of the serial line, a sample at each clock.
-struct Host {
-    Bytes heard;
-    int wait = 0, bits = 0;
-    unsigned byte = 0;
-    bool bad = false;
-
-    void listen(bool tx) {
-        if (bits == 0) {
-            if (!tx) {
-                wait = DIVISOR + DIVISOR / 2;
-                bits = 1;
-            }
-            return;
-        }
-        if (--wait > 0) return;
-        wait = DIVISOR;
-        if (bits <= 8) {
-            byte = byte >> 1 | (tx ? 0x80U : 0U);
-            ++bits;
-        } else {
-            if (!tx) bad = true;
-            heard.push_back(byte & 0xFF);
-            bits = 0;
-        }
-    }
-};
-
 }  // namespace
 
 int main(int count, char **words) {
@@ -117,8 +87,6 @@ int main(int count, char **words) {
     Host host;
     std::uint64_t clock_at = kHalf, pclk_at = pclk_half + 137, now = 0, quiet = 0;
     std::size_t wire = 0, said = 0;
-    int send_bits = 0, send_wait = 0;
-    unsigned sending = 0;
     top->rx_i = 1;
     while (quiet < QUIET) {
         now = clock_at < pclk_at ? clock_at : pclk_at;
@@ -148,19 +116,11 @@ int main(int count, char **words) {
         const auto before = host.heard.size();
         host.listen(top->tx_o);
         quiet = host.heard.size() != before || host.bits || wire + 1 < wires.size() ? 0 : quiet + 1;
-        if (send_wait > 0) {
-            --send_wait;
-        } else if (send_bits > 0) {
-            top->rx_i = sending & 1;
-            sending >>= 1;
-            --send_bits;
-            send_wait = DIVISOR - 1;
-        } else if (said + 4 < script.size()) {
+        if (host.sent(top->rx_i) && said + 4 < script.size()) {
             std::uint64_t at = 0;
             for (int byte = 3; byte >= 0; --byte) at = at << 8 | script[said + byte];
             if (now / 1000000 >= at) {
-                sending = 0x200U | script[said + 4] << 1;
-                send_bits = 10;
+                host.send(script[said + 4]);
                 said += 5;
             }
             quiet = 0;
