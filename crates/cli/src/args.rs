@@ -303,8 +303,8 @@ fn device(name: &str) -> Result<&'static RouteDevice, String> {
           foveate simulate train-images-idx3-ubyte.gz -o out --max-frames 1000
           ffmpeg -i street.mp4 -f yuv4mpegpipe - | foveate simulate - -o out")]
 pub(crate) struct SimulateArgs {
-    /// Video, images, folders, globs, IDX or CIFAR files, scene:NAME, v4l2:/dev/video0 for a camera,
-    /// - for YUV4MPEG2 on standard input. Several videos, or a folder of them, run as a batch
+    /// Video, images, folders, globs, IDX or CIFAR files, scene:NAME, v4l2:/dev/video0 or rtsp://HOST/PATH for a
+    /// camera, - for YUV4MPEG2 on standard input. Several videos, or a folder of them, run as a batch
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]

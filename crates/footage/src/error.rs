@@ -32,7 +32,7 @@ pub enum FootageError {
     },
     /// A URL.
     #[error(
-        "`{url}` is a URL, but inputs must be files or devices of this machine; download it first, or let \
+        "`{url}` is a URL, but inputs must be files, devices of this machine, or cameras by RTSP; download it first, or let \
          ffmpeg read it: ffmpeg -i '{url}' -f yuv4mpegpipe - | foveate simulate - -o out"
     )]
     Url {
@@ -118,6 +118,17 @@ pub enum FootageError {
     Camera {
         /// The device.
         path: PathBuf,
+        /// What is wrong, as ffmpeg says it.
+        problem: String,
+    },
+    /// A camera in the network that gives no frame.
+    #[error(
+        "camera `{url}` gives no frame: {problem}; check the address, user and password with `ffprobe URL`, and that the \
+         camera can be reached from here"
+    )]
+    Network {
+        /// The address, without user and password.
+        url: String,
         /// What is wrong, as ffmpeg says it.
         problem: String,
     },

@@ -21,7 +21,7 @@ use crate::sets::idx::Idx;
 use crate::sets::open_unpacked;
 use crate::source::feed::{Adjustment, Feed, Input};
 use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
-use crate::video::{Medium, Video};
+use crate::video::{Medium, Video, without_password};
 use crate::y4m::Y4m;
 use crate::{FootageError, Kind, Source, picture};
 
@@ -40,13 +40,24 @@ pub fn open<P: AsRef<Path>>(
 ) -> Result<Box<dyn Source>, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
     let feed = feed(&inputs, config, options)?;
-    let names = inputs.iter().map(|input| input.display().to_string()).collect();
+    let names = inputs.iter().map(|input| shown(input)).collect();
     Ok(Box::new(Input::new(names, feed, Adjustment::of(options))?))
 }
 
 /// What follows a prefix, such as the name of a scene.
 fn after<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
     input.to_str()?.strip_prefix(prefix)
+}
+
+/// The address of a camera in the network.
+fn network(input: &Path) -> Option<&str> {
+    let is_camera = |text: &&str| text.starts_with("rtsp://") || text.starts_with("rtsps://");
+    input.to_str().filter(is_camera)
+}
+
+/// An input as results may name it.
+fn shown(input: &Path) -> String {
+    network(input).map_or_else(|| input.display().to_string(), without_password)
 }
 
 /// Whether an input is a source by itself that is no file.
@@ -57,7 +68,13 @@ pub(crate) fn is_special(input: &Path) -> bool {
 /// Whether an input cannot be read a second time: standard input, a camera.
 #[must_use]
 pub fn is_read_once(input: &Path) -> bool {
-    input == Path::new("-") || after("v4l2:", input).is_some()
+    input == Path::new("-") || is_camera(input)
+}
+
+/// Whether an input is a camera, on this machine or in the network: its frames come when they come, and do not wait.
+#[must_use]
+pub fn is_camera(input: &Path) -> bool {
+    after("v4l2:", input).is_some() || network(input).is_some()
 }
 
 fn feed(
@@ -80,6 +97,9 @@ fn feed(
         }
         if let Some(device) = after("v4l2:", input) {
             return Ok(Box::new(Video::open(Medium::Camera(device.into()), bits, rate, 0)?));
+        }
+        if let Some(url) = network(input) {
+            return Ok(Box::new(Video::open(Medium::Network(url.to_owned()), bits, rate, 0)?));
         }
         if *input == Path::new("-") {
             let stdin = Box::new(BufReader::new(std::io::stdin()));

@@ -26,16 +26,21 @@ use self::probe::Probe;
 use crate::source::feed::Feed;
 use crate::{FootageError, FrameRate, SourceFrame};
 
+/// How long a camera in the network may be silent, in microseconds, before ffmpeg gives up.
+const NETWORK_TIMEOUT_US: &str = "10000000";
+
 /// What to read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Medium {
     File(PathBuf),
     /// A Video4Linux device.
     Camera(PathBuf),
+    /// A camera in the network, by its address.
+    Network(String),
 }
 
 impl Medium {
-    /// As ffmpeg takes it: local files and nothing else, whatever the name looks like.
+    /// As ffmpeg takes it: nothing else than what it is, whatever the name looks like.
     fn arguments(&self) -> Vec<std::ffi::OsString> {
         let name = |prefix: &str, path: &Path| {
             let mut name = std::ffi::OsString::from(prefix);
@@ -52,27 +57,49 @@ impl Medium {
             Self::Camera(path) => {
                 vec!["-f".into(), "v4l2".into(), "-i".into(), name("", path)]
             }
+            // Over TCP no packet is lost, and every router lets it through.
+            Self::Network(url) => [
+                ["-protocol_whitelist", "rtsp,tcp,tls,udp,rtp"],
+                ["-rtsp_transport", "tcp"],
+                ["-timeout", NETWORK_TIMEOUT_US],
+                ["-i", url],
+            ]
+            .concat()
+            .into_iter()
+            .map(Into::into)
+            .collect(),
         }
     }
 
-    fn path(&self) -> &Path {
+    /// As it may be shown: without a password.
+    fn name(&self) -> String {
         match self {
-            Self::File(path) | Self::Camera(path) => path,
+            Self::File(path) | Self::Camera(path) => path.display().to_string(),
+            Self::Network(url) => without_password(url),
         }
     }
 
     /// Why there is no frame.
     fn refused(&self, problem: String) -> FootageError {
-        let path = self.path().to_owned();
-        match self {
-            Self::File(_) => FootageError::Video { path, problem },
-            Self::Camera(_) => FootageError::Camera { path, problem },
+        match self.clone() {
+            Self::File(path) => FootageError::Video { path, problem },
+            Self::Camera(path) => FootageError::Camera { path, problem },
+            Self::Network(_) => FootageError::Network { url: self.name(), problem },
         }
     }
 
+    /// Whether it may refuse to be opened twice.
     fn is_camera(&self) -> bool {
-        matches!(self, Self::Camera(_))
+        matches!(self, Self::Camera(_) | Self::Network(_))
     }
+}
+
+/// An address without the user and the password that it may hold, even if it is written wrongly.
+pub(crate) fn without_password(url: &str) -> String {
+    let Some((scheme, rest)) = url.split_once("://") else { return url.to_owned() };
+    let before_query = rest.find('?').unwrap_or(rest.len());
+    let host = rest[..before_query].rfind('@').map_or(0, |at| at + 1);
+    format!("{scheme}://{}", &rest[host..])
 }
 
 /// The frames of a video.
@@ -141,8 +168,13 @@ impl Video {
     /// What is to be said once there are no more frames.
     fn conclude(&mut self) -> Result<(), FootageError> {
         let mut problem = self.decoder.conclude();
-        if let Medium::File(path) = &self.medium {
-            problem = truncated::problem(path).or(problem);
+        match &self.medium {
+            Medium::File(path) => problem = truncated::problem(path).or(problem),
+            // ffmpeg repeats the address as it was given.
+            Medium::Network(url) => {
+                problem = problem.map(|text| text.replace(url, &self.medium.name()));
+            }
+            Medium::Camera(_) => {}
         }
         if self.frames == 0 && self.first_pts.is_none() {
             let problem = problem.unwrap_or_else(|| "it holds no frame".to_owned());
@@ -162,7 +194,7 @@ impl Feed for Video {
             self.conclude()?;
             return Ok(None);
         };
-        let name = self.medium.path().display().to_string();
+        let name = self.medium.name();
         match self.raster(&shown) {
             Ok(frame) => {
                 let time_us = self.time_us(&shown);
@@ -195,5 +227,22 @@ impl Feed for Video {
 
     fn is_stream(&self) -> bool {
         true
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::without_password;
+
+    #[test]
+    fn a_password_is_shown_nowhere() {
+        for (url, shown) in [
+            ("rtsp://me:se/cret@10.0.0.7:554/live", "rtsp://10.0.0.7:554/live"),
+            ("rtsp://me:secret@10.0.0.7:554/live?x=a@b", "rtsp://10.0.0.7:554/live?x=a@b"),
+            ("rtsp://me:s@cret@camera", "rtsp://camera"),
+            ("rtsp://camera/live", "rtsp://camera/live"),
+        ] {
+            assert_eq!(without_password(url), shown);
+        }
     }
 }

@@ -140,6 +140,12 @@ impl Agreement {
         self.0.agreement()
     }
 
+    /// How many things agree or do not: detections, frames or places with a class; none where outputs are compared as numbers.
+    #[must_use]
+    pub fn counted(&self) -> Option<u64> {
+        self.0.counted()
+    }
+
     /// Detections of all sizes, if they are read.
     #[must_use]
     pub fn found(&self) -> Option<Found> {

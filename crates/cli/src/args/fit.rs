@@ -76,7 +76,7 @@ pub(crate) struct NetworkArgs {
     #[arg(long, value_enum, value_name = "WHAT", default_value = "bytes", requires = "network")]
     pub(crate) cheapest: CheapestIn,
     /// The network looks at this many frames of each half, spread evenly over all clips
-    #[arg(long, value_name = "FRAMES", default_value_t = 24, value_parser = at_least_one(), requires = "network")]
+    #[arg(long, value_name = "FRAMES", default_value_t = 48, value_parser = at_least_one(), requires = "network")]
     pub(crate) look_at: u32,
     #[command(flatten)]
     pub(crate) viewing: ViewingArgs,

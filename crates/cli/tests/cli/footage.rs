@@ -51,12 +51,17 @@ fn what_is_no_video_is_not_to_be_played() {
         ("notes.txt", &["`notes.txt` is not an image", "PNG", "IDX"]),
         ("v4l2:/dev/none", &["camera `/dev/none` gives no frame", "No such file", "connected"]),
         ("https://example.org/a.mp4?x=[1]", &["is a URL", "download it first", "yuv4mpegpipe"]),
-        ("rtsp://camera/1", &["`rtsp://camera/1` is a URL"]),
+        (
+            "rtsp://me:secret@127.0.0.1:9/live",
+            &["camera `rtsp://127.0.0.1:9/live` gives no frame", "refused", "ffprobe URL"],
+        ),
+        ("rtmp://camera/1", &["`rtmp://camera/1` is a URL", "RTSP"]),
         ("missing.mp4", &["`missing.mp4` does not exist"]),
     ] {
         fail_in(dir.path(), 2, &["simulate", input, "-o", "out"], parts);
         let outcome = run_in(dir.path(), &["simulate", input, "-o", "out"]);
         assert!(!outcome.stderr.contains("play it"), "{}", outcome.stderr);
+        assert!(!outcome.stderr.contains("secret"), "{}", outcome.stderr);
     }
     // What claims to be a video may be a damaged one.
     fail_in(dir.path(), 2, &["simulate", "broken.mp4", "-o", "out"], &["broken.mp4", "play it"]);

@@ -6,8 +6,10 @@ use serde::Serialize;
 
 /// Frames are taken together in as many groups of neighbors: what is seen in one frame is seen in the next, too.
 const GROUPS: usize = 8;
-/// Nine of ten values of Student's t are above the negative of these, by degrees of freedom from 1.
-const NINE_OF_TEN: [f64; GROUPS - 1] = [3.078, 1.886, 1.638, 1.533, 1.476, 1.440, 1.415];
+/// 19 of 20 values of Student's t are above the negative of these, by degrees of freedom from 1.
+const STUDENT: [f64; GROUPS - 1] = [6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895];
+/// And of a normal variable above the negative of this.
+const NORMAL: f64 = 1.645;
 
 /// How much of what the network says of whole frames it says behind a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -16,7 +18,7 @@ pub struct Agreed {
     pub frames: u64,
     /// The agreement, 0..=1.
     pub share: f64,
-    /// The agreement that nine of ten sets of as many other frames would exceed, if groups of frames were independent: 0..=1.
+    /// The agreement that 19 of 20 sets of as many other frames would exceed, if groups of frames were independent: 0..=1.
     pub expected: f64,
     /// Whether the agreement is at most this: the rest was not looked at.
     #[serde(skip)]
@@ -30,7 +32,9 @@ impl Agreed {
     pub(super) fn over(frames: &[Agreement]) -> Self {
         let all: Agreement = frames.iter().sum();
         let share = all.share();
-        let expected = (share - shortfall(frames)).max(0.0);
+        let by_groups = (share - shortfall(frames)).max(0.0);
+        let by_count = all.counted().map_or(1.0, |count| elsewhere(share, count));
+        let expected = by_groups.min(by_count);
         let (frames, detections) = (frames.len() as u64, all.found());
         Self { frames, share, expected, at_most: false, detections }
     }
@@ -41,7 +45,7 @@ impl Agreed {
     }
 }
 
-/// By how much as many other frames may agree less.
+/// By how much as many other frames may agree less, from how much groups of frames differ.
 fn shortfall(frames: &[Agreement]) -> f64 {
     let groups = frames.len().min(GROUPS);
     if groups < 2 {
@@ -53,7 +57,20 @@ fn shortfall(frames: &[Agreement]) -> f64 {
         rest.map(|(_, frame)| frame).sum::<Agreement>().share()
     };
     // Two sets of frames differ by more than one of them from the truth.
-    NINE_OF_TEN[groups - 2] * 2.0_f64.sqrt() * jackknife(groups, without)
+    STUDENT[groups - 2] * 2.0_f64.sqrt() * jackknife(groups, without)
+}
+
+/// The least share that as many other things are likely to agree with, even where all groups happen to be alike: the lower end of Wilson's interval, for
+/// the difference of two shares.
+fn elsewhere(share: f64, count: u64) -> f64 {
+    #[allow(clippy::cast_precision_loss, reason = "a number of things")]
+    let half = count as f64 / 2.0;
+    if half == 0.0 {
+        return share;
+    }
+    let square = NORMAL.powi(2) / half;
+    let spread = NORMAL * (share * (1.0 - share) / half + square / (4.0 * half)).sqrt();
+    ((share + square / 2.0 - spread) / (1.0 + square)).max(0.0)
 }
 
 /// The standard error of a figure over some groups, from what it is without each of them.
@@ -79,5 +96,17 @@ mod tests {
         let squares: f64 = values.iter().map(|value| (value - sum / 5.0).powi(2)).sum();
         assert!((found - (squares / 4.0 / 5.0).sqrt()).abs() < 1e-12, "{found}");
         assert_eq!(jackknife(4, |_| 0.9), 0.0);
+    }
+
+    /// Where all groups are alike a share of few things is still no sure one: it is the least that a test would not tell from the one that was seen.
+    #[test]
+    fn few_things_say_little_of_others() {
+        for (share, count) in [(0.976, 251_u32), (1.0, 20), (0.5, 7)] {
+            let found = elsewhere(share, count.into());
+            let error = (found * (1.0 - found) * 2.0 / f64::from(count)).sqrt();
+            assert!((share - found - NORMAL * error).abs() < 1e-9, "{share} of {count}: {found}");
+        }
+        assert!(elsewhere(0.98, 99) < elsewhere(0.98, 990));
+        assert_eq!((elsewhere(0.0, 9), elsewhere(0.9, 0)), (0.0, 0.9));
     }
 }

@@ -230,6 +230,15 @@ impl Sums {
             if left > 0.0 { left } else { 0.0 }
         })
     }
+
+    /// How many things agree or do not: detections, frames, places. None where it is an error that counts.
+    pub(crate) fn counted(&self) -> Option<u64> {
+        if let Some(found) = self.found() {
+            return Some(found.whole.min(found.seen));
+        }
+        let frames = (self.classes.frames > 0).then_some(self.classes.frames);
+        frames.or_else(|| (self.places.0 > 0).then_some(self.places.0))
+    }
 }
 
 impl ClassSums {
