@@ -33,6 +33,15 @@ impl Answer {
         let body = format!("{text}\n").into_bytes();
         Self { status, kind: "text/plain; charset=utf-8", body }
     }
+
+    /// To a method that is not for this.
+    pub(crate) fn not_so() -> Self {
+        Self::text("405 Method Not Allowed", "not so")
+    }
+
+    pub(crate) fn binary(body: Vec<u8>) -> Self {
+        Self { status: "200 OK", kind: "application/octet-stream", body }
+    }
 }
 
 /// The next request; none where the browser has no more.
@@ -75,14 +84,9 @@ pub(crate) fn read(stream: &mut BufReader<TcpStream>) -> io::Result<Option<Reque
     Ok(Some(Request { method, target, host, body }))
 }
 
-/// Writes an answer. Nothing of it is kept, shown in other pages, or loads anything; `nonce` is that of its own
-/// script.
-pub(crate) fn write(stream: &mut TcpStream, answer: &Answer, nonce: &str) -> io::Result<()> {
+/// Writes an answer. Nothing of it is kept or shown in other pages; `policy` says what it may load.
+pub(crate) fn write(stream: &mut TcpStream, answer: &Answer, policy: &str) -> io::Result<()> {
     let Answer { status, kind, body } = answer;
-    let policy = format!(
-        "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; connect-src 'self'; \
-         img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
-    );
     let head = format!(
         "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\n\
          Content-Security-Policy: {policy}\r\nCache-Control: no-store\r\n\

@@ -15,6 +15,7 @@ mod page;
 mod picture;
 mod reader;
 mod server;
+mod site;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;
@@ -29,6 +30,7 @@ use input::Input;
 use live::Live;
 use reader::Reader;
 use server::Server;
+use site::StreamSite;
 
 /// When the frames of a stream are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,7 +78,8 @@ impl View {
         let mut first = if input.is_port() { Some(input.open()?) } else { None };
         let (live, board) = (Arc::new(Live::new(&input)), Arc::<Board>::default());
         board.attach(first.as_mut().and_then(|source| source.port.take()));
-        let server = Server::start(address, Arc::clone(&live), Arc::clone(&board))?;
+        let site = StreamSite { live: Arc::clone(&live), board: Arc::clone(&board) };
+        let server = Server::start(address, Arc::new(site))?;
         let answers = board.start(&config, &live, input.is_port())?;
         let reader = Reader { input, config, play, answers, board, live: Arc::clone(&live) };
         thread("reader", move || reader.run(first))?;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page for browsers of this machine. Whoever does not know the link gets nothing: every path begins with a
+//! A page for browsers of this machine. Whoever does not know the link gets nothing: every path begins with a
 //! random token, and the name of the host must be ours, so that a page from elsewhere cannot reach it under another
-//! name.
+//! name. What there is to see is said by a [`Site`].
 
 use std::io::BufReader;
 use std::net::{SocketAddr, TcpListener, TcpStream};
@@ -9,19 +9,37 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::time::Duration;
 
-use serde_json::Value;
-
-use crate::board::Board;
+use crate::ViewError;
 use crate::http::{self, Answer, Request};
-use crate::live::Live;
-use crate::{ViewError, page};
 
 /// Connections at a time.
 const CONNECTIONS: usize = 32;
 /// How long a browser is waited for.
 const IDLE: Duration = Duration::from_secs(30);
-/// How long a browser waits for something new.
-const PATIENCE: Duration = Duration::from_secs(1);
+
+/// What a server shows below its link.
+pub(crate) trait Site: Send + Sync + 'static {
+    /// The command that prints the link.
+    fn command(&self) -> &'static str;
+
+    /// The page, with scripts that `nonce` allows.
+    fn page(&self, nonce: &str) -> String;
+
+    /// What the page may load, as a Content-Security-Policy: of its own only scripts and styles with `nonce`, and what
+    /// this server answers.
+    fn policy(&self, nonce: &str) -> String {
+        format!(
+            "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; connect-src 'self'; \
+             img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+        )
+    }
+
+    /// The answer to a request for something beside the page; none where there is no such thing.
+    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<Answer>;
+
+    /// Whether nobody is served any more.
+    fn is_over(&self) -> bool;
+}
 
 /// A server, and how it is reached.
 #[derive(Debug)]
@@ -31,22 +49,18 @@ pub(crate) struct Server {
 }
 
 /// What each connection needs.
-struct Shared {
+struct Shared<S> {
     token: String,
     nonce: String,
+    policy: String,
     hosts: [String; 2],
-    live: Arc<Live>,
-    board: Arc<Board>,
+    site: Arc<S>,
     connections: AtomicUsize,
 }
 
 impl Server {
-    /// Listens until the view is over.
-    pub(crate) fn start(
-        address: SocketAddr,
-        live: Arc<Live>,
-        board: Arc<Board>,
-    ) -> Result<Self, ViewError> {
+    /// Listens until the site is over.
+    pub(crate) fn start(address: SocketAddr, site: Arc<impl Site>) -> Result<Self, ViewError> {
         if !address.ip().is_loopback() {
             return Err(ViewError::Address { address });
         }
@@ -55,12 +69,13 @@ impl Server {
         let address = listener.local_addr().map_err(listen)?;
         let token = random()?;
         let link = format!("http://{address}/{token}/");
+        let nonce = random()?;
         let shared = Arc::new(Shared {
             token,
-            nonce: random()?,
+            policy: site.policy(&nonce),
+            nonce,
             hosts: [address.to_string(), format!("localhost:{}", address.port())],
-            live,
-            board,
+            site,
             connections: AtomicUsize::new(0),
         });
         crate::thread("server", move || serve(&listener, &shared))?;
@@ -71,15 +86,15 @@ impl Server {
         &self.link
     }
 
-    /// Lets it see that the view is over.
+    /// Lets it see that the site is over.
     pub(crate) fn wake(&self) {
         let _ = TcpStream::connect(self.address);
     }
 }
 
-fn serve(listener: &TcpListener, shared: &Arc<Shared>) {
+fn serve(listener: &TcpListener, shared: &Arc<Shared<impl Site>>) {
     for stream in listener.incoming() {
-        if shared.live.is_over() {
+        if shared.site.is_over() {
             return;
         }
         let Ok(stream) = stream else { continue };
@@ -98,15 +113,15 @@ fn serve(listener: &TcpListener, shared: &Arc<Shared>) {
     }
 }
 
-impl Shared {
+impl<S: Site> Shared<S> {
     fn talk(&self, mut stream: TcpStream) -> std::io::Result<()> {
         stream.set_read_timeout(Some(IDLE))?;
         stream.set_write_timeout(Some(IDLE))?;
         stream.set_nodelay(true)?;
         let mut requests = BufReader::new(stream.try_clone()?);
         while let Some(request) = http::read(&mut requests)? {
-            http::write(&mut stream, &self.answer(&request), &self.nonce)?;
-            if self.live.is_over() {
+            http::write(&mut stream, &self.answer(&request), &self.policy)?;
+            if self.site.is_over() {
                 break;
             }
         }
@@ -120,34 +135,19 @@ impl Shared {
         let (path, query) = request.target.split_once('?').unwrap_or((&request.target, ""));
         let within = path.strip_prefix('/').and_then(|path| path.split_once('/'));
         let Some((_, within)) = within.filter(|(token, _)| same(token, &self.token)) else {
-            let text = "open the link that `foveate view` prints";
-            return Answer::text("403 Forbidden", text);
+            let text = format!("open the link that `{}` prints", self.site.command());
+            return Answer::text("403 Forbidden", &text);
         };
         match (request.method.as_str(), within) {
             ("GET", "") => {
-                let body = page::render(&self.nonce, &self.board.describe()).into_bytes();
+                let body = self.site.page(&self.nonce).into_bytes();
                 Answer { status: "200 OK", kind: "text/html; charset=utf-8", body }
             }
-            ("GET", "next") => {
-                let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
-                let body = self.live.next(after.unwrap_or(0), PATIENCE);
-                Answer { status: "200 OK", kind: "application/octet-stream", body }
+            (_, "") => Answer::not_so(),
+            (method, within) => {
+                let answer = self.site.answer(method, within, query, &request.body);
+                answer.unwrap_or_else(|| Answer::text("404 Not Found", "there is nothing"))
             }
-            ("POST", "register") => self.write(&request.body),
-            (_, "" | "next" | "register") => Answer::text("405 Method Not Allowed", "not so"),
-            _ => Answer::text("404 Not Found", "there is nothing"),
-        }
-    }
-
-    /// Writes a register: `{"address": 256, "value": 4}`.
-    fn write(&self, body: &[u8]) -> Answer {
-        let asked: Value = serde_json::from_slice(body).unwrap_or_default();
-        let Some((address, value)) = asked["address"].as_u64().zip(asked["value"].as_u64()) else {
-            return Answer::text("400 Bad Request", "a register has an address and a value");
-        };
-        match self.board.write(address, value) {
-            Ok(()) => Answer::text("200 OK", "written"),
-            Err(why) => Answer::text("409 Conflict", &why),
         }
     }
 }

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What `foveate view` shows: a stream of packets, and the registers of a board.
+
+use std::sync::Arc;
+use std::time::Duration;
+
+use serde_json::Value;
+
+use crate::board::Board;
+use crate::http::Answer;
+use crate::live::Live;
+use crate::page;
+use crate::server::Site;
+
+/// How long a browser waits for something new.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// A stream, and the board that sends it.
+#[derive(Debug)]
+pub(crate) struct StreamSite {
+    pub(crate) live: Arc<Live>,
+    pub(crate) board: Arc<Board>,
+}
+
+impl Site for StreamSite {
+    fn command(&self) -> &'static str {
+        "foveate view"
+    }
+
+    fn page(&self, nonce: &str) -> String {
+        page::render(nonce, &self.board.describe())
+    }
+
+    fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<Answer> {
+        Some(match (method, within) {
+            ("GET", "next") => {
+                let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
+                Answer::binary(self.live.next(after.unwrap_or(0), PATIENCE))
+            }
+            ("POST", "register") => self.write(body),
+            (_, "next" | "register") => Answer::not_so(),
+            _ => return None,
+        })
+    }
+
+    fn is_over(&self) -> bool {
+        self.live.is_over()
+    }
+}
+
+impl StreamSite {
+    /// Writes a register: `{"address": 256, "value": 4}`.
+    fn write(&self, body: &[u8]) -> Answer {
+        let asked: Value = serde_json::from_slice(body).unwrap_or_default();
+        let Some((address, value)) = asked["address"].as_u64().zip(asked["value"].as_u64()) else {
+            return Answer::text("400 Bad Request", "a register has an address and a value");
+        };
+        match self.board.write(address, value) {
+            Ok(()) => Answer::text("200 OK", "written"),
+            Err(why) => Answer::text("409 Conflict", &why),
+        }
+    }
+}
