@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT OR Apache-2.0
+# Builds the engine of the live page: web/foveate.wasm from crates/web, and web/sources.sha256, which says from what. Both are
+# committed, so that `cargo install` needs no target for WebAssembly; a test of crates/web fails where the sources are others.
+#
+#   scripts/web.sh           builds
+#   scripts/web.sh --test    compares what is committed with the native program, frame by frame, in Chromium
+#
+# The toolchain in use has the target (`rustup target add wasm32-unknown-unknown`), or Debian's rustc-web is taken, which is unpacked
+# beside it and compiles the standard library anew.
+#
+# FOVEATE_WASM_RUST   where Debian's compiler is unpacked (default: foveate-wasm-rust in XDG_CACHE_HOME or ~/.cache)
+# FOVEATE             with --test, an executable to use instead of the debug build
+set -euo pipefail
+cd "$(dirname "$0")/.."
+target=wasm32-unknown-unknown
+rust=${FOVEATE_WASM_RUST:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-wasm-rust}
+
+# Prints the crates of the page, with their paths.
+crates() {
+    cargo tree --locked --package foveate-web --edges normal --prefix none --format '{p}' |
+        sed -n 's/^foveate-[a-z]* v[^ ]* (\([^)]*\)).*/\1/p' | sort -u
+}
+
+# Prints what the page is made of, as sha256sum does.
+sources() {
+    local root folder
+    root=$PWD
+    for folder in $(crates); do
+        folder=${folder#"$root"/}
+        find "$folder/src" -name '*.rs'
+        echo "$folder/Cargo.toml"
+    done | LC_ALL=C sort | xargs sha256sum
+    sha256sum web/foveate.wasm
+}
+
+# Unpacks Debian's compiler with the source of the standard library, where that is not done yet.
+unpack() {
+    local packages version folder
+    command -v apt-get >/dev/null ||
+        { echo "the toolchain has no target $target; add it with: rustup target add $target" >&2; exit 3; }
+    packages=(rustc-web libstd-rust-web-dev rust-web-src)
+    # The library's package has the version in its name, and with it the LLVM that it is linked with.
+    mapfile -t more < <(apt-cache depends --recurse --no-recommends --no-suggests --no-conflicts --no-breaks --no-replaces --no-enhances rustc-web |
+        grep -E '^(libstd-rust-web-[0-9.]+|libllvm[0-9]+)$' | sort -u)
+    packages+=("${more[@]}")
+    version=$(apt-cache show --no-all-versions "${packages[@]}" | grep -E '^(Package|Version):')
+    [ "$(cat "$rust/version" 2>/dev/null)" != "$version" ] || return 0
+    echo "unpacking ${packages[*]} in $rust" >&2
+    mkdir -p "$(dirname "$rust")"
+    folder=$(mktemp -d "$rust.XXXXXX")
+    (cd "$folder" && apt-get download -o APT::Sandbox::User=root --quiet=2 "${packages[@]}" >&2)
+    for package in "$folder"/*.deb; do
+        dpkg -x "$package" "$folder"
+        rm "$package"
+    done
+    # Where cargo looks for the source there is a link, to more than is needed.
+    rm -f "$folder/usr/lib/rustlib/src/rust"
+    mkdir -p "$folder/usr/lib/rustlib/src/rust"
+    mv "$folder"/usr/src/rustc-*/library "$folder/usr/lib/rustlib/src/rust/"
+    rm -r "$folder/usr/src" "$folder/usr/share"
+    # It finds its libraries beside it.
+    cat >"$folder/rustc" <<'RUSTC'
+#!/bin/sh
+here=$(dirname "$(readlink -f "$0")")
+libraries=$(echo "$here"/usr/lib/*-linux-gnu)
+LD_LIBRARY_PATH=$libraries exec "$here/usr/bin/rustc" "$@"
+RUSTC
+    chmod +x "$folder/rustc"
+    echo "$version" >"$folder/version"
+    rm -rf "$rust"
+    mv "$folder" "$rust"
+}
+
+# Prints the linker for WebAssembly: that of the toolchain in use, or of the system.
+linker() {
+    local host own
+    host=$(rustc -vV | sed -n 's/^host: //p')
+    own=$(rustc --print sysroot)/lib/rustlib/$host/bin/rust-lld
+    if [ -x "$own" ]; then
+        echo "$own"
+    else
+        command -v wasm-ld || command -v rust-lld ||
+            { echo "there is no linker for WebAssembly; on Debian: apt-get install lld" >&2; exit 3; }
+    fi
+}
+
+build() {
+    local flags=(-C target-feature=+simd128) std=() folder
+    # Nobody's folders in the messages of the program.
+    flags+=("--remap-path-prefix=$PWD=.")
+    for folder in "${CARGO_HOME:-$HOME/.cargo}"/registry/src/*; do
+        flags+=("--remap-path-prefix=$folder=crates")
+    done
+    if [ ! -d "$(rustc --print target-libdir --target $target)" ]; then
+        unpack
+        flags+=("--remap-path-prefix=$rust/usr=rust")
+        CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$(linker)
+        export RUSTC=$rust/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER
+        # A fault traps without a message: nobody could read it, and what writes it is a fourth of the program.
+        flags+=(-Z unstable-options -C panic=immediate-abort)
+        std=(-Z build-std=std,panic_abort -Z build-std-features=)
+    fi
+    CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS=${flags[*]} \
+        cargo build --locked --package foveate-web --lib --profile web --target $target --target-dir target/wasm "${std[@]}"
+    cp "target/wasm/$target/web/foveate_web.wasm" web/foveate.wasm
+    unset RUSTC RUSTC_BOOTSTRAP
+    sources >web/sources.sha256
+    echo "web/foveate.wasm: $(stat -c %s web/foveate.wasm) bytes"
+}
+
+case ${1:-} in
+'') build ;;
+*) echo "web: unknown option $1; see the head of scripts/web.sh" >&2 && exit 2 ;;
+esac
