@@ -58,7 +58,7 @@ unpack() {
     rm -f "$folder/usr/lib/rustlib/src/rust"
     mkdir -p "$folder/usr/lib/rustlib/src/rust"
     mv "$folder"/usr/src/rustc-*/library "$folder/usr/lib/rustlib/src/rust/"
-    rm -r "$folder/usr/src" "$folder/usr/share"
+    rm -r "${folder:?}"/usr/{src,share}
     # It finds its libraries beside it.
     cat >"$folder/rustc" <<'RUSTC'
 #!/bin/sh
@@ -99,7 +99,7 @@ build() {
         export RUSTC=$rust/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER
         # A fault traps without a message: nobody could read it, and what writes it is a fourth of the program.
         flags+=(-Z unstable-options -C panic=immediate-abort)
-        std=(-Z build-std=std,panic_abort -Z build-std-features=)
+        std=(-Z "build-std=std,panic_abort" -Z build-std-features=)
     fi
     CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_RUSTFLAGS=${flags[*]} \
         cargo build --locked --package foveate-web --lib --profile web --target $target --target-dir target/wasm "${std[@]}"
@@ -109,7 +109,17 @@ build() {
     echo "web/foveate.wasm: $(stat -c %s web/foveate.wasm) bytes"
 }
 
+compare() {
+    local tools
+    tools=$(scripts/python_tools.sh --browser)
+    FOVEATE=$(scripts/foveate.sh)
+    export FOVEATE
+    scripts/install_tools.sh --browser
+    "$tools/python" -m pytest --quiet -p no:cacheprovider web/tests "$@"
+}
+
 case ${1:-} in
 '') build ;;
+--test) compare "${@:2}" ;;
 *) echo "web: unknown option $1; see the head of scripts/web.sh" >&2 && exit 2 ;;
 esac
