@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, icepack, iverilog, a C++
 # compiler (with that for 32 bits), ffmpeg, shellcheck, Tcl, Python.
+# With --browser, Chromium alone, for scripts/web.sh --test.
 # Debian 12, Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. Elsewhere it says what to install.
 set -euo pipefail
 
@@ -14,21 +15,25 @@ if [ "$(. /etc/os-release 2>/dev/null && echo "${ID:-}${VERSION_ID:-}")" = ubunt
 fi
 
 missing=()
-command -v verilator >/dev/null || missing+=(verilator)
-command -v yosys >/dev/null || missing+=(yosys)
-command -v nextpnr-ice40 >/dev/null || missing+=(nextpnr-ice40)
-command -v icepack >/dev/null || missing+=(fpga-icestorm)
-command -v iverilog >/dev/null || missing+=(iverilog)
-command -v g++ >/dev/null || missing+=(g++)
-{ command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)
-command -v shellcheck >/dev/null || missing+=(shellcheck)
-# FST waves of a Verilator model need zlib's header.
-[ -e /usr/include/zlib.h ] || missing+=(zlib1g-dev)
-command -v tclsh >/dev/null || missing+=(tcl)
-# The C driver of cores is tried on processors of 32 bits, too.
-[ "$(uname -m)" != x86_64 ] || dpkg -s gcc-multilib >/dev/null 2>&1 || missing+=(gcc-multilib)
-# For what comes from PyPI, scripts/python_tools.sh.
-python3 -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3-venv)
+if [ "${1:-}" = --browser ]; then
+    { command -v chromium || command -v chromium-browser || command -v google-chrome || command -v chrome; } >/dev/null || missing+=(chromium)
+else
+    command -v verilator >/dev/null || missing+=(verilator)
+    command -v yosys >/dev/null || missing+=(yosys)
+    command -v nextpnr-ice40 >/dev/null || missing+=(nextpnr-ice40)
+    command -v icepack >/dev/null || missing+=(fpga-icestorm)
+    command -v iverilog >/dev/null || missing+=(iverilog)
+    command -v g++ >/dev/null || missing+=(g++)
+    { command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)
+    command -v shellcheck >/dev/null || missing+=(shellcheck)
+    # FST waves of a Verilator model need zlib's header.
+    [ -e /usr/include/zlib.h ] || missing+=(zlib1g-dev)
+    command -v tclsh >/dev/null || missing+=(tcl)
+    # The C driver of cores is tried on processors of 32 bits, too.
+    [ "$(uname -m)" != x86_64 ] || dpkg -s gcc-multilib >/dev/null 2>&1 || missing+=(gcc-multilib)
+    # For what comes from PyPI, scripts/python_tools.sh.
+    python3 -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3-venv)
+fi
 [ ${#missing[@]} -eq 0 ] && exit 0
 
 if ! command -v apt-get >/dev/null; then

@@ -12,6 +12,7 @@
 #                                      it, 5 GB; the versions are those of pyproject.toml
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
 #   scripts/python_tools.sh --buses    cocotb with cocotbext-axi, and the SystemRDL compiler of PeakRDL, for scripts/buses.sh
+#   scripts/python_tools.sh --browser  pytest with Playwright, which drives an installed Chromium, for scripts/web.sh --test
 #   scripts/python_tools.sh --workflow Snakemake with its plugin for Slurm, for workflow/ (scripts/workflow.sh, scripts/slurm.sh)
 #
 # FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
@@ -39,6 +40,7 @@ print(*project["optional-dependencies"]["test"], sep="\n")')
     ;;
 --book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 --buses) packages=(cocotb==2.1.0 cocotbext-axi==0.1.28 cocotb-bus==0.3.0 systemrdl-compiler==1.33.0) venv=$venv-buses ;;
+--browser) packages=(pytest==9.2.0 playwright==1.65.2 numpy==2.4.6 pillow==13.0.0) venv=$venv-browser ;;
 --workflow) packages=(snakemake==9.27.1 snakemake-executor-plugin-slurm==2.8.0) venv=$venv-workflow ;;
 *) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
 esac

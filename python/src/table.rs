@@ -3,8 +3,7 @@
 
 use std::sync::Arc;
 
-use foveate_files::tables::{Kind, Value};
-use foveate_simulator::{EventTable, Moment};
+use foveate_engine::{EventKind, EventTable, EventValue, Moment};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
@@ -22,22 +21,21 @@ enum Values {
 }
 
 impl Values {
-    fn of(kind: Kind) -> Self {
+    fn of(kind: EventKind) -> Self {
         match kind {
-            Kind::Long => Self::Long(Vec::new()),
-            Kind::Int => Self::Int(Vec::new()),
-            Kind::Flag => Self::Flag(Vec::new()),
-            Kind::Text => Self::Text(Vec::new(), Vec::new()),
-            Kind::Real => unreachable!("the table of regions has no real numbers"),
+            EventKind::Long => Self::Long(Vec::new()),
+            EventKind::Int => Self::Int(Vec::new()),
+            EventKind::Flag => Self::Flag(Vec::new()),
+            EventKind::Text => Self::Text(Vec::new(), Vec::new()),
         }
     }
 
-    fn push(&mut self, value: Value<'static>) {
+    fn push(&mut self, value: EventValue) {
         match (self, value) {
-            (Self::Long(values), Value::Long(value)) => values.push(value),
-            (Self::Int(values), Value::Int(value)) => values.push(value),
-            (Self::Flag(values), Value::Flag(value)) => values.push(value),
-            (Self::Text(values, texts), Value::Text(value)) => {
+            (Self::Long(values), EventValue::Long(value)) => values.push(value),
+            (Self::Int(values), EventValue::Int(value)) => values.push(value),
+            (Self::Flag(values), EventValue::Flag(value)) => values.push(value),
+            (Self::Text(values, texts), EventValue::Text(value)) => {
                 let known = texts.iter().position(|&text| text == value);
                 let number = known.unwrap_or_else(|| {
                     texts.push(value);

@@ -2,9 +2,7 @@
 //! The keys of a configuration whose value is one of a few names.
 
 /// `"a", "b" or "c"`.
-#[doc(hidden)]
-#[must_use]
-pub fn listed(names: &[&str]) -> String {
+pub(crate) fn listed(names: &[&str]) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
     match quoted.split_last() {
         Some((last, [])) => last.clone(),
@@ -27,16 +25,13 @@ macro_rules! choice {
             /// Every value, in the order of the documentation.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
 
+            /// Every value as it is written in a configuration, in that order.
+            pub const NAMES: &'static [&'static str] = &[$($text),+];
+
             /// The value as it is written in a configuration.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $text),+ }
-            }
-
-            /// Every value as a message lists them.
-            #[must_use]
-            pub fn one_of() -> String {
-                $crate::listed(&[$($text),+])
             }
         }
 

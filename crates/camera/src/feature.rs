@@ -5,6 +5,7 @@
 use std::fmt::Display;
 
 use crate::depth::{self, DEFAULT_BITS};
+use crate::ranges::largest_level;
 use crate::{ConfigError, Decimal, FeatureKind, Reciprocal, SpatialConfig, bits_for};
 
 /// One feature of a design.
@@ -115,6 +116,12 @@ impl SpatialFeature {
         self.score_max
     }
 
+    /// The largest `min_score` of the configuration that some region can reach, rounded down to four digits after the point.
+    #[must_use]
+    pub fn largest_min_score(&self) -> Decimal {
+        largest_threshold(self.score_max, self.unit)
+    }
+
     /// Bits of the score and of its threshold.
     #[must_use]
     pub fn score_bits(&self) -> u32 {
@@ -178,7 +185,7 @@ impl Entry<'_> {
             (Some(level), Some(max)) => (level, max),
         };
         let always = self.config.min_score == Some(Decimal::whole(0));
-        let largest = if always { max } else { max - 1 };
+        let largest = largest_level(max, always);
         let fits = |level: u32| level <= largest;
         if fits(level) {
             return Ok(Some(level));
@@ -247,8 +254,7 @@ impl Entry<'_> {
 }
 
 /// `score_max / unit` as people read it, rounded down to four digits after the point.
-fn largest_threshold(score_max: u64, unit: u64) -> String {
-    let scaled = u128::from(score_max) * 10_000 / u128::from(unit);
-    let text = format!("{}.{:04}", scaled / 10_000, scaled % 10_000);
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+fn largest_threshold(score_max: u64, unit: u64) -> Decimal {
+    let billionths = u128::from(score_max) * 10_000 / u128::from(unit) * 100_000;
+    Decimal::billionths(u64::try_from(billionths).unwrap_or(u64::MAX))
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The keys of a configuration, to refuse unknown ones by name and with the nearest known one.
 
+use crate::choice::listed;
 use crate::{
     Combine, ConfigError, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference,
 };
@@ -16,8 +17,8 @@ pub enum Takes {
     Whole(RangeInclusive<u32>),
     /// In these words.
     Text(&'static str),
-    /// One of the names that this lists.
-    Names(fn() -> String),
+    /// One of these names.
+    Names(&'static [&'static str]),
 }
 
 impl fmt::Display for Takes {
@@ -25,7 +26,7 @@ impl fmt::Display for Takes {
         match self {
             Whole(range) => write!(f, "a whole number, {}..={}", range.start(), range.end()),
             Text(text) => f.write_str(text),
-            Names(names) => f.write_str(&names()),
+            Names(names) => f.write_str(&listed(names)),
         }
     }
 }
@@ -39,18 +40,18 @@ pub const CAMERA_KEYS: &[Key] = &[
     ("frame.height", Whole(1..=MAX_SIDE)),
     ("frame.pixel_bits", Whole(PIXEL_BITS)),
     ("region.size", Whole(REGION_SIZES)),
-    ("region.neighborhood", Names(Neighborhood::one_of)),
-    ("denoise.filter", Names(Filter::one_of)),
-    ("spatial.feature", Names(FeatureKind::one_of)),
+    ("region.neighborhood", Names(Neighborhood::NAMES)),
+    ("denoise.filter", Names(Filter::NAMES)),
+    ("spatial.feature", Names(FeatureKind::NAMES)),
     ("spatial.level", Text("a whole number >= 0, in grey levels")),
     ("spatial.min_score", Text("a number >= 0 with at most nine digits after the point")),
     ("spatial.mean_fraction_bits", Whole(MEAN_FRACTION_BITS)),
-    ("decision.combine", Names(Combine::one_of)),
+    ("decision.combine", Names(Combine::NAMES)),
     ("temporal.level", Text("a whole number >= 0, in grey levels")),
     ("temporal.min_count", Text("a whole number >= 0, in pixels")),
-    ("temporal.reference", Names(Reference::one_of)),
-    ("render.irrelevant", Names(Irrelevant::one_of)),
-    ("render.payload", Names(Payload::one_of)),
+    ("temporal.reference", Names(Reference::NAMES)),
+    ("render.irrelevant", Names(Irrelevant::NAMES)),
+    ("render.payload", Names(Payload::NAMES)),
     ("periphery.blocks", Text("1, 2 or 4, and a divisor of region.size")),
     ("periphery.level", Text("a whole number >= 0, in grey levels")),
 ];

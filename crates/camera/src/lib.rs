@@ -7,6 +7,7 @@
 //! again or derives a width again. This crate does no I/O.
 
 mod action;
+mod bounds;
 mod camera;
 mod choice;
 mod config;
@@ -27,10 +28,9 @@ mod validate;
 mod width;
 
 pub use action::Action;
+pub use bounds::Bound;
 pub use camera::{Camera, Temporal};
-pub use choice::{
-    Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference, listed,
-};
+pub use choice::{Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference};
 pub use config::{
     CameraConfig, DecisionConfig, DenoiseConfig, FrameConfig, PeripheryConfig, RegionConfig,
     RenderConfig, SpatialConfig, TemporalConfig,

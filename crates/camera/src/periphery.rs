@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What irrelevant regions send in place of their pixels: the means of their blocks.
 
+use crate::ranges::largest_level;
 use crate::{CameraConfig, ConfigError, Irrelevant, Reciprocal, bits_for};
 use crate::{SUMMARY_BLOCKS, in_range};
 
@@ -46,7 +47,7 @@ impl Periphery {
                 let why = format!(
                     " for pixels of {bits} bits, whose means differ by at most {pixel_max}"
                 );
-                in_range("periphery.level", level, 0..=pixel_max - 1, &why)?;
+                in_range("periphery.level", level, 0..=largest_level(pixel_max, false), &why)?;
                 Ok(Some(Self::new(side, blocks, level, pixel_max)))
             }
         }
@@ -78,12 +79,16 @@ impl Periphery {
     }
 }
 
+/// The blocks per side that regions of `side` pixels a side can have.
+pub(crate) fn blocks_for(side: u32) -> impl Iterator<Item = u32> {
+    SUMMARY_BLOCKS.iter().copied().filter(move |&blocks| side.is_multiple_of(blocks))
+}
+
 fn check_blocks(blocks: u32, side: u32) -> Result<(), ConfigError> {
-    let fits = |blocks: u32| side.is_multiple_of(blocks);
-    if SUMMARY_BLOCKS.contains(&blocks) && fits(blocks) {
+    if blocks_for(side).any(|valid| valid == blocks) {
         return Ok(());
     }
-    let valid: Vec<_> = SUMMARY_BLOCKS.iter().filter(|&&q| fits(q)).map(u32::to_string).collect();
+    let valid: Vec<_> = blocks_for(side).map(|blocks| blocks.to_string()).collect();
     Err(ConfigError::Range {
         key: "periphery.blocks".to_owned(),
         value: blocks.to_string(),

@@ -16,6 +16,11 @@ pub const SUMMARY_BLOCKS: &[u32] = &[1, 2, 4];
 /// Fraction bits of the mean of `mad`, for the largest region.
 pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;
 
+/// The largest level where differences reach `max`: one that is exceeded by some, unless what has none `always` passes.
+pub(crate) fn largest_level(max: u32, always: bool) -> u32 {
+    if always { max } else { max - 1 }
+}
+
 /// Refuses the `value` of a `key` that is not in its range; `why` follows the range in the message.
 ///
 /// # Errors

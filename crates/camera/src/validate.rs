@@ -2,6 +2,7 @@
 //! Checks every range and combination of a configuration, and makes it a camera.
 
 use crate::depth::{self, DEFAULT_BITS};
+use crate::ranges::largest_level;
 use crate::{Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, Temporal};
 use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, in_range};
 
@@ -111,7 +112,7 @@ impl CameraConfig {
     fn temporal_level(&self, pixel_max: u32) -> Result<u32, ConfigError> {
         let bits = self.frame.pixel_bits;
         let level = self.temporal.level_at(bits);
-        let largest = if self.temporal.min_count == 0 { pixel_max } else { pixel_max - 1 };
+        let largest = largest_level(pixel_max, self.temporal.min_count == 0);
         let scaled = depth::level(level, DEFAULT_BITS, bits);
         let hint = depth::hint(&level, &scaled, scaled <= largest, bits);
         let why = format!(" for pixels of {bits} bits, which differ by at most {pixel_max}{hint}");

@@ -7,17 +7,17 @@ use foveate_camera::Takes::{Names, Text};
 
 /// Every key of `[hardware]`.
 pub(crate) const HARDWARE_KEYS: &[Key] = &[
-    ("hardware.organization", Names(Organization::one_of)),
+    ("hardware.organization", Names(Organization::NAMES)),
     ("hardware.fold", Text("a whole number >= 1")),
-    ("hardware.feed", Names(Feed::one_of)),
-    ("hardware.memory", Names(MemoryKind::one_of)),
+    ("hardware.feed", Names(Feed::NAMES)),
+    ("hardware.memory", Names(MemoryKind::NAMES)),
     ("hardware.pixels_per_clock", Text("1, 2 or 4")),
-    ("hardware.pipelining", Names(Pipelining::one_of)),
-    ("hardware.store", Names(Store::one_of)),
+    ("hardware.pipelining", Names(Pipelining::NAMES)),
+    ("hardware.store", Names(Store::NAMES)),
     ("hardware.forward", Text("true or false")),
-    ("hardware.interface", Names(Bus::one_of)),
+    ("hardware.interface", Names(Bus::NAMES)),
     ("hardware.sync", Text("true or false")),
-    ("hardware.thresholds", Names(Thresholds::one_of)),
+    ("hardware.thresholds", Names(Thresholds::NAMES)),
 ];
 
 #[cfg(test)]

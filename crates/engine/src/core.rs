@@ -8,6 +8,7 @@ use foveate_camera::Reference;
 
 use crate::change;
 use crate::look::{Changes, Look};
+use crate::memory::{Known, Memory};
 use crate::outcome::{FrameOutcome, split_off};
 use crate::pixels::Pixels;
 use crate::plan::CameraPlan;
@@ -41,6 +42,8 @@ pub(crate) struct Core<T: Lane> {
     changed: Vec<bool>,
     policy: Policy,
     skip: bool,
+    /// Of what was known before the last step, while it is asked for.
+    memory: Option<Memory<T>>,
     /// By strip.
     scratch: Vec<(Scratch<T>, Vec<Skipped>)>,
 }
@@ -79,6 +82,7 @@ impl<T: Lane> Core<T> {
             changed: Vec::new(),
             policy: Policy::new(skip),
             skip,
+            memory: None,
             scratch: vec![(Scratch::new(&plan), Vec::new())],
             plan,
         }
@@ -90,25 +94,40 @@ impl<T: Lane> Core<T> {
         self.shown.fill(false);
         self.settled.fill(false);
         self.screen.fill(T::default());
+        if let Some(memory) = &mut self.memory {
+            *memory = Memory::default();
+        }
         self.policy = Policy::new(self.skip);
     }
 
     /// Appends the denoised pixels of a region.
     pub(crate) fn denoised_region(&self, region: u32, pixels: &mut Vec<u16>) {
-        let plan = &self.plan;
-        let own = &self.denoised[plan.first_pixel(region)..];
-        for row in own.chunks(plan.stride()).take(plan.side) {
-            pixels.extend(row[..plan.side].iter().map(|&pixel| word(pixel)));
-        }
+        self.plan.pixels_of(&self.denoised, region, pixels);
     }
 
     /// Appends the means that a region has sent last.
     pub(crate) fn summary(&self, region: u32, means: &mut Vec<u16>) {
-        let plan = &self.plan;
-        let Some(own) = plan.periphery else { return };
-        let sent = &self.means[plan.first_mean(region, own.blocks)..];
-        for row in sent.chunks(plan.means_in_row()).take(own.blocks) {
-            means.extend(row[..own.blocks].iter().map(|&mean| word(mean)));
+        self.plan.means_of(&self.means, region, means);
+    }
+
+    /// Whether to copy what is known before every step.
+    pub(crate) fn remember(&mut self, on: bool) {
+        match (on, &self.memory) {
+            (true, None) => self.memory = Some(Memory::default()),
+            (true, Some(_)) => {}
+            (false, _) => self.memory = None,
+        }
+    }
+
+    /// What was known before the last step, where it was remembered.
+    pub(crate) fn memory(&self) -> Option<&Memory<T>> {
+        self.memory.as_ref().filter(|memory| memory.is_taken())
+    }
+
+    fn take_memory(&mut self) {
+        let Self { plan, denoised, reference, valid, shown, means, screen, memory, .. } = self;
+        if let Some(memory) = memory {
+            memory.take(plan, &Known { denoised, reference, valid, shown, means, screen });
         }
     }
 
@@ -120,6 +139,7 @@ impl<T: Lane> Core<T> {
         outcome: &mut FrameOutcome,
         keep: Keep<'_, T>,
     ) {
+        self.take_memory();
         self.divide(frames.len(), workers);
         let first = self.look(frames, workers);
         self.compute(frames, workers, first, outcome, keep);
@@ -259,11 +279,6 @@ impl<T: Lane> Core<T> {
             self.policy.saved(known.map(|number| frame(number).blocks).sum(), blocks);
         }
     }
-}
-
-/// A pixel as a word, in which each fits.
-fn word<T: Lane>(pixel: T) -> u16 {
-    u16::try_from(pixel.into()).unwrap_or(u16::MAX)
 }
 
 /// All bands, in shares that differ by one at most.

@@ -140,6 +140,23 @@ impl<T: Lane> CameraPlan<T> {
         row * self.band_means() + column * blocks
     }
 
+    /// Appends the pixels of a region of a padded plane, row by row.
+    pub(crate) fn pixels_of(&self, plane: &[T], region: u32, pixels: &mut Vec<u16>) {
+        let own = &plane[self.first_pixel(region)..];
+        for row in own.chunks(self.stride()).take(self.side) {
+            pixels.extend(row[..self.side].iter().map(|&pixel| word(pixel)));
+        }
+    }
+
+    /// Appends the means of a region among those of all, row by row of blocks; nothing where regions send none.
+    pub(crate) fn means_of(&self, all: &[T], region: u32, means: &mut Vec<u16>) {
+        let Some(own) = self.periphery else { return };
+        let rows = all[self.first_mean(region, own.blocks)..].chunks(self.means_in_row());
+        for row in rows.take(own.blocks) {
+            means.extend(row[..own.blocks].iter().map(|&mean| word(mean)));
+        }
+    }
+
     /// Width with padding.
     pub(crate) fn padded_width(&self) -> usize {
         self.columns * self.side
@@ -244,4 +261,9 @@ fn half<S: TryFrom<u32> + From<T>, T: Lane<Signed = S>>(level: u32) -> S {
 /// every platform that can hold a frame.
 pub(crate) const fn index(value: u32) -> usize {
     value as usize
+}
+
+/// A pixel as a word, in which each fits.
+fn word<T: Lane>(pixel: T) -> u16 {
+    u16::try_from(pixel.into()).unwrap_or(u16::MAX)
 }

@@ -63,7 +63,7 @@ impl Workers {
                 let next = || queue.lock().unwrap_or_else(PoisonError::into_inner).next();
                 let work = || {
                     while let Some(task) = next() {
-                        self.level.run(task);
+                        self.work(task);
                     }
                 };
                 pool.in_place_scope(|scope| {
@@ -73,8 +73,14 @@ impl Workers {
                     work();
                 });
             }
-            _ => tasks.for_each(|task| self.level.run(task)),
+            _ => tasks.for_each(|task| self.work(task)),
         }
+    }
+
+    /// Runs a task. Not inlined: a task is large, and is compiled once in place of once per call.
+    #[inline(never)]
+    fn work<W: Task>(&self, task: W) {
+        self.level.run(task);
     }
 }
 

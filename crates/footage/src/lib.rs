@@ -32,7 +32,7 @@ pub use input::{is_camera, is_read_once, open};
 pub use limits::{Crop, MAX_SIDE};
 pub use natural::natural_order;
 pub use options::{ImagesAs, InputOptions};
-pub use picture::{decode, luma, read};
+pub use picture::{decode, read};
 pub use plan::{Clip, ClipPlan, plan};
 pub use rate::FrameRate;
 pub use source::ahead::{Frames, read_ahead};

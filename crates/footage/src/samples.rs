@@ -2,11 +2,7 @@
 //! From samples as they lie in a pipe or a file to a frame: 8-bit luma for a design of 8 bits stays
 //! where it is, everything else is converted in one pass.
 
-use foveate_frame::FrameError;
-use foveate_frame::Raster;
-
-use crate::luma;
-use foveate_frame::convert_depth;
+use foveate_frame::{FrameError, Raster, convert_depth, luma};
 
 /// How samples lie.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

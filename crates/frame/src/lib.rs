@@ -8,11 +8,13 @@
 mod depth;
 mod error;
 mod frame;
+mod luma;
 mod raster;
 
 pub use depth::{convert_depth, display_depth};
 pub use error::FrameError;
 pub use frame::Frame;
+pub use luma::{luma, luma_of_rgba};
 pub use raster::{Plane, Raster};
 
 /// A size or coordinate as an index. Lossless: `usize` has 32 bits or more on every platform that

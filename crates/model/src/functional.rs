@@ -69,6 +69,16 @@ impl FunctionalOutcome {
     }
 }
 
+/// What is remembered of a region between frames, beside the screen.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Remembered {
+    /// What the next frame's region will be compared with: denoised pixels, row by row; none where there is no valid
+    /// reference.
+    pub reference: Option<Vec<u16>>,
+    /// The means that the screen shows of it, block by block; none where it shows no summary.
+    pub summary: Option<Vec<u16>>,
+}
+
 /// An RCM with its renderer. Between frames it remembers references, summaries and the screen, nothing else.
 #[derive(Clone, Debug)]
 pub struct FunctionalCamera {
@@ -122,6 +132,41 @@ impl FunctionalCamera {
     #[must_use]
     pub fn summary(&self, region: u32) -> Option<&[u16]> {
         self.summaries[index(region)].shown()
+    }
+
+    /// What is remembered of a region.
+    ///
+    /// # Panics
+    /// When the camera has no such region.
+    #[must_use]
+    pub fn remembered(&self, region: u32) -> Remembered {
+        let summary = self.summary(region).map(<[u16]>::to_vec);
+        Remembered { reference: self.reference(region), summary }
+    }
+
+    /// A camera that goes on from what another one remembers: its screen, and what is remembered of every region.
+    ///
+    /// # Errors
+    /// When the screen is not of the camera's size and depth.
+    ///
+    /// # Panics
+    /// When a region's reference or summary has too few values.
+    pub fn resume(
+        camera: &Camera,
+        screen: &Frame,
+        remembered: impl Fn(u32) -> Remembered,
+    ) -> Result<Self, ModelError> {
+        check_kind(camera, screen)?;
+        let mut resumed = Self::new(camera);
+        resumed.screen.show_all(screen);
+        for region in 0..camera.regions() {
+            let Remembered { reference, summary } = remembered(region);
+            if let Some(pixels) = reference {
+                resumed.references.set(camera, region, &pixels);
+            }
+            resumed.summaries[index(region)] = Summary::of(summary);
+        }
+        Ok(resumed)
     }
 
     /// Takes the next frame.

@@ -44,6 +44,11 @@ pub(crate) struct Summary {
 }
 
 impl Summary {
+    /// These means are on the screen, or none.
+    pub(crate) fn of(shown: Option<Vec<u16>>) -> Self {
+        Self { shown }
+    }
+
     /// What becomes of a region with these two bits and means.
     pub(crate) fn action(
         &self,

@@ -3,7 +3,7 @@
 
 use foveate_camera::Camera;
 
-use crate::region::{Area, black_padded, crop_into};
+use crate::region::{Area, black_padded, crop_into, pad_into};
 use foveate_camera::Action;
 use foveate_frame::Frame;
 
@@ -35,6 +35,11 @@ impl Screen {
                 area.fill(periphery, means, &mut self.0);
             }
         }
+    }
+
+    /// Shows a whole frame, of the size of the screen without padding.
+    pub(crate) fn show_all(&mut self, frame: &Frame) {
+        pad_into(frame, &mut self.0);
     }
 
     /// What is seen: the screen without padding.

@@ -57,6 +57,15 @@ impl References {
         self.frame(region).map(|frame| Area::of(camera, region).pixels(frame).collect())
     }
 
+    /// Makes pixels, row by row, the reference of a region.
+    pub(crate) fn set(&mut self, camera: &Camera, region: u32, pixels: &[u16]) {
+        let area = Area::of(camera, region);
+        for (y, row) in area.rows().zip(pixels.chunks(index(area.side))) {
+            self.frame.write(area.left, y, row);
+        }
+        self.valid[index(region)] = true;
+    }
+
     /// A padded frame with the reference of a region in its place, if that is valid.
     pub(crate) fn frame(&self, region: u32) -> Option<&Frame> {
         self.valid[index(region)].then_some(&self.frame)

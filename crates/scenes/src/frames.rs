@@ -38,8 +38,9 @@ impl SceneFrames {
         Self { scene, size, street, next: 0 }
     }
 
-    /// Frame number `t`.
-    fn frame(&self, t: u32) -> Option<Frame> {
+    /// Frame number `t`, whichever is next.
+    #[must_use]
+    pub fn at(&self, t: u32) -> Frame {
         match (self.scene, &self.street) {
             (Scene::Street, Some(street)) => self.seen(&street.at(t), (0, 0), 160, t),
             (Scene::NightRain, Some(street)) => self.seen(&street.at(t), (0, 0), 450, t),
@@ -53,7 +54,7 @@ impl SceneFrames {
     }
 
     /// The canvas through a sensor: cut out at `corner`, with noise, in P bits.
-    fn seen(&self, canvas: &Canvas, corner: (u32, u32), amplitude: i32, t: u32) -> Option<Frame> {
+    fn seen(&self, canvas: &Canvas, corner: (u32, u32), amplitude: i32, t: u32) -> Frame {
         self.made(|x, y| {
             let light = i32::from(canvas.get(x + corner.0, y + corner.1));
             let noisy = light + amplitude * noise::bell(0x5EED, t, x, y);
@@ -61,12 +62,11 @@ impl SceneFrames {
         })
     }
 
-    fn made(&self, mut pixel: impl FnMut(u32, u32) -> u32) -> Option<Frame> {
+    fn made(&self, mut pixel: impl FnMut(u32, u32) -> u32) -> Frame {
         let SceneSize { width, height, bits, .. } = self.size;
         let limit = self.size.max();
         let pixel = |x, y| u16::try_from(pixel(x, y).min(limit)).expect("of at most 16 bits");
-        // A size in range is a valid frame.
-        Frame::from_fn(width, height, bits, pixel).ok()
+        Frame::from_fn(width, height, bits, pixel).expect("a size in range is a valid frame")
     }
 }
 
@@ -78,7 +78,7 @@ impl Iterator for SceneFrames {
             return None;
         }
         self.next += 1;
-        self.frame(self.next - 1)
+        Some(self.at(self.next - 1))
     }
 
     fn size_hint(&self) -> (usize, Option<usize>) {

@@ -19,13 +19,14 @@ mod stream;
 pub use batch::{BatchHooks, BatchProgress, BatchSummary, ClipSummary, run_batch};
 pub use decode::{Decoded, Recording};
 pub use error::SimulatorError;
-pub use explain::{Change, Explanation, Place, Rows, Spatial, explain};
+pub use explain::explain;
 pub use foveate_engine::MAX_THREADS;
 pub use foveate_footage::{Hooks, Progress, Silent};
+pub use foveate_model::explain::Explanation;
 pub use foveate_packets::{Command, Loss, Register};
 pub use output::{
-    Bandwidth, DataSet, EventTable, EventTables, Grid, Medium, Moment, PIXEL_EVENT_BYTES, Packets,
-    PixelCamera, PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, write_packets,
+    Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, Packets, PixelCamera,
+    PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, write_packets,
 };
 pub use simulation::Simulation;
 pub use stream::{Received, ShownFrame, Stream};

@@ -37,7 +37,6 @@ mod video;
 pub use bandwidth::{Bandwidth, PIXEL_EVENT_BYTES, Traffic};
 pub(crate) use csv::Csv;
 pub use data_set::DataSet;
-pub use events::{EventTable, Moment};
 pub use options::{EventTables, Medium, Packets, PixelEvents, RunOptions};
 pub use packet_file::write_packets;
 pub use pixel_camera::{PixelCamera, PixelEvent};

@@ -7,14 +7,12 @@ use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
-use foveate_frame::Frame;
-use foveate_frame::Raster;
+use foveate_frame::{Frame, Raster, convert_depth, luma};
 
 use super::{damaged, unreadable};
 use crate::source::feed::Feed;
 use crate::source::form::{Labels, SetFiles, SetForm};
-use crate::{FootageError, Kind, SourceFrame, luma, picture};
-use foveate_frame::convert_depth;
+use crate::{FootageError, Kind, SourceFrame, picture};
 
 const SIDE: u32 = 32;
 const AREA: usize = 1024;

@@ -7,8 +7,8 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::clips::{all, clip, ffmpeg, frames, opened, tools};
-use foveate_footage::{Crop, FrameRate, InputOptions, Selection, SourceFrame, luma};
-use foveate_frame::convert_depth;
+use foveate_footage::{Crop, FrameRate, InputOptions, Selection, SourceFrame};
+use foveate_frame::{convert_depth, luma};
 use foveate_toolchain::testing::data_folder;
 
 /// What ffprobe says of every frame, in microseconds since the first.

@@ -29,6 +29,11 @@ impl Csv {
         line.push(b'\n');
     }
 
+    /// Where whole lines are appended.
+    pub(super) fn end(&mut self) -> &mut Vec<u8> {
+        self.0.end()
+    }
+
     /// Appends a line of fields that may need quotes.
     pub(super) fn quoted<const N: usize>(&mut self, fields: [&str; N]) {
         self.0.append(foveate_files::tables::csv([fields]).as_bytes());

@@ -5,7 +5,8 @@ use std::fs::File;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use foveate_files::tables::{Column, ParquetWriter, Value};
+use foveate_engine::{EventColumn, EventKind, EventTable, EventValue, Moment};
+use foveate_files::tables::{Column, Kind, ParquetWriter, Value};
 
 use super::cannot_write;
 use super::row_writer::RowWriter;
@@ -23,16 +24,17 @@ pub(super) struct ParquetTable {
 }
 
 impl ParquetTable {
-    pub(super) fn create(path: &Path, columns: &[Column]) -> Result<Self, SimulatorError> {
+    pub(super) fn create(path: &Path, table: &EventTable) -> Result<Self, SimulatorError> {
+        let columns: Vec<Column> = table.columns().iter().map(column).collect();
         let file = File::create(path).map_err(cannot_write(path))?;
-        let writer = ParquetWriter::new(file, "events", columns).map_err(cannot_write(path))?;
+        let writer = ParquetWriter::new(file, "events", &columns).map_err(cannot_write(path))?;
         Ok(Self { path: path.to_owned(), writer, broken: false })
     }
 }
 
 impl RowWriter for ParquetTable {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value<'static>>) {
-        self.writer.push(values);
+    fn rows(&mut self, table: &EventTable, moment: &Moment<'_>) {
+        table.rows(moment, |values| self.writer.push(values.map(value)));
     }
 
     fn write_out(&mut self, _all: bool) -> Result<(), SimulatorError> {
@@ -54,5 +56,24 @@ impl RowWriter for ParquetTable {
             return Err(cannot_write(&path)(io::ErrorKind::StorageFull.into()));
         }
         writer.finish().map(drop).map_err(cannot_write(&path))
+    }
+}
+
+fn column(EventColumn { name, kind }: &EventColumn) -> Column {
+    let kind = match kind {
+        EventKind::Long => Kind::Long,
+        EventKind::Int => Kind::Int,
+        EventKind::Flag => Kind::Flag,
+        EventKind::Text => Kind::Text,
+    };
+    Column { name: name.clone(), kind, optional: false }
+}
+
+fn value(value: EventValue) -> Value<'static> {
+    match value {
+        EventValue::Long(value) => Value::Long(value),
+        EventValue::Int(value) => Value::Int(value),
+        EventValue::Flag(value) => Value::Flag(value),
+        EventValue::Text(value) => Value::Text(value),
     }
 }

@@ -3,14 +3,15 @@
 
 use std::path::PathBuf;
 
-use foveate_files::tables::Value;
+use foveate_engine::{EventTable, Moment};
 
 use super::csv::Csv;
 use crate::SimulatorError;
 
 /// A file of the table, open.
 pub(super) trait RowWriter: Send {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value<'static>>);
+    /// Appends the rows of a frame.
+    fn rows(&mut self, table: &EventTable, moment: &Moment<'_>);
     /// As [`super::sink::Sink::write_out`].
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
     /// As [`super::sink::Sink::expendable`].
@@ -21,12 +22,8 @@ pub(super) trait RowWriter: Send {
 }
 
 impl RowWriter for Csv {
-    fn row(&mut self, values: &mut dyn Iterator<Item = Value<'static>>) {
-        // A flag is a bit, so that tools which know numbers only can read all but the action.
-        self.line(values.map(|value| match value {
-            Value::Flag(flag) => Value::Int(flag.into()),
-            other => other,
-        }));
+    fn rows(&mut self, table: &EventTable, moment: &Moment<'_>) {
+        table.csv(moment, self.end());
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {

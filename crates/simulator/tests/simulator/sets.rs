@@ -10,9 +10,8 @@ use flate2::Compression;
 use flate2::write::GzEncoder;
 use foveate_camera::CameraConfig;
 use foveate_design::Config;
-use foveate_footage::{
-    FootageError, ImagesAs, InputOptions, Kind, Selection, SourceFrame, luma, open,
-};
+use foveate_footage::{FootageError, ImagesAs, InputOptions, Kind, Selection, SourceFrame, open};
+use foveate_frame::luma;
 use foveate_simulator::{RunOptions, Silent, Simulation};
 
 fn read(path: &Path, options: &InputOptions) -> Result<Vec<SourceFrame>, FootageError> {

@@ -5,56 +5,53 @@
 use foveate_camera::{Action, Camera, Irrelevant, Periphery, SpatialFeature};
 use foveate_design::Design;
 use foveate_frame::Frame;
-use foveate_model::feature::{hits, mad};
-use foveate_model::{FunctionalOutcome, region_pixels};
 
-use super::{Change, Explanation, Place, Rows, Spatial, Summary};
-use foveate_footage::SourceFrame;
+use super::{Change, Explanation, Moment, Place, Rows, Spatial, Summary};
+use crate::feature::{hits, mad};
+use crate::{FunctionalOutcome, Remembered, region_pixels};
 
 /// Changes when a key changes its meaning or goes.
 const FORMAT_VERSION: u32 = 1;
 
-/// What is remembered of a region before a frame.
-pub(super) struct Before {
-    pub(super) reference: Option<Vec<u16>>,
-    /// The means that the screen shows.
-    pub(super) shown: Option<Vec<u16>>,
-}
-
-/// Everything about one region of a frame.
-pub(super) fn explanation(
-    design: &Design,
-    frame: u64,
-    source: &SourceFrame,
-    region: u32,
-    before: Before,
-    outcome: &FunctionalOutcome,
-) -> Explanation {
-    let (camera, at) = (design.camera(), region as usize);
-    let scores = camera.features().iter().zip(&outcome.scores);
-    Explanation {
-        format_version: FORMAT_VERSION,
-        design_fingerprint: design.fingerprint(),
-        frame,
-        name: source.name.clone(),
-        t_us: source.time_us,
-        region: Place::of(camera, region),
-        pixel_bits: camera.pixel_bits(),
-        raw: rows(camera, &pixels(camera, &outcome.padded, region)),
-        denoised: rows(camera, &pixels(camera, &outcome.denoised, region)),
-        filter: camera.filter(),
-        spatial: scores
-            .map(|(feature, scores)| Spatial::of(camera, feature, outcome, region, scores[at]))
-            .collect(),
-        combine: camera.combine().name(),
-        srs: outcome.srs[at],
-        temporal: Change::of(camera, before.reference, outcome, region),
-        trs: outcome.trs[at],
-        summary: camera
-            .periphery()
-            .map(|periphery| Summary::of(periphery, &outcome.means[at], before.shown)),
-        action: outcome.actions[at].name(),
-        rule: rule(camera, outcome.srs[at], outcome.trs[at], outcome.actions[at]),
+impl Explanation {
+    /// Everything about one region of a frame: what was remembered of it before, and what the frame has led to.
+    ///
+    /// # Panics
+    /// When the camera has no such region, or the outcome is that of another camera.
+    #[must_use]
+    pub fn of(
+        design: &Design,
+        moment: Moment<'_>,
+        region: u32,
+        before: Remembered,
+        outcome: &FunctionalOutcome,
+    ) -> Self {
+        let (camera, at) = (design.camera(), region as usize);
+        let scores = camera.features().iter().zip(&outcome.scores);
+        Self {
+            format_version: FORMAT_VERSION,
+            design_fingerprint: design.fingerprint(),
+            frame: moment.number,
+            name: moment.name.to_owned(),
+            t_us: moment.t_us,
+            region: Place::of(camera, region),
+            pixel_bits: camera.pixel_bits(),
+            raw: rows(camera, &pixels(camera, &outcome.padded, region)),
+            denoised: rows(camera, &pixels(camera, &outcome.denoised, region)),
+            filter: camera.filter(),
+            spatial: scores
+                .map(|(feature, scores)| Spatial::of(camera, feature, outcome, region, scores[at]))
+                .collect(),
+            combine: camera.combine().name(),
+            srs: outcome.srs[at],
+            temporal: Change::of(camera, before.reference, outcome, region),
+            trs: outcome.trs[at],
+            summary: camera
+                .periphery()
+                .map(|periphery| Summary::of(periphery, &outcome.means[at], before.summary)),
+            action: outcome.actions[at].name(),
+            rule: rule(camera, outcome.srs[at], outcome.trs[at], outcome.actions[at]),
+        }
     }
 }
 

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What the keys may be whose range depends on others, for whoever offers them one at a time.
+
+use crate::periphery::blocks_for;
+use crate::ranges::largest_level;
+use crate::width::index_bits;
+use crate::{Camera, Decimal};
+
+/// What a key may be while all others stay as they are.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Bound {
+    /// A number from 0 on, whole numbers only or decimal ones as well.
+    UpTo {
+        /// The largest.
+        largest: Decimal,
+        /// Whether it must be whole.
+        whole: bool,
+    },
+    /// One of these.
+    OneOf(Vec<u32>),
+}
+
+impl Bound {
+    fn whole(largest: u32) -> Self {
+        Self::UpTo { largest: Decimal::whole(largest.into()), whole: true }
+    }
+}
+
+impl Camera {
+    /// The keys of this camera whose range depends on other keys, as overrides name them (`spatial.0.level`), and what they
+    /// may be.
+    #[must_use]
+    pub fn bounds(&self) -> Vec<(String, Bound)> {
+        let (max, pixels) = (self.pixel_max(), self.region_pixels());
+        let mut bounds = vec![
+            (
+                "temporal.level".to_owned(),
+                Bound::whole(largest_level(max, self.temporal().min_count == 0)),
+            ),
+            ("temporal.min_count".to_owned(), Bound::whole(pixels)),
+        ];
+        if self.periphery().is_some() {
+            let blocks = blocks_for(self.region_size()).collect();
+            bounds.push(("periphery.blocks".to_owned(), Bound::OneOf(blocks)));
+            let level = Bound::whole(largest_level(max, false));
+            bounds.push(("periphery.level".to_owned(), level));
+        }
+        let features = self.features().iter().zip(&self.config().spatial);
+        for (index, (feature, entry)) in features.enumerate() {
+            let key = |name| format!("spatial.{index}.{name}");
+            if let Some(max) = feature.level_max() {
+                let level = largest_level(max, feature.min_score() == 0);
+                bounds.push((key("level"), Bound::whole(level)));
+            }
+            let largest = feature.largest_min_score();
+            let whole = feature.kind().measure().is_count();
+            bounds.push((key("min_score"), Bound::UpTo { largest, whole }));
+            if entry.has_mean() {
+                let bits = index_bits(pixels.into());
+                bounds.push((key("mean_fraction_bits"), Bound::whole(bits)));
+            }
+        }
+        bounds
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::CameraConfig;
+
+    /// Every end is taken, and what lies beyond it is refused.
+    #[test]
+    fn bounds_are_what_is_taken() {
+        const FOUR: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"}]";
+        let mut keys = 0;
+        for overrides in [
+            vec![],
+            vec![FOUR, "render.irrelevant=\"mean\""],
+            vec![FOUR, "region.size=6", "render.irrelevant=\"mean\"", "frame.pixel_bits=3"],
+            vec![FOUR, "region.size=5", "frame.pixel_bits=12", "temporal.min_count=0"],
+            vec!["spatial=[{feature=\"corner\",min_score=0}]", "frame.pixel_bits=1"],
+        ] {
+            let camera = |more: &str| {
+                let all = [&overrides[..], &[more]].concat();
+                let all: Vec<&str> = all.into_iter().filter(|text| !text.is_empty()).collect();
+                CameraConfig::from_toml_with("", &all).and_then(|config| config.validate())
+            };
+            for (key, bound) in camera("").unwrap().bounds() {
+                let is_taken =
+                    |value: &dyn std::fmt::Display| camera(&format!("{key}={value}")).is_ok();
+                match bound {
+                    Bound::UpTo { largest, whole } => {
+                        // The largest decimal is cut after four digits.
+                        let beyond = largest.ceil_times(1)
+                            + u128::from(whole || largest.as_whole().is_some());
+                        assert!(
+                            is_taken(&0) && is_taken(&largest),
+                            "{overrides:?} {key} {largest}"
+                        );
+                        assert!(!is_taken(&beyond), "{overrides:?} {key} {beyond}");
+                        assert_eq!(is_taken(&0.5), !whole && largest != Decimal::whole(0), "{key}");
+                    }
+                    Bound::OneOf(values) => {
+                        for value in 0..=9 {
+                            assert_eq!(is_taken(&value), values.contains(&value), "{key} {value}");
+                        }
+                    }
+                }
+                keys += 1;
+            }
+        }
+        assert_eq!(keys, 4 + 11 + 11 + 9 + 4);
+    }
+}

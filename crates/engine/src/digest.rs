@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A frame's results in 64 bits, so that two engines on two machines can be compared frame by frame.
+
+use foveate_camera::Action;
+use foveate_frame::Plane;
+
+use crate::{Engine, FrameOutcome};
+
+/// FNV-1a of 64 bits.
+struct Fnv(u64);
+
+impl Fnv {
+    fn new() -> Self {
+        Self(0xCBF2_9CE4_8422_2325)
+    }
+
+    fn take(&mut self, bytes: impl IntoIterator<Item = u8>) {
+        for byte in bytes {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0100_0000_01B3);
+        }
+    }
+}
+
+impl Engine {
+    /// FNV-1a of what the last frame has led to, in this order, little-endian: every pixel of the screen as two bytes; SRS, TRS
+    /// and action of every region as [`FrameOutcome::region_bytes`] packs them; the scores, feature by feature, as eight
+    /// bytes; the counts of changed pixels as four.
+    #[must_use]
+    pub fn digest(&self) -> u64 {
+        let mut hash = Fnv::new();
+        match self.rendered() {
+            Plane::Bytes(pixels) => hash.take(pixels.iter().flat_map(|&pixel| [pixel, 0])),
+            Plane::Words(pixels) => hash.take(pixels.iter().flat_map(|pixel| pixel.to_le_bytes())),
+        }
+        let outcome = self.outcome();
+        hash.take(outcome.region_bytes());
+        hash.take(outcome.scores.iter().flatten().flat_map(|score| score.to_le_bytes()));
+        hash.take(outcome.temporal_count.iter().flat_map(|count| count.to_le_bytes()));
+        hash.0
+    }
+}
+
+impl FrameOutcome {
+    /// A byte per region: bit 0 SRS, bit 1 TRS, above them what became of it: 0 forward, 1 hold, 2 blank, 3 summarize.
+    pub fn region_bytes(&self) -> impl Iterator<Item = u8> {
+        self.srs.iter().zip(&self.trs).zip(&self.actions).map(|((&srs, &trs), action)| {
+            let action = match action {
+                Action::Forward => 0,
+                Action::Hold => 1,
+                Action::Blank => 2,
+                Action::Summarize => 3,
+            };
+            u8::from(srs) | u8::from(trs) << 1 | action << 2
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The check values of the page of FNV (draft-eastlake-fnv).
+    #[test]
+    fn it_is_fnv_1a() {
+        let hash = |bytes: &[u8]| {
+            let mut hash = Fnv::new();
+            hash.take(bytes.iter().copied());
+            hash.0
+        };
+        assert_eq!(hash(b""), 0xCBF2_9CE4_8422_2325);
+        assert_eq!(hash(b"a"), 0xAF63_DC4C_8601_EC8C);
+        assert_eq!(hash(b"foobar"), 0x8594_4171_F739_67E8);
+    }
+}

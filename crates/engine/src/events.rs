@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The table of regions: one row per region and frame, the region camera's events as data.
+//!
+//! What the columns are, and how a row is written as text, is said once, here.
+
+use std::fmt;
+use std::io::Write as _;
+
+use foveate_camera::{Action, Camera};
+
+use crate::FrameOutcome;
+
+/// A column of the table.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct EventColumn {
+    /// Its name.
+    pub name: String,
+    /// The type of its values.
+    pub kind: EventKind,
+}
+
+/// The type of a column.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventKind {
+    /// A signed integer of 64 bits.
+    Long,
+    /// One of 32 bits.
+    Int,
+    /// Yes or no.
+    Flag,
+    /// Text.
+    Text,
+}
+
+/// A value of a row; as text a flag is a bit, so that tools which know numbers only can read all but the action.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum EventValue {
+    /// Of [`EventKind::Long`].
+    Long(i64),
+    /// Of [`EventKind::Int`].
+    Int(i32),
+    /// Of [`EventKind::Flag`].
+    Flag(bool),
+    /// Of [`EventKind::Text`].
+    Text(&'static str),
+}
+
+impl fmt::Display for EventValue {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Long(value) => value.fmt(f),
+            Self::Int(value) => value.fmt(f),
+            Self::Flag(value) => u8::from(*value).fmt(f),
+            Self::Text(value) => f.write_str(value),
+        }
+    }
+}
+
+/// What a column says of a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Field {
+    Frame,
+    Time,
+    Column,
+    Row,
+    Left,
+    Top,
+    Srs,
+    Trs,
+    /// By number of the feature.
+    Score(usize),
+    Count,
+    Action,
+}
+
+impl Field {
+    fn kind(self) -> EventKind {
+        match self {
+            Self::Frame | Self::Time | Self::Score(_) => EventKind::Long,
+            Self::Column | Self::Row | Self::Left | Self::Top | Self::Count => EventKind::Int,
+            Self::Srs | Self::Trs => EventKind::Flag,
+            Self::Action => EventKind::Text,
+        }
+    }
+
+    fn of(self, moment: &Moment<'_>, region: usize) -> EventValue {
+        let Moment { camera, number, time_us, outcome } = *moment;
+        let (columns, side) = (camera.columns() as usize, camera.region_size() as usize);
+        let (column, row) = (region % columns, region / columns);
+        match self {
+            Self::Frame => long(number),
+            // A damaged clip may claim any time; beyond 292,000 years all are the same.
+            Self::Time => EventValue::Long(time_us.try_into().unwrap_or(i64::MAX)),
+            Self::Column => int(column),
+            Self::Row => int(row),
+            Self::Left => int(column * side),
+            Self::Top => int(row * side),
+            Self::Srs => EventValue::Flag(outcome.srs[region]),
+            Self::Trs => EventValue::Flag(outcome.trs[region]),
+            Self::Score(feature) => long(outcome.scores[feature][region]),
+            Self::Count => int(outcome.temporal_count[region] as usize),
+            Self::Action => EventValue::Text(outcome.actions[region].name()),
+        }
+    }
+}
+
+fn long(value: u64) -> EventValue {
+    EventValue::Long(value.try_into().expect("scores are below 2^54, and frames are counted"))
+}
+
+fn int(value: usize) -> EventValue {
+    EventValue::Int(value.try_into().expect("coordinates are below 2^15 and counts below 2^13"))
+}
+
+/// The columns of a camera's table, in order.
+fn columns(camera: &Camera) -> Vec<(EventColumn, Field)> {
+    let scores = camera.features().iter().enumerate();
+    let scores =
+        scores.map(|(at, feature)| (format!("score_{}", feature.kind()), Field::Score(at)));
+    let named = |(name, field): (&str, Field)| (name.to_owned(), field);
+    let before = [
+        ("frame", Field::Frame),
+        ("t_us", Field::Time),
+        ("x", Field::Column),
+        ("y", Field::Row),
+        ("x0", Field::Left),
+        ("y0", Field::Top),
+        ("srs", Field::Srs),
+        ("trs", Field::Trs),
+    ];
+    let after = [("t_count", Field::Count), ("action", Field::Action)];
+    let all = before.map(named).into_iter().chain(scores).chain(after.map(named));
+    all.map(|(name, field)| (EventColumn { name, kind: field.kind() }, field)).collect()
+}
+
+/// One frame of a run, with what came of it.
+#[derive(Clone, Copy, Debug)]
+pub struct Moment<'a> {
+    /// The camera.
+    pub camera: &'a Camera,
+    /// Number of the frame in the run.
+    pub number: u64,
+    /// Time since the first frame in microseconds.
+    pub time_us: u64,
+    /// What came of it.
+    pub outcome: &'a FrameOutcome,
+}
+
+/// The table of regions of a camera.
+#[derive(Clone, Debug)]
+pub struct EventTable {
+    columns: Vec<EventColumn>,
+    fields: Vec<Field>,
+    only_active: bool,
+}
+
+impl EventTable {
+    /// The table with a row per region and frame, or only with those of regions that send something.
+    #[must_use]
+    pub fn new(camera: &Camera, only_active: bool) -> Self {
+        let (columns, fields) = columns(camera).into_iter().unzip();
+        Self { columns, fields, only_active }
+    }
+
+    /// The same without what only scores say.
+    #[must_use]
+    pub fn without_scores(self) -> Self {
+        let pairs = self.columns.into_iter().zip(self.fields);
+        let known = pairs.filter(|(_, field)| !matches!(field, Field::Score(_) | Field::Count));
+        let (columns, fields) = known.unzip();
+        Self { columns, fields, ..self }
+    }
+
+    /// The columns, in order.
+    #[must_use]
+    pub fn columns(&self) -> &[EventColumn] {
+        &self.columns
+    }
+
+    /// The first line of the table as CSV, without its end.
+    #[must_use]
+    pub fn heading(&self) -> String {
+        let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
+        names.join(",")
+    }
+
+    /// Appends the rows of a frame of this camera as lines of CSV.
+    pub fn csv(&self, moment: &Moment<'_>, text: &mut Vec<u8>) {
+        self.rows(moment, |values| {
+            for (index, value) in values.enumerate() {
+                let comma = if index == 0 { "" } else { "," };
+                // Memory takes everything.
+                let _ = write!(text, "{comma}{value}");
+            }
+            text.push(b'\n');
+        });
+    }
+
+    /// Gives the rows of a frame of this camera, region by region, a value for each column.
+    pub fn rows(
+        &self,
+        moment: &Moment<'_>,
+        mut row: impl FnMut(&mut dyn Iterator<Item = EventValue>),
+    ) {
+        for (region, &action) in moment.outcome.actions.iter().enumerate() {
+            let is_event = match action {
+                Action::Forward | Action::Summarize => true,
+                Action::Hold | Action::Blank => false,
+            };
+            if is_event || !self.only_active {
+                row(&mut self.fields.iter().map(|field| field.of(moment, region)));
+            }
+        }
+    }
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a page can offer: presets, scenes, keys with what they take, features with their defaults. All of it comes from the
+//! tables that the command uses, so that a page has no range of its own.
+
+use foveate_camera::text::AsToml as _;
+use foveate_camera::{
+    CameraConfig, ConfigError, FeatureKind, Irrelevant, Key, SpatialConfig, Takes,
+};
+use foveate_design::{Config, PRESETS};
+use foveate_scenes::Scene;
+use serde_json::{Value, json};
+
+use crate::limits::{MAX_CAMERAS, MAX_PIXELS, MAX_RECORDING};
+
+/// All of it.
+pub(crate) fn describe() -> Result<Value, ConfigError> {
+    let defaults = defaults()?;
+    let presets = PRESETS.iter().map(
+        |preset| json!({ "name": preset.name, "summary": preset.summary, "toml": preset.toml }),
+    );
+    let scenes = Scene::ALL.iter().map(|scene| {
+        json!({ "name": scene.name(), "summary": scene.summary(), "frames": scene.default_frames() })
+    });
+    let keys = Config::keys().map(|key| described(key, &defaults));
+    let features = FeatureKind::ALL.iter().map(|&kind| feature(kind));
+    Ok(json!({
+        "version": env!("CARGO_PKG_VERSION"),
+        "presets": presets.collect::<Vec<_>>(),
+        "scenes": scenes.collect::<Vec<_>>(),
+        "keys": keys.collect::<Vec<_>>(),
+        "features": features.collect::<Vec<_>>(),
+        "limits": { "cameras": MAX_CAMERAS, "pixels": MAX_PIXELS, "recording_bytes": MAX_RECORDING },
+    }))
+}
+
+/// The default camera with every key, those of a periphery too, which it has not.
+fn defaults() -> Result<Value, ConfigError> {
+    let design = Config::default().validate()?;
+    let mut shown = CameraConfig::default();
+    shown.render.irrelevant = Irrelevant::Mean;
+    let mut defaults = json!(design.spelled_out());
+    defaults["periphery"] = json!(shown.validate()?.config().periphery);
+    Ok(defaults)
+}
+
+/// A key: its kind, what it takes in words, its range or choices where these depend on no other key, and its default.
+fn described((key, takes): &Key, defaults: &Value) -> Value {
+    let path = format!("/{}", key.replacen("spatial.", "spatial.0.", 1).replace('.', "/"));
+    let mut told =
+        json!({ "key": key, "takes": takes.to_string(), "default": defaults.pointer(&path) });
+    match takes {
+        Takes::Whole(range) => {
+            told["kind"] = json!("whole");
+            (told["min"], told["max"]) = (json!(range.start()), json!(range.end()));
+        }
+        Takes::Names(names) => (told["kind"], told["choices"]) = (json!("choice"), json!(names)),
+        Takes::Text(_) => told["kind"] = json!("text"),
+    }
+    told
+}
+
+/// A feature with its keys where the configuration leaves them out, for pixels of 8 bits; keys that do not apply are left out.
+fn feature(kind: FeatureKind) -> Value {
+    let mut told = json!(SpatialConfig::new(kind).with_defaults(8));
+    told["unit"] = json!(kind.measure().name());
+    told
+}

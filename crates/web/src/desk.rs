@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cameras of a page, by number, and the scenes that it shows them.
+
+use foveate_design::Config;
+use foveate_scenes::{Scene, SceneFrames, SceneSize};
+use serde_json::Value;
+
+use crate::describe::describe;
+use crate::limits::{MAX_CAMERAS, MAX_PIXELS};
+use crate::{LiveCamera, WebError, facts};
+
+/// What a page works with.
+#[derive(Debug, Default)]
+pub struct Desk {
+    cameras: [Option<LiveCamera>; MAX_CAMERAS],
+    /// The scene that was asked for last, so that its backdrop is painted once.
+    scene: Option<(Scene, SceneSize, SceneFrames)>,
+    frame: Vec<u8>,
+}
+
+impl Desk {
+    /// What can be asked of it.
+    ///
+    /// # Errors
+    /// Never for the tables of this program, which a test proves.
+    pub fn describe(&self) -> Result<Value, WebError> {
+        Ok(describe()?)
+    }
+
+    /// A camera for frames of that size, of a configuration as TOML: its number, and what it is.
+    ///
+    /// # Errors
+    /// When the configuration is refused, the frame is too large, or there are too many cameras.
+    pub fn configure(
+        &mut self,
+        toml: &[u8],
+        (width, height): (u32, u32),
+    ) -> Result<(u32, Value), WebError> {
+        let config = Config::from_toml(text(toml, "configuration")?)?;
+        let design = config.for_frames(width, height)?;
+        check_size(width, height)?;
+        let free = (0..).zip(&mut self.cameras).find(|(_, place)| place.is_none());
+        let (number, place) = free.ok_or(WebError::TooManyCameras { most: MAX_CAMERAS })?;
+        let camera = place.insert(LiveCamera::new(design));
+        Ok((number, facts::facts(camera.design())))
+    }
+
+    /// The camera of that number.
+    ///
+    /// # Errors
+    /// When there is none.
+    pub fn camera(&mut self, handle: u32) -> Result<&mut LiveCamera, WebError> {
+        let camera = self.cameras.get_mut(handle as usize).and_then(Option::as_mut);
+        camera.ok_or(WebError::NoSuchCamera { handle })
+    }
+
+    /// Ends a camera.
+    ///
+    /// # Errors
+    /// When there is none of that number.
+    pub fn free(&mut self, handle: u32) -> Result<(), WebError> {
+        self.camera(handle)?;
+        self.cameras[handle as usize] = None;
+        Ok(())
+    }
+
+    /// A frame of a scene as 8-bit grey, made for regions of `region_size` pixels a side; behind the last frame the first
+    /// comes again.
+    ///
+    /// # Errors
+    /// When there is no scene of that name, or the frame is too large.
+    pub fn scene(
+        &mut self,
+        name: &[u8],
+        (width, height): (u32, u32),
+        region_size: u32,
+        number: u32,
+    ) -> Result<&[u8], WebError> {
+        let scene = Scene::find(text(name, "name of the scene")?)?;
+        check_size(width, height)?;
+        let frames = scene.default_frames();
+        let size = SceneSize { width, height, bits: 8, region_size, frames };
+        let known = self.scene.take().filter(|(own, of, _)| (*own, *of) == (scene, size));
+        let (.., made) =
+            self.scene.insert(known.unwrap_or_else(|| (scene, size, scene.frames(size))));
+        let frame = made.at(number % frames);
+        self.frame.clear();
+        self.frame.extend(frame.pixels().iter().map(|pixel| pixel.to_le_bytes()[0]));
+        Ok(&self.frame)
+    }
+}
+
+fn check_size(width: u32, height: u32) -> Result<(), WebError> {
+    let pixels = u64::from(width) * u64::from(height);
+    if (1..=u64::from(MAX_PIXELS)).contains(&pixels) {
+        return Ok(());
+    }
+    Err(WebError::Size { width, height, most: MAX_PIXELS })
+}
+
+fn text<'a>(bytes: &'a [u8], what: &'static str) -> Result<&'a str, WebError> {
+    std::str::from_utf8(bytes).map_err(|error| WebError::Text { what, at: error.valid_up_to() })
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a page is told of a camera.
+
+use foveate_camera::Bound;
+use foveate_design::Design;
+use serde_json::{Map, Value, json};
+
+/// Every key with its value, the sizes that follow, and what each key may be while the others stay.
+pub(crate) fn facts(design: &Design) -> Value {
+    let config = design.spelled_out();
+    let features = design.features().iter().map(|feature| feature.kind().name());
+    json!({
+        "toml": config.to_toml(),
+        "config": config,
+        "fingerprint": design.fingerprint(),
+        "width": design.width(),
+        "height": design.height(),
+        "columns": design.columns(),
+        "rows": design.rows(),
+        "side": design.region_size(),
+        "bits": design.pixel_bits(),
+        "features": features.collect::<Vec<_>>(),
+        "organization": design.organization().name(),
+        "raw_bits_per_frame": u64::from(design.width()) * u64::from(design.height()) * u64::from(design.pixel_bits()),
+        "bounds": design.bounds().into_iter().map(|(key, bound)| (key, described(bound))).collect::<Map<_, _>>(),
+    })
+}
+
+fn described(bound: Bound) -> Value {
+    match bound {
+        Bound::UpTo { largest, whole } => {
+            json!({ "kind": if whole { "whole" } else { "decimal" }, "min": 0, "max": largest })
+        }
+        Bound::OneOf(values) => json!({ "kind": "choice", "choices": values }),
+    }
+}

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! One camera of a page: frames in, what came of the last one out.
+
+use foveate_design::{Action, Design};
+use foveate_engine::{Before, Engine, EventTable, Moment};
+use foveate_frame::{Frame, luma_of_rgba};
+use foveate_model::explain::{self, Explanation};
+use foveate_model::{FunctionalCamera, Remembered};
+use serde::Serialize;
+
+use crate::WebError;
+use crate::limits::MAX_RECORDING;
+use crate::pixels::{Depth, Pixels};
+use crate::recording::{Recorded, Recording};
+
+/// A camera that is shown frames.
+#[derive(Debug)]
+pub struct LiveCamera {
+    design: Design,
+    engine: Engine,
+    depth: Depth,
+    /// Frames so far.
+    frames: u64,
+    /// Of the last.
+    time_us: u64,
+    recording: Option<Recording>,
+    grey: Vec<u8>,
+    pixels: Pixels,
+    input: Vec<u8>,
+    screen: Vec<u8>,
+    regions: Vec<u8>,
+}
+
+/// How many regions had each action.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Actions {
+    /// Pixels are sent.
+    pub forward: u32,
+    /// The screen stays.
+    pub hold: u32,
+    /// The screen becomes black.
+    pub blank: u32,
+    /// Means are sent.
+    pub summarize: u32,
+}
+
+/// What a camera sends of one frame, and why.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct Sent {
+    /// Number of the frame, from 0 on since the camera was configured or reset.
+    pub number: u64,
+    /// Active regions.
+    pub active: u32,
+    /// Regions by action.
+    pub actions: Actions,
+    /// Bits that are sent, as `foveate simulate` counts them.
+    pub bits: u64,
+    /// Regions that did not have to be computed, because nothing had changed.
+    pub skipped: usize,
+    /// Regions with SRS.
+    pub srs: u32,
+    /// Regions with TRS.
+    pub trs: u32,
+    /// How far the recording is, while there is one.
+    pub recording: Option<Recorded>,
+}
+
+impl LiveCamera {
+    pub(crate) fn new(design: Design) -> Self {
+        let depth = Depth::new(design.pixel_bits());
+        let mut camera = Self {
+            engine: Engine::new(&design),
+            frames: 0,
+            time_us: 0,
+            recording: None,
+            grey: Vec::new(),
+            pixels: depth.nothing(),
+            input: Vec::new(),
+            screen: Vec::new(),
+            regions: Vec::new(),
+            depth,
+            design,
+        };
+        camera.engine.remember(true);
+        camera.clear();
+        camera
+    }
+
+    /// The camera, and the hardware that would compute it.
+    #[must_use]
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The engine behind it.
+    #[must_use]
+    pub fn engine(&self) -> &Engine {
+        &self.engine
+    }
+
+    /// Forgets every frame; a recording begins anew.
+    pub fn reset(&mut self) {
+        self.engine.reset();
+        self.frames = 0;
+        if let Some(recording) = &mut self.recording {
+            *recording = recording.anew();
+        }
+        self.clear();
+    }
+
+    /// Before the first frame everything is black, and nothing was decided.
+    fn clear(&mut self) {
+        let pixels = self.design.width() as usize * self.design.height() as usize;
+        for plane in [&mut self.input, &mut self.screen] {
+            plane.clear();
+            plane.resize(pixels, 0);
+        }
+        self.regions.clear();
+        self.regions.resize(self.design.regions() as usize, 0);
+    }
+
+    /// Takes a frame of 8-bit grey, a byte per pixel, of that time since the first; without one, frames are 30 a second.
+    ///
+    /// # Errors
+    /// When it is not of the camera's size; nothing has changed then.
+    pub fn step_grey(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<Sent, WebError> {
+        self.check_length(frame, 1)?;
+        self.grey.clear();
+        self.grey.extend_from_slice(frame);
+        self.step(time_us)
+    }
+
+    /// Takes a frame in colour, four bytes per pixel, as a canvas has it.
+    ///
+    /// # Errors
+    /// When it is not of the camera's size; nothing has changed then.
+    pub fn step_rgba(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<Sent, WebError> {
+        self.check_length(frame, 4)?;
+        self.grey.clear();
+        luma_of_rgba(frame, &mut self.grey);
+        self.step(time_us)
+    }
+
+    fn check_length(&self, frame: &[u8], each: usize) -> Result<(), WebError> {
+        let (width, height) = (self.design.width(), self.design.height());
+        let needed = width as usize * height as usize * each;
+        if frame.len() == needed {
+            return Ok(());
+        }
+        Err(WebError::FrameLength { given: frame.len(), needed, each, width, height })
+    }
+
+    /// Shows the engine what is in `grey`.
+    fn step(&mut self, time_us: Option<u64>) -> Result<Sent, WebError> {
+        let stride = self.design.width() as usize;
+        self.depth.take(&self.grey, &mut self.pixels);
+        match &self.pixels {
+            Pixels::Bytes(pixels) => self.engine.step_u8(pixels, stride)?,
+            Pixels::Words(pixels) => self.engine.step_u16(pixels, stride)?,
+        };
+        self.depth.show(self.pixels.plane(), &mut self.input);
+        self.depth.show(self.engine.rendered(), &mut self.screen);
+        self.regions.clear();
+        self.regions.extend(self.engine.outcome().region_bytes());
+        let (camera, number, outcome) = (&*self.design, self.frames, self.engine.outcome());
+        self.time_us = time_us.unwrap_or((number * 1_000_000 + 15) / 30);
+        if let Some(recording) = &mut self.recording {
+            let moment = Moment { camera, number, time_us: self.time_us, outcome };
+            recording.push(&moment, MAX_RECORDING);
+        }
+        self.frames += 1;
+        Ok(self.sent())
+    }
+
+    /// Begins to record what comes of every frame, or of regions that send something alone; or ends it, and forgets what was
+    /// recorded.
+    pub fn record(&mut self, on: bool, only_active: bool) {
+        let table = || EventTable::new(&self.design, only_active);
+        self.recording = on.then(|| Recording::new(table()));
+    }
+
+    /// What was recorded, as `events.csv`.
+    ///
+    /// # Errors
+    /// When nothing is recorded.
+    pub fn events(&self) -> Result<&[u8], WebError> {
+        self.recording.as_ref().map(Recording::csv).ok_or(WebError::NotRecording)
+    }
+
+    /// Why the region in column `x` and row `y` of the last frame, called `name`, was sent or not.
+    ///
+    /// # Errors
+    /// When there was no frame yet, or there is no such region.
+    pub fn explain(&self, (x, y): (u32, u32), name: &str) -> Result<Explanation, WebError> {
+        let design = &self.design;
+        let (columns, rows) = (design.columns(), design.rows());
+        if x >= columns || y >= rows {
+            return Err(WebError::NoSuchRegion { x, y, columns, rows });
+        }
+        let shown = self.engine.rendered_before().ok_or(WebError::NothingYet)?;
+        let frame = |pixels| {
+            Frame::new(design.width(), design.height(), design.pixel_bits(), pixels)
+                .expect("what an engine holds are frames of its camera")
+        };
+        let remembered = |region| {
+            let Before { reference, summary } = self.engine.before(region).unwrap_or_default();
+            Remembered { reference, summary }
+        };
+        let region = y * columns + x;
+        let mut model = FunctionalCamera::resume(design, &frame(shown.to_words()), remembered)?;
+        let before = model.remembered(region);
+        let outcome = model.step(&frame(self.pixels.plane().to_words()))?;
+        let moment = explain::Moment { number: self.frames - 1, name, t_us: self.time_us };
+        Ok(Explanation::of(design, moment, region, before, outcome))
+    }
+
+    fn sent(&self) -> Sent {
+        let (design, outcome) = (&self.design, self.engine.outcome());
+        let mut actions = Actions::default();
+        for action in &outcome.actions {
+            *match action {
+                Action::Forward => &mut actions.forward,
+                Action::Hold => &mut actions.hold,
+                Action::Blank => &mut actions.blank,
+                Action::Summarize => &mut actions.summarize,
+            } += 1;
+        }
+        let count = |bits: &[bool]| bits.iter().map(|&bit| u32::from(bit)).sum();
+        Sent {
+            number: self.frames - 1,
+            active: count(&outcome.active),
+            actions,
+            bits: design.bits_sent(1, design.values_of(&outcome.actions)),
+            skipped: outcome.skipped,
+            srs: count(&outcome.srs),
+            trs: count(&outcome.trs),
+            recording: self.recording.as_ref().map(Recording::recorded),
+        }
+    }
+
+    /// What the camera saw of the last frame, as 8-bit grey.
+    #[must_use]
+    pub fn input(&self) -> &[u8] {
+        &self.input
+    }
+
+    /// What the receiver sees after it, as 8-bit grey.
+    #[must_use]
+    pub fn screen(&self) -> &[u8] {
+        &self.screen
+    }
+
+    /// A byte per region, as [`foveate_engine::FrameOutcome::region_bytes`] packs them.
+    #[must_use]
+    pub fn regions(&self) -> &[u8] {
+        &self.regions
+    }
+
+    /// The scores of a feature, region by region.
+    ///
+    /// # Errors
+    /// When the camera has no such feature.
+    pub fn scores(&self, feature: u32) -> Result<&[u64], WebError> {
+        let scores = &self.engine.outcome().scores;
+        let none = WebError::NoSuchFeature { index: feature, count: scores.len() };
+        scores.get(feature as usize).map(Vec::as_slice).ok_or(none)
+    }
+}

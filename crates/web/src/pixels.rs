@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From 8-bit grey, which is what a browser has, to pixels of P bits and back.
+
+use foveate_frame::{Plane, convert_depth};
+
+/// What becomes of every 8-bit grey in a camera of P bits.
+#[derive(Clone, Debug)]
+pub(crate) struct Depth {
+    bits: u32,
+    pixels: [u16; 256],
+}
+
+/// Pixels of P bits, as the engine takes them.
+#[derive(Clone, Debug)]
+pub(crate) enum Pixels {
+    Bytes(Vec<u8>),
+    Words(Vec<u16>),
+}
+
+impl Depth {
+    pub(crate) fn new(bits: u32) -> Self {
+        let mut grey = 0..=u8::MAX;
+        let pixel = |()| convert_depth(grey.next().unwrap_or_default().into(), 8, bits);
+        Self { bits, pixels: [(); 256].map(pixel) }
+    }
+
+    /// No pixels yet, of the type that the depth needs.
+    pub(crate) fn nothing(&self) -> Pixels {
+        if self.bits <= 8 { Pixels::Bytes(Vec::new()) } else { Pixels::Words(Vec::new()) }
+    }
+
+    /// 8-bit grey as pixels of the camera.
+    pub(crate) fn take(&self, grey: &[u8], pixels: &mut Pixels) {
+        match pixels {
+            Pixels::Bytes(bytes) => {
+                bytes.clear();
+                if self.bits == 8 {
+                    bytes.extend_from_slice(grey);
+                } else {
+                    bytes.extend(grey.iter().map(|&grey| low(self.pixels[usize::from(grey)])));
+                }
+            }
+            Pixels::Words(words) => {
+                words.clear();
+                words.extend(grey.iter().map(|&grey| self.pixels[usize::from(grey)]));
+            }
+        }
+    }
+
+    /// Pixels of the camera as 8-bit grey.
+    pub(crate) fn show(&self, pixels: Plane<'_>, grey: &mut Vec<u8>) {
+        grey.clear();
+        match pixels {
+            Plane::Bytes(pixels) if self.bits == 8 => grey.extend_from_slice(pixels),
+            Plane::Bytes(pixels) => {
+                grey.extend(pixels.iter().map(|&pixel| self.grey(pixel.into())));
+            }
+            Plane::Words(pixels) => grey.extend(pixels.iter().map(|&pixel| self.grey(pixel))),
+        }
+    }
+
+    fn grey(&self, pixel: u16) -> u8 {
+        low(convert_depth(pixel, self.bits, 8))
+    }
+}
+
+impl Pixels {
+    pub(crate) fn plane(&self) -> Plane<'_> {
+        match self {
+            Self::Bytes(pixels) => Plane::Bytes(pixels),
+            Self::Words(pixels) => Plane::Words(pixels),
+        }
+    }
+}
+
+/// The low byte, where there is no other.
+fn low(pixel: u16) -> u8 {
+    pixel.to_le_bytes()[0]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_grey_comes_back_as_far_as_the_bits_hold_it() {
+        let all: Vec<u8> = (0..=u8::MAX).collect();
+        for bits in 1..=16 {
+            let depth = Depth::new(bits);
+            let mut pixels = depth.nothing();
+            depth.take(&all, &mut pixels);
+            let expected = (0..256).map(|grey| convert_depth(grey, 8, bits));
+            assert!(pixels.plane().to_words().into_iter().eq(expected), "{bits} bits");
+            let mut shown = Vec::new();
+            depth.show(pixels.plane(), &mut shown);
+            if bits >= 8 {
+                assert_eq!(shown, all, "{bits} bits");
+            } else {
+                let cut = |grey: u8| convert_depth(u16::from(grey) >> (8 - bits), bits, 8);
+                assert!(shown.iter().zip(&all).all(|(&a, &b)| u16::from(a) == cut(b)));
+            }
+        }
+    }
+}

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a page computes is what the model computes, and what it is told of a camera is true.
+
+use foveate_design::{Config, PRESETS};
+use foveate_frame::{Frame, convert_depth, luma};
+use foveate_model::FunctionalCamera;
+use foveate_web::Desk;
+
+pub(crate) const SIZE: (u32, u32) = (61, 43);
+const FOUR: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"}]";
+
+/// Presets, and what they do not reach: other depths, sides that leave padding, means of the raw pixels.
+pub(crate) fn configurations() -> Vec<String> {
+    let presets = PRESETS.iter().filter(|preset| !preset.toml.contains("[frame]"));
+    let more = [
+        &[FOUR, "frame.pixel_bits=10", "render.irrelevant=\"mean\"", "render.payload=\"raw\""][..],
+        &[FOUR, "frame.pixel_bits=5", "region.size=7", "temporal.reference=\"last-sent\""],
+        &[
+            "region.size=12",
+            "render.irrelevant=\"mean\"",
+            "periphery.blocks=4",
+            "region.neighborhood=\"shared\"",
+        ],
+        &["frame.pixel_bits=16", "region.size=16", "render.irrelevant=\"hold\""],
+    ];
+    let more = more.map(|keys| Config::from_toml_with("", keys).unwrap().to_toml());
+    presets.map(|preset| preset.toml.to_owned()).chain(more).collect()
+}
+
+pub(crate) fn grey(desk: &mut Desk, number: u32) -> Vec<u8> {
+    desk.scene(b"street", SIZE, 8, number).unwrap().to_vec()
+}
+
+/// The frame that the model takes.
+pub(crate) fn frame(grey: &[u8], bits: u32) -> Frame {
+    let pixels = grey.iter().map(|&grey| convert_depth(grey.into(), 8, bits)).collect();
+    Frame::new(SIZE.0, SIZE.1, bits, pixels).unwrap()
+}
+
+#[test]
+fn every_camera_is_the_models() {
+    for toml in configurations() {
+        let mut desk = Desk::default();
+        let (handle, _) = desk.configure(toml.as_bytes(), SIZE).unwrap();
+        let design = desk.camera(handle).unwrap().design().clone();
+        let bits = design.pixel_bits();
+        let mut model = FunctionalCamera::new(&design);
+        for number in 0..6 {
+            let grey = grey(&mut desk, number * 3);
+            let expected = model.step(&frame(&grey, bits)).unwrap();
+            let camera = desk.camera(handle).unwrap();
+            let sent = camera.step_grey(&grey, None).unwrap();
+            let outcome = camera.engine().outcome();
+            assert_eq!(camera.engine().rendered().to_words(), expected.rendered.pixels(), "{toml}");
+            assert_eq!(outcome.actions, expected.actions, "{toml}");
+            assert_eq!(
+                (0..design.features().len())
+                    .map(|at| camera.scores(u32::try_from(at).unwrap()).unwrap().to_vec())
+                    .collect::<Vec<_>>(),
+                expected.scores
+            );
+            assert_eq!(sent.bits, design.bits_sent(1, design.values_of(&expected.actions)));
+            let count =
+                |bits: &[bool]| u32::try_from(bits.iter().filter(|&&bit| bit).count()).unwrap();
+            assert_eq!(
+                (sent.number, sent.active, sent.srs, sent.trs),
+                (
+                    number.into(),
+                    count(&expected.active),
+                    count(&expected.srs),
+                    count(&expected.trs)
+                )
+            );
+            let actions = sent.actions;
+            assert_eq!(
+                actions.forward + actions.hold + actions.blank + actions.summarize,
+                design.regions()
+            );
+            assert_eq!(actions.forward, sent.active);
+            let shown =
+                expected.rendered.pixels().iter().map(|&pixel| convert_depth(pixel, bits, 8));
+            assert!(camera.screen().iter().map(|&grey| u16::from(grey)).eq(shown), "{toml}");
+            if bits >= 8 {
+                assert_eq!(camera.input(), grey);
+            }
+        }
+    }
+}
+
+/// Colours become grey by the rule of images, and cameras that are reset or made anew are the same.
+#[test]
+fn colours_are_the_luma_of_images_and_a_reset_is_a_new_start() {
+    let mut desk = Desk::default();
+    let (first, _) = desk.configure(b"", SIZE).unwrap();
+    let colours: Vec<u8> =
+        grey(&mut desk, 5).iter().flat_map(|&grey| [grey, 255 - grey, grey / 2, 9]).collect();
+    let luma =
+        colours.as_chunks::<4>().0.iter().map(|&[r, g, b, _]| luma(r.into(), g.into(), b.into()));
+    let luma: Vec<u8> = luma.map(|grey| u8::try_from(grey).unwrap()).collect();
+    let mut hashes = Vec::new();
+    for _ in 0..2 {
+        let camera = desk.camera(first).unwrap();
+        camera.reset();
+        assert_eq!(camera.step_rgba(&colours, None).unwrap().number, 0);
+        assert_eq!(camera.input(), luma);
+        hashes.push(camera.engine().digest());
+    }
+    let (second, _) = desk.configure(b"", SIZE).unwrap();
+    let camera = desk.camera(second).unwrap();
+    camera.step_grey(&luma, None).unwrap();
+    hashes.push(camera.engine().digest());
+    assert!(hashes.iter().all(|hash| *hash == hashes[0]), "{hashes:x?}");
+    camera.step_grey(&luma, None).unwrap();
+    assert_ne!(camera.engine().digest(), hashes[0], "the second frame is compared with the first");
+}
+
+/// The TOML of a camera is that camera, and its bounds are of its keys.
+#[test]
+fn facts_are_those_of_the_camera() {
+    let mut desk = Desk::default();
+    for toml in configurations() {
+        let (handle, facts) = desk.configure(toml.as_bytes(), SIZE).unwrap();
+        let design = desk.camera(handle).unwrap().design().clone();
+        let again = Config::from_toml(facts["toml"].as_str().unwrap()).unwrap();
+        assert_eq!(again.validate().unwrap().fingerprint(), design.fingerprint());
+        assert_eq!(facts["fingerprint"], design.fingerprint());
+        assert_eq!(facts["raw_bits_per_frame"], u64::from(61 * 43 * design.pixel_bits()));
+        for key in facts["bounds"].as_object().unwrap().keys() {
+            let path = format!("/{}", key.replace('.', "/"));
+            assert!(facts["config"].pointer(&path).is_some(), "{key} is no key of {facts}");
+        }
+        desk.free(handle).unwrap();
+    }
+}
+
+#[test]
+fn what_is_described_can_be_asked_for() {
+    let mut desk = Desk::default();
+    let told = desk.describe().unwrap();
+    for preset in told["presets"].as_array().unwrap() {
+        let size = if preset["name"] == "raster" { (640, 480) } else { SIZE };
+        let (handle, _) =
+            desk.configure(preset["toml"].as_str().unwrap().as_bytes(), size).unwrap();
+        desk.free(handle).unwrap();
+    }
+    for scene in told["scenes"].as_array().unwrap() {
+        let (name, frames) = (scene["name"].as_str().unwrap(), scene["frames"].as_u64().unwrap());
+        let frames = u32::try_from(frames).unwrap();
+        let first = desk.scene(name.as_bytes(), SIZE, 8, 0).unwrap().to_vec();
+        assert_eq!(desk.scene(name.as_bytes(), SIZE, 8, frames).unwrap(), first, "{name}");
+    }
+    let keys = told["keys"].as_array().unwrap();
+    let key = |name: &str| keys.iter().find(|key| key["key"] == name).unwrap();
+    assert_eq!((&key("region.size")["min"], &key("region.size")["max"]), (&2.into(), &64.into()));
+    assert_eq!(key("temporal.reference")["choices"], serde_json::json!(["previous", "last-sent"]));
+    for (name, default) in [
+        ("region.size", 8),
+        ("spatial.level", 100),
+        ("periphery.blocks", 2),
+        ("periphery.level", 4),
+    ] {
+        assert_eq!(key(name)["default"], default, "{name}");
+    }
+}

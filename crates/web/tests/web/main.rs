@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A page's cameras against the model, and what is committed against its sources.
+#![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
+
+mod cameras;
+mod committed;
+mod explanations;
+mod recordings;
+mod refusals;

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The engine of foveate.wasm for a page: the only file that knows its exports (crates/web/src/exports.rs).
+//
+//   const engine = await Engine.load(bytes);             // an ArrayBuffer of foveate.wasm
+//   const camera = engine.configure(toml, width, height);
+//   const sent = camera.stepRgba(context.getImageData(0, 0, width, height).data);
+//   paint(camera.screen);
+//
+// Whatever is refused throws an Error with the project's own message. Arrays that a camera gives are views into the memory of
+// the engine: they hold until the next call of any camera or of the engine, and whoever wants them longer copies them.
+
+const encoder = new TextEncoder();
+const decoder = new TextDecoder();
+
+/** The engine: what can be asked, scenes, and cameras. */
+export class Engine {
+  #exports;
+  #described;
+
+  /** The engine of the bytes of foveate.wasm. */
+  static async load(bytes) {
+    let compiled;
+    try {
+      compiled = await WebAssembly.instantiate(bytes, {});
+    } catch (error) {
+      throw new Error(`foveate.wasm cannot be used here: ${error.message}; a browser of 2023 or later has what it needs (WebAssembly with SIMD)`);
+    }
+    return new Engine(compiled.instance.exports);
+  }
+
+  constructor(exports) {
+    this.#exports = exports;
+  }
+
+  /** {version, presets, scenes, keys, features, limits}: what a page can offer, from the tables of the project. */
+  describe() {
+    if (this.#described === undefined) {
+      this.call("foveate_describe");
+      this.#described = JSON.parse(this.text());
+    }
+    return this.#described;
+  }
+
+  /** A camera of a configuration for frames of that size. */
+  configure(toml, width, height) {
+    this.put(encoder.encode(toml));
+    const handle = this.call("foveate_configure", whole(width, "width"), whole(height, "height"));
+    return new Camera(this, handle, JSON.parse(this.text()));
+  }
+
+  /** A frame of a built-in scene as 8-bit grey, a copy; behind the last frame the first comes again. `side` is that of a region,
+   *  which some scenes are made for. */
+  scene(name, width, height, number, side = 8) {
+    this.put(encoder.encode(name));
+    this.call("foveate_scene", whole(width, "width"), whole(height, "height"), whole(side, "side"), whole(number, "number"));
+    return this.bytes().slice();
+  }
+
+  // What follows is for Camera alone.
+
+  /** Calls an export; its number, or its message as an Error. */
+  call(name, ...values) {
+    let answer;
+    try {
+      answer = this.#exports[name](...values);
+    } catch (error) {
+      throw new Error(`the engine stopped at a fault of its own (${error.message}); reload the page`);
+    }
+    if (answer < 0) throw new Error(this.text());
+    return answer;
+  }
+
+  /** Puts bytes in. */
+  put(bytes) {
+    const place = this.#exports.foveate_input(bytes.length);
+    if (place === 0) {
+      const most = this.describe().limits.pixels;
+      throw new Error(`${bytes.length} bytes are more than the engine takes at once, a frame of ${most} pixels in colour`);
+    }
+    new Uint8Array(this.#exports.memory.buffer, place, bytes.length).set(bytes);
+  }
+
+  /** The last answer. */
+  bytes() {
+    return new Uint8Array(this.#exports.memory.buffer, this.#exports.foveate_pointer(), this.#exports.foveate_length());
+  }
+
+  text() {
+    return decoder.decode(this.bytes());
+  }
+
+  /** The last answer as numbers of eight bytes. */
+  longs() {
+    return new BigUint64Array(this.#exports.memory.buffer, this.#exports.foveate_pointer(), this.#exports.foveate_length() / 8);
+  }
+}
+
+/** A camera: frames in, what came of the last one out. */
+class Camera {
+  #engine;
+  #handle;
+  #facts;
+
+  constructor(engine, handle, facts) {
+    this.#engine = engine;
+    this.#handle = handle;
+    this.#facts = Object.freeze(facts);
+  }
+
+  /** {toml, config, fingerprint, width, height, columns, rows, side, bits, features, organization, raw_bits_per_frame, bounds}. */
+  get facts() {
+    return this.#facts;
+  }
+
+  /** Takes a frame of 8-bit grey, of that time in microseconds since the first; without one, frames are 30 a second.
+   *  {number, active, actions, bits, skipped, srs, trs, recording}; recording is null, or {frames, bytes, full}. */
+  step(grey, timeUs = -1) {
+    return this.#step("foveate_step_grey", grey, timeUs);
+  }
+
+  /** Takes a frame as a canvas has it, four bytes per pixel. */
+  stepRgba(data, timeUs = -1) {
+    return this.#step("foveate_step_rgba", data, timeUs);
+  }
+
+  #step(name, frame, timeUs) {
+    this.#engine.put(frame);
+    this.#call(name, timeUs);
+    return JSON.parse(this.#engine.text());
+  }
+
+  #call(name, ...values) {
+    return this.#engine.call(name, this.#handle, ...values);
+  }
+
+  #bytes(name) {
+    this.#call(name);
+    return this.#engine.bytes();
+  }
+
+  /** What the camera saw of the last frame, as 8-bit grey. */
+  get input() {
+    return this.#bytes("foveate_seen");
+  }
+
+  /** What the receiver sees after it, as 8-bit grey. */
+  get screen() {
+    return this.#bytes("foveate_screen");
+  }
+
+  /** A byte per region: bit 0 SRS, bit 1 TRS, above them 0 forward, 1 hold, 2 blank, 3 summarize. */
+  get regions() {
+    return this.#bytes("foveate_regions");
+  }
+
+  /** The scores of feature `index`, a BigUint64Array by region. */
+  scores(index) {
+    this.#call("foveate_scores", whole(index, "feature"));
+    return this.#engine.longs();
+  }
+
+  /** Why the region in column x and row y of the last frame was sent or not: {json, text}, as `foveate explain` says it of a frame
+   *  of that name. */
+  explain(x, y, name = "page") {
+    this.#engine.put(encoder.encode(name));
+    this.#call("foveate_explain", whole(x, "column"), whole(y, "row"));
+    return JSON.parse(this.#engine.text());
+  }
+
+  /** Begins to record every frame, with a row per region or, with `onlyActive`, per region that sends something; `false` ends
+   *  it, and forgets what was recorded. A recording ends by itself at limits.recording_bytes of describe(). */
+  record(on = true, onlyActive = false) {
+    this.#call("foveate_record", on ? (onlyActive ? 2 : 1) : 0);
+  }
+
+  /** What was recorded, as `foveate simulate` writes it to events.csv. */
+  events() {
+    this.#call("foveate_events");
+    return this.#engine.text();
+  }
+
+  /** The hash of the last frame's results, 16 hexadecimal digits (crates/engine/src/digest.rs). */
+  hash() {
+    this.#call("foveate_hash");
+    return this.#engine.text();
+  }
+
+  /** Forgets every frame; a recording begins anew. */
+  reset() {
+    this.#call("foveate_reset");
+  }
+
+  /** Ends the camera; every later call throws. */
+  free() {
+    this.#call("foveate_free");
+    this.#handle = 0xffffffff;
+  }
+}
+
+/** A number that WebAssembly takes as it is; it would cut others. */
+function whole(value, name) {
+  if (Number.isInteger(value) && value >= 0 && value <= 0xffffffff) return value;
+  throw new Error(`the ${name} ${value} is refused; it must be a whole number from 0 on`);
+}
