@@ -155,9 +155,10 @@ function sourceOf(files) {
   return new Clip(file);
 }
 
+let tickets = 0;
 /** Changes the source. One that does not open leaves the old one. */
 async function choose(name) {
-  const before = own.source;
+  const before = own.source, ticket = ++tickets;
   notice();
   say("status", name === "webcam" ? "waiting for the camera" : "opening");
   let made;
@@ -166,9 +167,15 @@ async function choose(name) {
     await made.open(own.size ? sizeOf() : undefined);
   } catch (error) {
     made?.close();
+    if (ticket !== tickets) return false;
     notice(error.message);
     at("source").value = source ? before : "";
     say("status", camera ? describe() : "");
+    return false;
+  }
+  // Another one was chosen while this one opened.
+  if (ticket !== tickets) {
+    made.close();
     return false;
   }
   source?.close();
@@ -386,6 +393,8 @@ function wire() {
     const message = tried(() => configure(config));
     notice(message);
     if (message) at("size").value = own.size = before;
+    // A camera is asked for the pictures of that size.
+    else if (own.source === "webcam") choose("webcam");
     else if (paused) wanted = 1;
   };
   at("open").onclick = () => at("files").click();
@@ -400,7 +409,9 @@ function wire() {
   at("download").onclick = downloadEvents;
   addEventListener("hashchange", () => { if (location.hash !== link()) fromLink(); });
   document.onkeydown = event => {
-    if (event.target.matches("button, input, select, summary, textarea") || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select, textarea")) return;
+    // Space is for the button that has the focus.
+    if (event.key === " " && event.target.matches("button, summary")) return;
     const act = { " ": () => pause(!paused), s: stepOnce, r: reset }[event.key];
     if (!act) return;
     event.preventDefault();

@@ -13,7 +13,7 @@
 /** Frames a second of what has no times of its own, as `foveate simulate` counts it. */
 const RATE = 30;
 /** Scenes that are kept, in bytes; beyond it every frame is made anew. */
-const KEPT = 64e6;
+const KEPT = 100e6;
 
 /** What all sources do that have no clock of their own. */
 class Paced {
