@@ -152,6 +152,7 @@ def test_features_are_turned_on_and_off_but_never_all_off(still):
         page.get_by_label(feature, exact=True).uncheck()
     assert page.evaluate("foveate.camera.facts.features") == ["variance"]
     page.get_by_label("variance", exact=True).click()
+    assert page.locator("[data-key='feature.variance'] .refused").is_visible()
     assert "needs a feature" in page.inner_text("[data-key='feature.variance'] .refused")
     assert page.get_by_label("variance", exact=True).is_checked()
 
@@ -160,6 +161,7 @@ def test_what_the_engine_refuses_is_told_beside_the_control(still):
     page = still(f"#size={WIDTH}x{HEIGHT}&preset=paper")
     before = page.evaluate(TOML)
     put(page, "region.size", 99)
+    assert page.locator("[data-key='region.size'] .refused").is_visible()
     refused = page.inner_text("[data-key='region.size'] .refused")
     assert "region.size" in refused and "99" in refused and "2..=64" in refused
     assert page.evaluate(TOML) == before
@@ -310,6 +312,7 @@ def test_several_pictures_are_a_clip_in_order_of_their_numbers(still, picture):
         ("notes.txt", "text/plain", b"notes", "notes.txt is neither a clip nor a picture"),
         ("clip.mp4", "video/mp4", b"no clip at all", "foveate live clip.mp4"),
     ],
+    ids=["picture", "text", "clip"],
 )
 def test_what_is_no_picture_and_no_clip_is_told(still, name, kind, data, message):
     page = still("")
@@ -377,7 +380,9 @@ def test_every_refusal_says_what_to_do(still, error):
 
 
 @pytest.mark.parametrize(
-    ("data", "message"), [(gzip.compress(b"no engine"), "foveate.wasm cannot be used here"), (b"cut", "the engine in this page is damaged")]
+    ("data", "message"),
+    [(gzip.compress(b"no engine", mtime=0), "foveate.wasm cannot be used here"), (b"cut", "the engine in this page is damaged")],
+    ids=["no engine", "damaged"],
 )
 def test_an_engine_that_does_not_load_is_told(broken, data, message):
     page = broken(data)
