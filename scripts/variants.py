@@ -44,6 +44,7 @@ LISTS = {
     "crates/emit/src/serial.rs": "the array has an input for the level of each feature",
     "crates/emit/src/branch.rs": "parts of each feature",
     "crates/explore/src/table.rs": "a column for each feature",
+    "crates/web/src/describe.rs": "a page is told of each feature, and of the message where its organization refuses it",
     "crates/cli/src/command/estimate/compare.rs": "what is refused is listed with the reason",
 }
 # Where code is about one variant by its purpose.

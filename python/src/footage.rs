@@ -272,7 +272,7 @@ pub(crate) fn luma<'py>(
     let view = array.as_array();
     let grey = py.detach(|| {
         view.map_axis(Axis(2), |colour| {
-            let grey = foveate_footage::luma(colour[0].into(), colour[1].into(), colour[2].into());
+            let grey = foveate_frame::luma(colour[0].into(), colour[1].into(), colour[2].into());
             u8::try_from(grey).expect("the weights sum to 256")
         })
     });

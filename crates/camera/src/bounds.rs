@@ -45,7 +45,8 @@ impl Camera {
             let level = Bound::whole(largest_level(max, false));
             bounds.push(("periphery.level".to_owned(), level));
         }
-        for (index, feature) in self.features().iter().enumerate() {
+        let features = self.features().iter().zip(&self.config().spatial);
+        for (index, (feature, entry)) in features.enumerate() {
             let key = |name| format!("spatial.{index}.{name}");
             if let Some(max) = feature.level_max() {
                 let level = largest_level(max, feature.min_score() == 0);
@@ -54,7 +55,7 @@ impl Camera {
             let largest = feature.largest_min_score();
             let whole = feature.kind().measure().is_count();
             bounds.push((key("min_score"), Bound::UpTo { largest, whole }));
-            if feature.mean().is_some() {
+            if entry.has_mean() {
                 let bits = index_bits(pixels.into());
                 bounds.push((key("mean_fraction_bits"), Bound::whole(bits)));
             }

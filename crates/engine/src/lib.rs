@@ -30,6 +30,7 @@ mod pixels;
 mod plan;
 mod policy;
 mod receiver;
+mod remember;
 mod render;
 mod scratch;
 mod screens;

@@ -3,12 +3,8 @@
 //! explained from this and the frame alone.
 
 use foveate_camera::Reference;
-use foveate_frame::Plane;
 use foveate_lanes::Lane;
 
-use crate::Engine;
-use crate::core::Core;
-use crate::engine::Lanes;
 use crate::plan::CameraPlan;
 
 /// What was known of a region.
@@ -27,7 +23,7 @@ pub(crate) struct Memory<T> {
     valid: Vec<bool>,
     shown: Vec<bool>,
     means: Vec<T>,
-    screen: Vec<T>,
+    pub(crate) screen: Vec<T>,
 }
 
 /// The planes between frames, where they lie.
@@ -60,7 +56,7 @@ impl<T: Lane> Memory<T> {
         !self.valid.is_empty()
     }
 
-    fn before(&self, plan: &CameraPlan<T>, region: u32) -> Before {
+    pub(crate) fn before(&self, plan: &CameraPlan<T>, region: u32) -> Before {
         let (at, mut before) = (region as usize, Before::default());
         if self.valid[at] {
             plan.pixels_of(&self.reference, region, before.reference.insert(Vec::new()));
@@ -76,40 +72,4 @@ impl<T: Lane> Memory<T> {
 fn copy<T: Copy>(to: &mut Vec<T>, from: &[T]) {
     to.clear();
     to.extend_from_slice(from);
-}
-
-impl Engine {
-    /// Whether to copy what is known before every frame from the next one on, which costs a copy of two or three planes;
-    /// [`Engine::before`] tells it.
-    pub fn remember(&mut self, on: bool) {
-        match &mut self.lanes {
-            Lanes::Bytes(core) => core.remember(on),
-            Lanes::Words(core) => core.remember(on),
-        }
-    }
-
-    /// What was known of a region before the last frame that came alone (not in a batch); nothing where it was not
-    /// remembered.
-    ///
-    /// # Panics
-    /// When the camera has no such region.
-    #[must_use]
-    pub fn before(&self, region: u32) -> Option<Before> {
-        fn of<T: Lane>(core: &Core<T>, region: u32) -> Option<Before> {
-            core.memory().map(|memory| memory.before(&core.plan, region))
-        }
-        match &self.lanes {
-            Lanes::Bytes(core) => of(core, region),
-            Lanes::Words(core) => of(core, region),
-        }
-    }
-
-    /// What was on the screen then.
-    #[must_use]
-    pub fn rendered_before(&self) -> Option<Plane<'_>> {
-        match &self.lanes {
-            Lanes::Bytes(core) => core.memory().map(|memory| Plane::Bytes(&memory.screen)),
-            Lanes::Words(core) => core.memory().map(|memory| Plane::Words(&memory.screen)),
-        }
-    }
 }

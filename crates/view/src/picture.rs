@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a browser needs to draw a frame.
 
-use foveate_design::{Action, Design};
+use foveate_design::Design;
 use foveate_frame::{Plane, convert_depth};
 use foveate_simulator::ShownFrame;
 use serde_json::{Value, json};
@@ -18,19 +18,9 @@ pub(crate) fn facts(design: &Design) -> Value {
     })
 }
 
-/// A byte per region: bit 0 SRS, bit 1 TRS, above them what became of it; then a byte per pixel.
+/// A byte per region, as the engine packs them; then a byte per pixel.
 pub(crate) fn picture(frame: &ShownFrame) -> Vec<u8> {
-    let outcome = &frame.outcome;
-    let decisions = outcome.srs.iter().zip(&outcome.trs).zip(&outcome.actions);
-    let regions = decisions.map(|((&srs, &trs), action)| {
-        let action = match action {
-            Action::Forward => 0,
-            Action::Hold => 1,
-            Action::Blank => 2,
-            Action::Summarize => 3,
-        };
-        u8::from(srs) | u8::from(trs) << 1 | action << 2
-    });
+    let regions = frame.outcome.region_bytes();
     let bits = frame.screen.bits();
     let low = |pixel: u16| convert_depth(pixel, bits, 8).to_le_bytes()[0];
     match frame.screen.plane() {

@@ -10,7 +10,7 @@ use foveate_design::{Config, PRESETS};
 use foveate_scenes::Scene;
 use serde_json::{Value, json};
 
-use crate::{MAX_CAMERAS, MAX_PIXELS, MAX_RECORDING};
+use crate::limits::{MAX_CAMERAS, MAX_PIXELS, MAX_RECORDING};
 
 /// All of it.
 pub(crate) fn describe() -> Result<Value, ConfigError> {

@@ -6,12 +6,8 @@ use foveate_scenes::{Scene, SceneFrames, SceneSize};
 use serde_json::Value;
 
 use crate::describe::describe;
+use crate::limits::{MAX_CAMERAS, MAX_PIXELS};
 use crate::{LiveCamera, WebError, facts};
-
-/// The most cameras at a time.
-pub const MAX_CAMERAS: usize = 8;
-/// The most pixels of a frame: those of 3840x2160.
-pub const MAX_PIXELS: u32 = 3840 * 2160;
 
 /// What a page works with.
 #[derive(Debug, Default)]

@@ -11,10 +11,11 @@
 
 use std::cell::RefCell;
 
+use crate::limits::MAX_PIXELS;
 use crate::{Desk, LiveCamera, Sent, WebError};
 
 /// The most bytes that can be put in: a frame in colour.
-const MAX_INPUT: usize = 4 * crate::MAX_PIXELS as usize;
+const MAX_INPUT: usize = 4 * MAX_PIXELS as usize;
 
 /// A page's desk and what lies between it and the page.
 #[derive(Debug, Default)]

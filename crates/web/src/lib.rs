@@ -13,11 +13,13 @@ mod desk;
 mod error;
 pub mod exports;
 mod facts;
+mod limits;
 mod live;
 mod pixels;
 mod recording;
 
-pub use desk::{Desk, MAX_CAMERAS, MAX_PIXELS};
+pub use desk::Desk;
 pub use error::WebError;
+pub use limits::{MAX_CAMERAS, MAX_PIXELS, MAX_RECORDING};
 pub use live::{Actions, LiveCamera, Sent};
-pub use recording::{MAX_RECORDING, Recorded};
+pub use recording::Recorded;

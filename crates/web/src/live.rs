@@ -8,9 +8,10 @@ use foveate_model::explain::{self, Explanation};
 use foveate_model::{FunctionalCamera, Remembered};
 use serde::Serialize;
 
+use crate::WebError;
+use crate::limits::MAX_RECORDING;
 use crate::pixels::{Depth, Pixels};
 use crate::recording::{Recorded, Recording};
-use crate::{MAX_RECORDING, WebError};
 
 /// A camera that is shown frames.
 #[derive(Debug)]

@@ -4,9 +4,6 @@
 use foveate_engine::{EventTable, Moment};
 use serde::Serialize;
 
-/// The most bytes of a recording.
-pub const MAX_RECORDING: usize = 64 << 20;
-
 /// Frames that were recorded.
 #[derive(Debug)]
 pub(crate) struct Recording {

@@ -6,8 +6,8 @@ use std::io::Cursor;
 use std::path::Path;
 
 use foveate_footage::FootageError;
-use foveate_footage::{decode, luma, read};
-use foveate_frame::convert_depth;
+use foveate_footage::{decode, read};
+use foveate_frame::{convert_depth, luma};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, LumaA, Rgb, Rgba};
 
 fn encoded(image: &DynamicImage, format: ImageFormat) -> Vec<u8> {
