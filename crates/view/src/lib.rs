@@ -7,6 +7,7 @@
 //! last. The library never prints: what there is to say is fetched with [`View::news`].
 
 mod board;
+mod camera_page;
 mod error;
 mod http;
 mod input;
@@ -23,6 +24,7 @@ use std::sync::Arc;
 
 use foveate_design::Config;
 
+pub use camera_page::camera_page;
 pub use error::ViewError;
 
 use board::Board;

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The page on which a camera runs in the browser: the files of `web/` as one, with the engine inside.
+//!
+//! It loads nothing. Its policy allows its own script and style by their hashes, and requests only to where it came from,
+//! for the frames of `foveate live`.
+
+use std::io::Write as _;
+
+use base64::Engine as _;
+use base64::engine::general_purpose::STANDARD as BASE64;
+use flate2::Compression;
+use flate2::write::GzEncoder;
+use foveate_pictures::page::variables;
+use foveate_pictures::palette::{DARK, LIGHT};
+use sha2::{Digest as _, Sha256};
+
+macro_rules! web {
+    ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../../../web/", $name))),*] };
+}
+
+/// The modules of the page, each behind those that it imports.
+const MODULES: [&str; 13] = web![
+    "engine.js",
+    "elements.js",
+    "toml.js",
+    "link.js",
+    "depth.js",
+    "pixel_camera.js",
+    "sources.js",
+    "screens.js",
+    "controls.js",
+    "figures.js",
+    "reasons.js",
+    "hardware.js",
+    "main.js",
+];
+
+/// The page as one file. With `frames` it begins with the frames that are served at that address, relative to its own.
+#[must_use]
+pub fn camera_page(frames: Option<&str>) -> String {
+    let script: String = MODULES.iter().map(|module| as_part(module)).collect();
+    let style = include_str!("../../../web/style.css")
+        .replace("/*LIGHT*/", &variables(&LIGHT))
+        .replace("/*DARK*/", &variables(&DARK));
+    let frames = frames.map_or(String::new(), |path| format!(" data-frames=\"{path}\""));
+    include_str!("../../../web/index.html")
+        .replace("<html lang=\"en\">", &format!("<html lang=\"en\"{frames}>"))
+        .replace("POLICY", &policy(&script, &style))
+        .replace("/*STYLE*/", &style)
+        .replace("/*HARDWARE*/", include_str!("../../../web/hardware.json"))
+        .replace("/*SCRIPT*/", &script)
+        .replace("/*WASM*/", &packed(include_bytes!("../../../web/foveate.wasm")))
+}
+
+/// A module as a part of one script: it imports nothing, because what it would import stands above it.
+fn as_part(module: &str) -> String {
+    let lines = module.lines().filter(|line| !line.starts_with("import "));
+    lines.map(|line| format!("{}\n", line.strip_prefix("export ").unwrap_or(line))).collect()
+}
+
+/// Compressed, as text.
+fn packed(bytes: &[u8]) -> String {
+    let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
+    let written = gzip.write_all(bytes).and_then(|()| gzip.finish());
+    BASE64.encode(written.expect("memory takes everything"))
+}
+
+fn policy(script: &str, style: &str) -> String {
+    let hash = |text: &str| format!("'sha256-{}'", BASE64.encode(Sha256::digest(text)));
+    format!(
+        "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}; img-src data: blob:; \
+         media-src blob:; connect-src 'self'; base-uri 'none'; form-action 'none'",
+        hash(script),
+        hash(style)
+    )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_is_one_small_file_that_loads_nothing() {
+        let page = camera_page(None);
+        assert!(page.len() < 1_000_000, "{} bytes", page.len());
+        for gone in [
+            "POLICY",
+            "/*LIGHT*/",
+            "/*STYLE*/",
+            "/*WASM*/",
+            "/*SCRIPT*/",
+            "/*HARDWARE*/",
+            "\nimport ",
+            "\nexport ",
+        ] {
+            assert!(!page.contains(gone), "{gone}");
+        }
+        for loaded in [" src=", "<link rel=\"stylesheet", "url(", "@import"] {
+            assert!(!page.contains(loaded), "{loaded}");
+        }
+        // What would end it early.
+        assert_eq!(page.matches("</script").count(), 3);
+        assert_eq!(page.matches("</style").count(), 1);
+    }
+
+    #[test]
+    fn every_module_of_the_folder_is_in_it() {
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../web");
+        let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
+        let modules: Vec<_> =
+            files.filter(|path| path.extension().is_some_and(|own| own == "js")).collect();
+        assert_eq!(modules.len(), MODULES.len(), "{modules:?}");
+        for path in modules {
+            let text = std::fs::read_to_string(&path).unwrap();
+            assert!(MODULES.contains(&text.as_str()), "{}", path.display());
+        }
+    }
+
+    #[test]
+    fn a_module_stands_behind_what_it_imports() {
+        let mut known = String::new();
+        for module in MODULES {
+            for import in module.lines().filter(|line| line.starts_with("import ")) {
+                let names = import.split(['{', '}']).nth(1).unwrap().split(',');
+                for name in names.map(str::trim) {
+                    let defined = ["class", "const", "function", "async function"]
+                        .map(|kind| format!("\nexport {kind} {name}"));
+                    assert!(defined.iter().any(|text| known.contains(text.as_str())), "{import}");
+                }
+            }
+            known.push('\n');
+            known.push_str(module);
+        }
+    }
+
+    #[test]
+    fn frames_of_a_server_are_named_in_the_page() {
+        assert!(camera_page(Some("frames")).contains("<html lang=\"en\" data-frames=\"frames\">"));
+        assert!(camera_page(None).contains("<html lang=\"en\">"));
+    }
+}

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The controls of a camera: a row for each key, with the range or the choices that the engine gives. A value that the engine
+// refuses stays in its row, with the engine's message below it, and the camera stays as it was.
+
+import { make, plain } from "./elements.js";
+import { getKey } from "./toml.js";
+
+/** Keys by group, with what they are called here. Keys of features follow from the features. */
+const GROUPS = [
+  ["Regions", [["region.size", "Side N"], ["region.neighborhood", "Windows"], ["denoise.filter", "Filter"], ["frame.pixel_bits", "Bits per pixel"]]],
+  ["Relevant in space: SRS", "features"],
+  ["Changed in time: TRS", [["temporal.level", "Level"], ["temporal.min_count", "Least count"], ["temporal.reference", "Reference"]]],
+  ["What the receiver sees", [["render.irrelevant", "Irrelevant"], ["periphery.blocks", "Means a side"], ["periphery.level", "Level of means"],
+    ["render.payload", "Payload"]]],
+];
+const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fraction_bits", "Mean bits"]];
+
+export class Controls {
+  #place; #described; #change; #rows = new Map(); #shape = "";
+
+  /** `change(key, value)` answers with nothing, or with the message of a refusal. `toggle(feature, on)` likewise. */
+  constructor(place, described, { presets, change, toggle, preset }) {
+    this.#place = place;
+    this.#described = described;
+    this.#change = { change, toggle, preset };
+    this.presets = presets;
+  }
+
+  /** Shows a camera of the preset `name`. */
+  show(facts, name) {
+    const keys = this.#groups(facts).map(([title, rows]) => [title, rows.map(([key]) => key)]);
+    const shape = JSON.stringify(keys);
+    if (shape !== this.#shape) this.#build(facts);
+    this.#shape = shape;
+    for (const row of this.#rows.values()) row.show(facts, name);
+  }
+
+  #groups(facts) {
+    const takes = key => facts.bounds[key] ?? this.#described.keys.find(own => own.key === key && own.kind !== "text");
+    const given = ([key]) => getKey(facts.config, key) !== undefined && getKey(facts.config, key) !== null && takes(key);
+    return GROUPS.map(([title, rows]) => [title, rows === "features" ? this.#features(facts) : rows.filter(given)]);
+  }
+
+  /** A row to turn each feature on or off, below it the rows of its keys. */
+  #features({ config }) {
+    const rows = this.#described.features.flatMap(({ feature }) => {
+      const number = config.spatial.findIndex(own => own.feature === feature);
+      const keys = OF_FEATURE.filter(([name]) => number >= 0 && (config.spatial[number][name] ?? null) !== null);
+      const titled = keys.map(([name, title]) => [`spatial.${number}.${name}`, title, feature]);
+      return [[`feature.${feature}`, feature], ...titled];
+    });
+    return config.spatial.length > 1 ? [...rows, ["decision.combine", "Votes"]] : rows;
+  }
+
+  /** The key as a configuration has it, and what it takes. */
+  #help(key, feature) {
+    const plain = key.replace(/\.\d+\./, "."), { takes } = this.#described.keys.find(own => own.key === plain);
+    const unit = key.endsWith("min_score") ? `, in ${this.#described.features.find(own => own.feature === feature).unit}` : "";
+    return `${key}: ${takes}${unit}`;
+  }
+
+  #build(facts) {
+    const focused = document.activeElement?.closest?.("[data-key]")?.dataset.key;
+    this.#rows.clear();
+    this.#rows.set("preset", this.#preset());
+    const groups = this.#groups(facts).filter(([, rows]) => rows.length).map(([title, rows]) => {
+      const made = rows.map(([key, name, feature]) => {
+        const row = key.startsWith("feature.") ? this.#feature(name) : this.#key(key, name, facts, feature);
+        this.#rows.set(key, row);
+        return row.element;
+      });
+      return make("fieldset", {}, make("legend", { textContent: title }), ...made);
+    });
+    this.#place.replaceChildren(this.#rows.get("preset").element, ...groups);
+    if (focused) this.#place.querySelector(`[data-key="${focused}"]`)?.querySelector("input, select")?.focus();
+  }
+
+  #preset() {
+    const select = make("select", { ariaLabel: "Preset" }, ...this.presets.map(({ name }) => make("option", { textContent: name })));
+    const summary = make("p", { className: "quiet" });
+    const row = line("preset", "Preset", select);
+    select.onchange = () => row.told(this.#change.preset(select.value));
+    row.element.append(summary);
+    summary.style.gridColumn = "1 / -1";
+    return { ...row, show: (facts, name) => {
+      row.told();
+      select.value = name;
+      summary.textContent = this.presets.find(own => own.name === name)?.summary ?? "";
+    } };
+  }
+
+  #feature(name) {
+    const box = make("input", { type: "checkbox" });
+    const element = make("div", { className: "feature" }, make("label", {}, box, name));
+    element.dataset.key = `feature.${name}`;
+    const row = refusable(element);
+    box.onchange = () => {
+      const message = this.#change.toggle(name, box.checked);
+      if (message) box.checked = !box.checked;
+      row.told(message);
+    };
+    return { ...row, show: facts => {
+      row.told();
+      box.checked = facts.features.includes(name);
+    } };
+  }
+
+  #key(key, name, facts, feature) {
+    const takes = own => own.bounds[key] ?? this.#described.keys.find(known => known.key === key);
+    const title = feature ? `${name}, ${feature}` : name;
+    const made = takes(facts).kind === "choice" ? choice(key, name, title) : number(key, name, title);
+    if (feature) made.element.classList.add("indented");
+    made.element.title = this.#help(key, feature);
+    made.onchange(value => made.told(this.#change.change(key, value)));
+    return { ...made, show: own => {
+      made.told();
+      made.set(getKey(own.config, key), takes(own));
+    } };
+  }
+}
+
+/** A message below an element. */
+function refusable(element) {
+  const message = make("p", { className: "refused", role: "alert", hidden: true });
+  element.append(message);
+  const told = text => {
+    message.hidden = !text;
+    message.textContent = text ? plain(text) : "";
+  };
+  return { element, told };
+}
+
+function line(key, name, ...fields) {
+  const element = make("div", { className: "control" }, make("span", { textContent: name }), ...fields);
+  element.dataset.key = key;
+  return refusable(element);
+}
+
+function choice(key, name, title) {
+  const select = make("select", { ariaLabel: title });
+  const row = line(key, name, select);
+  const set = (value, { choices }) => {
+    if (select.options.length !== choices.length || [...select.options].some((own, place) => own.value !== String(choices[place])))
+      select.replaceChildren(...choices.map(one => make("option", { textContent: one })));
+    select.value = value;
+  };
+  // Numbers stay numbers.
+  const onchange = then => { select.onchange = () => then(/^\d+$/.test(select.value) ? Number(select.value) : select.value); };
+  return { ...row, set, onchange };
+}
+
+function number(key, name, title) {
+  const slider = make("input", { type: "range", ariaLabel: title }), box = make("input", { type: "number", ariaLabel: `${title}, as a number` });
+  const row = line(key, name, slider, box);
+  const set = (value, { kind, min, max }) => {
+    const step = kind === "decimal" ? "any" : 1;
+    Object.assign(box, { min, max, step });
+    Object.assign(slider, { min, max, step });
+    if (slider.value !== String(value)) slider.value = value;
+    if (document.activeElement !== box || Number(box.value) !== value) box.value = value;
+  };
+  const rounded = () => slider.step === "any" ? Number(Number(slider.value).toPrecision(3)) : Number(slider.value);
+  const onchange = then => {
+    slider.oninput = () => { box.value = rounded(); then(rounded()); };
+    box.onchange = () => then(box.value.trim() === "" ? NaN : Number(box.value));
+  };
+  return { ...row, set, onchange };
+}

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// A configuration at another depth: thresholds in grey levels go with it, by the rule of crates/camera/src/depth.rs, so that the
+// page does what `--set frame.pixel_bits=5` does. A test compares the two.
+
+/** Powers of a grey level, by the unit of a score. */
+const POWERS = { "pixels of a region": 0, "grey levels": 1, "squared grey levels": 2 };
+
+/** The configuration with `bits` per pixel; `features` are those of `engine.describe()`. */
+export function withDepth(config, bits, features) {
+  const made = structuredClone(config), from = config.frame.pixel_bits;
+  const level = value => Math.floor(value * 2 ** (bits - from));
+  const score = (value, power) => power ? Math.ceil(value * 1e9 * 2 ** (power * (bits - from))) / 1e9 : value;
+  made.frame.pixel_bits = bits;
+  for (const part of [...made.spatial, made.temporal, made.periphery ?? {}]) {
+    if (typeof part.level === "number") part.level = level(part.level);
+    const unit = features.find(({ feature }) => feature === part.feature)?.unit;
+    if (unit) part.min_score = score(part.min_score, POWERS[unit]);
+  }
+  return made;
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Elements of the page, by id and new.
+
+export const at = id => document.getElementById(id);
+
+/** Makes an element with properties and what is inside of it. */
+export function make(name, properties = {}, ...inside) {
+  const made = Object.assign(document.createElement(name), properties);
+  made.append(...inside);
+  return made;
+}
+
+/** Messages have backticks around names, as in a terminal. */
+export const plain = text => String(text).replaceAll("`", "");
+
+/** Writes a text where it has changed. */
+export function say(id, text) {
+  const place = at(id), now = plain(text);
+  if (place.textContent !== now) place.textContent = now;
+}
+
+/** A count of bytes for people. */
+export function bytes(count) {
+  for (const [unit, size] of [["GB", 1e9], ["MB", 1e6], ["kB", 1e3]])
+    if (count >= size) return `${(count / size).toFixed(count >= 100 * size ? 0 : 1)} ${unit}`;
+  return `${Math.round(count)} B`;
+}
+
+/** A share in percent. */
+export const percent = share => `${(100 * share).toFixed(share < 0.1 ? 2 : share < 10 ? 1 : 0)} %`;
+
+/** Offers a text as a file. */
+export function download(name, type, text) {
+  const link = URL.createObjectURL(new Blob([text], { type }));
+  make("a", { href: link, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(link), 10_000);
+}

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What is sent, over time: figures of now, two charts, and the sums since the beginning.
+
+import { at, bytes, make, percent, say } from "./elements.js";
+import { PIXEL_EVENT_BYTES } from "./pixel_camera.js";
+
+const HISTORY = 300;
+/** Ends of the chart of bytes, as powers of ten of a share of raw. */
+const LEAST = -3.5, MOST = 1.2;
+const SVG = "http://www.w3.org/2000/svg";
+
+/** A chart of lines, whose values are heights from 0 to 1; `marks` are heights with their text. */
+class Chart {
+  #lines;
+  constructor(place, classes, marks) {
+    const svg = document.createElementNS(SVG, "svg");
+    svg.setAttribute("viewBox", `0 0 ${HISTORY - 1} 100`);
+    svg.setAttribute("preserveAspectRatio", "none");
+    const path = (name, line = "") => {
+      const made = document.createElementNS(SVG, "path");
+      made.setAttribute("class", name);
+      made.setAttribute("d", line);
+      svg.append(made);
+      return made;
+    };
+    for (const [height, , name] of marks) path(name ?? "mark", `M0 ${100 - 100 * height}H${HISTORY}`);
+    this.#lines = classes.map(name => path(name));
+    place.replaceChildren(svg, ...marks.filter(([, text]) => text).map(([height, text]) => {
+      const label = make("span", { textContent: text });
+      label.style.top = `${100 - 100 * height}%`;
+      return label;
+    }));
+  }
+  /** The newest value is the last. */
+  show(series) {
+    for (const [place, values] of series.entries()) {
+      const point = (value, x) => `${HISTORY - values.length + x} ${(99 - 98 * value).toFixed(1)}`;
+      this.#lines[place].setAttribute("d", values.length > 1 ? `M${values.map(point).join("L")}` : "");
+    }
+  }
+}
+
+export class Figures {
+  #history = []; #sums; #painted = 0; #fresh = false; #facts = null;
+  #regions = new Chart(at("regions-chart"), ["k6", "k5", "k4"], [[1, "100 %"], [0.5, "50 %"]]);
+  #bytes = new Chart(at("bytes-chart"), ["k1", "k4"],
+    [[height(10), "1000 %"], [height(1), "100 %", "rest"], [height(0.1), "10 %"], [height(0.01), "1 %"], [height(0.001), "0.1 %"]]);
+
+  constructor() { this.reset(null); }
+
+  /** Begins anew, for another camera or another source. */
+  reset(facts) {
+    this.#facts = facts;
+    this.#history = [];
+    this.#sums = { frames: 0, us: 0, camera: 0, pixels: 0 };
+    this.#fresh = false;
+  }
+
+  /** Adds a frame: what the engine says of it, the events of a pixel camera, its time, and what it cost in ms. */
+  add(sent, events, time_us, cost, now) {
+    this.#fresh = true;
+    const last = this.#history.at(-1), sums = this.#sums;
+    const passed = last && time_us > last.time_us ? Math.min(time_us - last.time_us, 1e6) : 1e6 / 30;
+    sums.frames++;
+    sums.us += passed;
+    sums.camera += sent.bits / 8;
+    sums.pixels += events * PIXEL_EVENT_BYTES;
+    this.#history.push({ ...sent, events, time_us, cost, now });
+    if (this.#history.length > HISTORY) this.#history.shift();
+  }
+
+  /** Shows what is new, ten times a second at most. */
+  paint(now) {
+    if (!this.#fresh || now - this.#painted < 100) return;
+    this.#fresh = false;
+    this.#painted = now;
+    const { columns, rows, width, height: lines } = this.#facts, all = columns * rows, raw = width * lines, history = this.#history;
+    const newest = history.at(-1);
+    const recent = history.filter(own => own.now > newest.now - 2000);
+    const seconds = (newest.now - recent[0].now) / 1000;
+    say("number", newest.number);
+    say("rate", seconds > 0 ? ((recent.length - 1) / seconds).toFixed(0) : "–");
+    say("cost", (recent.reduce((sum, own) => sum + own.cost, 0) / recent.length).toFixed(1));
+    say("active", percent(newest.active / all));
+    say("share", percent(newest.bits / 8 / raw));
+    const share = name => history.map(own => own[name] / all);
+    this.#regions.show([share("trs"), share("srs"), share("active")]);
+    this.#bytes.show([history.map(own => height(own.events * PIXEL_EVENT_BYTES / raw)), history.map(own => height(own.bits / 8 / raw))]);
+    this.#totals(raw);
+  }
+
+  #totals(frame) {
+    const { frames, us, camera, pixels } = this.#sums, raw = frames * frame;
+    const row = (name, count) => make("tr", {}, make("th", { scope: "row", textContent: name }),
+      ...[bytes(count), percent(count / raw), bytes(count / us * 1e6)].map(textContent => make("td", { textContent })));
+    at("totals").replaceChildren(row("raw video", raw), row("pixel events", pixels), row("region camera", camera));
+  }
+
+  /** The sums, for whoever checks them. */
+  get sums() { return { ...this.#sums }; }
+}
+
+/** Where a share of raw stands in the chart of bytes. */
+function height(share) {
+  const power = Math.log10(Math.max(share, 1e-9));
+  return Math.min(Math.max((power - LEAST) / (MOST - LEAST), 0), 1);
+}

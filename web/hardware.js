@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What the camera takes as hardware, from the table that scripts/web_hardware.py writes by `foveate estimate`.
+
+import { make } from "./elements.js";
+
+/** Columns of the table that say which camera a row is of. */
+function nameOf({ config }) {
+  const { region, frame, denoise, spatial, temporal, render, periphery } = config;
+  const simple = frame.pixel_bits === 8 && region.neighborhood === "isolated" && spatial.length === 1 && !spatial[0].mean_fraction_bits
+    && (render.payload === "denoised" || denoise.filter === "none");
+  if (!simple) return null;
+  const { irrelevant } = render;
+  // Against the previous frame `hold` is built as `zero`.
+  const shown = irrelevant === "mean" ? `mean${periphery.blocks}` : temporal.reference === "previous" ? "zero" : irrelevant;
+  return [region.size, spatial[0].feature, denoise.filter, temporal.reference, shown].join();
+}
+
+/** Shows it for a camera. */
+export function showHardware(place, table, facts) {
+  const [width, height] = table.frame, size = `${width}x${height}`;
+  const found = table.designs.find(row => row.slice(0, 5).join() === nameOf(facts));
+  const title = make("p", { textContent: `This camera as one raster core, which takes video of ${size} row by row.` });
+  if (found) {
+    const [lut, ff, ram, mhz, rate] = found.slice(5);
+    const figures = [["LUT", lut], ["FF", ff], ["RAMB36", ram], ["MHz", mhz], ["frames/s", rate]];
+    const list = figures.map(([name, value]) => make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value })));
+    const note = make("p", { className: "quiet" }, make("small", { textContent: `${table.tool}; the clock is estimated from the netlist, 25 % either way. Thresholds are registers and change nothing.` }));
+    place.replaceChildren(title, make("dl", {}, ...list), note);
+  } else {
+    const command = `foveate estimate --config camera.toml --set 'hardware.organization="raster"' --set frame.width=${width} --set frame.height=${height}`;
+    place.replaceChildren(title, make("p", { textContent: "It is not in the table. With the copied TOML as camera.toml, this estimates it:" }),
+      make("pre", { textContent: command, tabIndex: 0 }));
+  }
+}

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Why a region was sent or not: the explanation of the model, in words and in small pictures of its pixels.
+
+import { make } from "./elements.js";
+
+/** Pixels of a small picture's side. */
+const SIDE = 128;
+
+/** Shows an explanation, { json, text } as the engine gives it. */
+export function showReasons(place, { json, text }) {
+  const open = place.querySelector("details")?.open ?? false;
+  const { region, rule, srs, trs } = json;
+  const words = [...json.spatial.map(feature), `SRS is ${Number(srs)}; ${json.combine === "any" ? "one vote is enough" : "all votes are needed"}.`,
+    change(json), `TRS is ${Number(trs)}.`, ...summary(json)];
+  const inside = `pixels ${region.x0} to ${region.x0 + region.size - 1} by ${region.y0} to ${region.y0 + region.size - 1}`;
+  place.replaceChildren(
+    make("p", {}, make("strong", { textContent: `Region ${region.x},${region.y}` }), ` of ${region.columns} x ${region.rows}, ${inside}, frame ${json.frame}.`),
+    make("p", {}, make("strong", { textContent: sentence(rule) })),
+    make("ul", {}, ...words.map(textContent => make("li", { textContent }))),
+    make("div", { className: "grids" }, ...grids(json)),
+    make("details", { open }, make("summary", { textContent: "As foveate explain prints it" }), make("pre", { textContent: text, tabIndex: 0 })));
+}
+
+const sentence = text => `${text.replace(/^TRS any, SRS 0: |^TRS \d, SRS \d: /, "").replace(/^./, letter => letter.toUpperCase())}.`;
+
+function feature({ feature, level, score, min_score, unit, vote }) {
+  const of = value => unit > 1 ? `${(value / unit).toFixed(2)} per pixel` : value;
+  const what = level === undefined ? `${feature}: ${of(score)}` : `${feature}: ${score} pixels above level ${level}`;
+  return `${what}; ${of(min_score)} needed: ${vote ? "votes" : "does not vote"}.`;
+}
+
+function change({ temporal: { against, reference, level, count, min_count } }) {
+  if (!reference) return `Nothing to compare with yet (${against}): every pixel counts as changed.`;
+  return `${count} pixels differ by more than ${level} from ${against === "previous" ? "the previous frame" : "what was sent last"}; ${min_count} needed.`;
+}
+
+function summary({ summary: means }) {
+  if (!means) return [];
+  const list = rows => rows.flat().join(", ");
+  const shown = means.shown ? `the screen showed ${list(means.shown)}` : "the screen showed none";
+  return [`Means ${list(means.means)}; ${shown}; sent again above ${means.level}.`];
+}
+
+function grids(json) {
+  const most = 2 ** json.pixel_bits - 1, { temporal } = json;
+  const made = [grid("pixels", json.raw, most)];
+  if (json.filter !== "none") made.push(grid(`after ${json.filter}`, json.denoised, most));
+  for (const { feature, hits } of json.spatial) if (hits) made.push(grid(`${feature}: what counts`, json.denoised, most, hits, "--k5"));
+  if (temporal.reference) made.push(grid(`reference, ${temporal.against}: what changed`, temporal.reference, most, temporal.hits, "--k6"));
+  return made;
+}
+
+/** A picture of pixels, in which hits are marked. */
+function grid(title, rows, most, hits, colour) {
+  const count = rows.length, cell = Math.max(1, Math.floor(SIDE / count));
+  const canvas = make("canvas", { width: cell * count, height: cell * count });
+  const context = canvas.getContext("2d");
+  const mark = colour && getComputedStyle(document.documentElement).getPropertyValue(colour).trim();
+  for (const [y, row] of rows.entries())
+    for (const [x, value] of row.entries()) {
+      const grey = Math.round(255 * value / most);
+      context.fillStyle = `rgb(${grey},${grey},${grey})`;
+      context.fillRect(x * cell, y * cell, cell, cell);
+      if (!hits?.[y][x]) continue;
+      context.fillStyle = mark;
+      context.globalAlpha = 0.8;
+      context.fillRect(x * cell + (cell >> 3), y * cell + (cell >> 3), Math.max(1, cell - (cell >> 2)), Math.max(1, cell - (cell >> 2)));
+      context.globalAlpha = 1;
+    }
+  const counted = hits ? `, ${hits.flat().filter(Boolean).length} of ${count * count} marked` : "";
+  canvas.setAttribute("role", "img");
+  canvas.setAttribute("aria-label", `${title}, ${count} by ${count} pixels${counted}`);
+  return make("figure", {}, make("figcaption", { textContent: title }), canvas);
+}

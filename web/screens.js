@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// The three pictures, and the region that is chosen in them.
+
+/** What a region shows, by its byte (bit 0 SRS, bit 1 TRS, above them what became of it: 0 sent, 1 held, 2 black, 3 means), the
+ *  colour that stands for it, and how much of the picture that covers. */
+const KINDS = [
+  ["active, sent", "--k4", byte => byte >> 2 === 0, 150],
+  ["means sent", "--k2", byte => byte >> 2 === 3, 120],
+  ["SRS only", "--k5", byte => (byte & 3) === 1, 75],
+  ["TRS only", "--k6", byte => (byte & 3) === 2, 50],
+];
+const PARTS = ["input", "decisions", "receiver"];
+const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+/** A grey pixel as a word of ImageData. */
+const GREY = Uint32Array.from({ length: 256 }, (_, value) => (0xFF000000 | value * 0x010101) >>> 0);
+
+/** A colour of the style as a word of ImageData. */
+function word(name, alpha) {
+  const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+  const [red, green, blue] = [1, 3, 5].map(place => parseInt(text.slice(place, place + 2), 16));
+  return (alpha << 24 | blue << 16 | green << 8 | red) >>> 0;
+}
+
+export class Screens {
+  #facts = null; #chosen = null; #views = {}; #tints; #over; #choose;
+
+  /** `choose` is called with a region when one is chosen. */
+  constructor(choose) {
+    this.#choose = choose;
+    for (const id of PARTS) {
+      const place = document.getElementById(id), canvas = document.createElement("canvas"), cursor = document.createElement("div");
+      cursor.className = "cursor";
+      cursor.hidden = true;
+      place.append(canvas, cursor);
+      Object.assign(place, { tabIndex: 0, role: "application" });
+      place.onclick = event => this.#at(event, place);
+      place.onkeydown = event => this.#key(event);
+      this.#views[id] = { place, canvas, cursor, context: canvas.getContext("2d") };
+    }
+    this.#over = document.createElement("canvas").getContext("2d");
+    this.recolour();
+    const legend = document.getElementById("legend");
+    for (const [name, colour] of KINDS) {
+      const mark = document.createElement("i"), key = document.createElement("span");
+      mark.className = colour.slice(2);
+      key.className = "key";
+      key.append(mark, name);
+      legend.append(key);
+    }
+  }
+
+  /** Takes the colours of the style again. */
+  recolour() {
+    this.#tints = Uint32Array.from({ length: 16 }, (_, byte) => {
+      const kind = KINDS.find(([, , applies]) => applies(byte));
+      return kind ? word(kind[1], kind[3]) : 0;
+    });
+  }
+
+  /** For the frames and the grid of a camera. */
+  resize(facts) {
+    this.#facts = facts;
+    const { width, height, columns, rows } = facts;
+    for (const view of Object.values(this.#views)) {
+      Object.assign(view.canvas, { width, height });
+      view.data = new ImageData(width, height);
+      view.words = new Uint32Array(view.data.data.buffer);
+    }
+    Object.assign(this.#over.canvas, { width: columns, height: rows });
+    this.#over.data = new ImageData(columns, rows);
+    this.#over.words = new Uint32Array(this.#over.data.data.buffer);
+    if (this.#chosen) this.choose(Math.min(this.#chosen.x, columns - 1), Math.min(this.#chosen.y, rows - 1));
+    this.#label();
+  }
+
+  /** Shows the last frame of the camera. */
+  paint(camera) {
+    const { input, decisions, receiver } = this.#views, { columns, rows, side } = this.#facts;
+    this.#grey(input, camera.input);
+    this.#grey(receiver, camera.screen);
+    const { words, data } = this.#over, regions = camera.regions;
+    for (let region = 0; region < words.length; region++) words[region] = this.#tints[regions[region] & 15];
+    this.#over.putImageData(data, 0, 0);
+    const { context } = decisions;
+    context.putImageData(input.data, 0, 0);
+    // The last column and row of regions may reach beyond the frame.
+    context.imageSmoothingEnabled = false;
+    context.drawImage(this.#over.canvas, 0, 0, columns * side, rows * side);
+  }
+
+  #grey({ context, words, data }, pixels) {
+    for (let place = 0; place < words.length; place++) words[place] = GREY[pixels[place]];
+    context.putImageData(data, 0, 0);
+  }
+
+  /** Chooses a region and outlines it. */
+  choose(x, y) {
+    this.#chosen = { x, y };
+    const { width, height, side } = this.#facts;
+    for (const { cursor } of Object.values(this.#views)) {
+      cursor.hidden = false;
+      Object.assign(cursor.style, { left: `${100 * x * side / width}%`, top: `${100 * y * side / height}%`,
+        width: `${100 * side / width}%`, height: `${100 * side / height}%` });
+    }
+    this.#label();
+  }
+
+  get chosen() { return this.#chosen; }
+
+  #label() {
+    const { columns, rows } = this.#facts, own = this.#chosen;
+    const region = own ? `region ${own.x},${own.y} is chosen` : "no region is chosen";
+    for (const { place } of Object.values(this.#views)) {
+      const title = place.closest("figure").querySelector("figcaption").textContent;
+      place.setAttribute("aria-label", `${title}; ${columns} by ${rows} regions, ${region}; arrow keys choose one`);
+    }
+  }
+
+  #at(event, place) {
+    if (!this.#facts) return;
+    const { width, height, side } = this.#facts, box = place.getBoundingClientRect();
+    const of = (offset, length, size) => Math.floor(Math.min(Math.max(offset / length, 0), 0.999999) * size / side);
+    this.choose(of(event.clientX - box.left, box.width, width), of(event.clientY - box.top, box.height, height));
+    this.#choose(this.#chosen);
+  }
+
+  #key(event) {
+    const move = ARROWS[event.key];
+    if (!move || !this.#facts) return;
+    event.preventDefault();
+    const { columns, rows } = this.#facts, far = event.shiftKey ? 8 : 1;
+    const from = this.#chosen ?? { x: columns >> 1, y: rows >> 1 };
+    const within = (value, count) => Math.min(Math.max(value, 0), count - 1);
+    const first = !this.#chosen;
+    this.choose(within(from.x + (first ? 0 : move[0] * far), columns), within(from.y + (first ? 0 : move[1] * far), rows));
+    this.#choose(this.#chosen);
+  }
+}

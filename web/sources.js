@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Where frames come from. Every source has the same face:
+//
+//   await open()                     begins; an Error says why it cannot, in words for people
+//   natural                          its own size, or null where any size does
+//   await take(width, height, now)   the next frame { rgba or grey, time_us, fresh }, or null while there is none; `fresh` marks
+//                                    the first frame of a clip that begins again
+//   await step(width, height)        the next frame although all stands still
+//   run(on), speed(factor)           for those with a clock of their own
+//   await restart(), close()
+//   onend(text)                      set by the page; called when nothing more will come
+
+/** Frames a second of what has no times of its own, as `foveate simulate` counts it. */
+const RATE = 30;
+/** Scenes that are kept, in bytes; beyond it every frame is made anew. */
+const KEPT = 100e6;
+
+/** What all sources do that have no clock of their own. */
+class Paced {
+  natural = null;
+  onend = () => {};
+  #due = 0;
+  #factor = 1;
+  number = 0;
+  slow = true;
+  async open() {}
+  close() {}
+  run() {}
+  speed(factor) { this.#factor = factor; }
+  async restart() { this.number = 0; this.#due = 0; }
+  async take(width, height, now) {
+    if (now < this.#due - 4) return null;
+    const wait = 1000 / (RATE * this.#factor);
+    this.#due = Math.max(this.#due + wait, now - wait);
+    return this.step(width, height);
+  }
+  timeOf(number) { return Math.round(number * 1e6 / RATE); }
+}
+
+/** A built-in scene, which begins again after its last frame. */
+export class Scene extends Paced {
+  #engine; #scene; #side; #kept = new Map(); #size = "";
+  /** `side` says how large regions are; some scenes are made for that. */
+  constructor(engine, scene, side) {
+    super();
+    this.#engine = engine;
+    this.#scene = scene;
+    this.#side = side;
+  }
+  async step(width, height) {
+    if (this.number >= this.#scene.frames) this.number = 0;
+    const number = this.number++;
+    return { grey: this.#frame(width, height, number), time_us: this.timeOf(number), fresh: number === 0 };
+  }
+  #frame(width, height, number) {
+    const side = this.#side(), size = `${width}x${height}, ${side}`;
+    if (size !== this.#size) {
+      this.#size = size;
+      this.#kept.clear();
+    }
+    let grey = this.#kept.get(number);
+    if (!grey) {
+      grey = this.#engine.scene(this.#scene.name, width, height, number, side);
+      if (this.#scene.frames * grey.length <= KEPT) this.#kept.set(number, grey);
+    }
+    return grey;
+  }
+}
+
+/** Draws pictures at the size of the frame, cut to its shape, and takes their pixels. */
+class Easel {
+  #canvas = document.createElement("canvas");
+  #context = this.#canvas.getContext("2d", { willReadFrequently: true });
+  pixels(picture, from, width, height) {
+    if (this.#canvas.width !== width || this.#canvas.height !== height) Object.assign(this.#canvas, { width, height });
+    const scale = Math.max(width / from.width, height / from.height);
+    const [w, h] = [width / scale, height / scale];
+    this.#context.drawImage(picture, (from.width - w) / 2, (from.height - h) / 2, w, h, 0, 0, width, height);
+    return this.#context.getImageData(0, 0, width, height).data;
+  }
+}
+
+/** Pictures, in the order of their names, numbers in them by value. One picture stays. */
+export class Pictures extends Paced {
+  #files; #easel = new Easel(); #last = null;
+  constructor(files) {
+    super();
+    const order = new Intl.Collator("en", { numeric: true });
+    this.#files = [...files].sort((a, b) => order.compare(a.name, b.name));
+  }
+  async open() {
+    const { width, height } = await this.#picture(0);
+    this.natural = { width, height };
+  }
+  async step(width, height) {
+    const own = this.number % this.#files.length, number = this.number++;
+    const picture = await this.#picture(own);
+    const rgba = this.#easel.pixels(picture, picture, width, height);
+    return { rgba, time_us: this.timeOf(number), fresh: this.#files.length > 1 && own === 0 };
+  }
+  async #picture(number) {
+    const file = this.#files[number];
+    if (this.#last?.file === file) return this.#last.picture;
+    this.close();
+    try {
+      // Samples as they are in the file, as the project's own reader takes them.
+      const picture = await createImageBitmap(file, { colorSpaceConversion: "none", premultiplyAlpha: "none", imageOrientation: "none" });
+      this.#last = { file, picture };
+      return picture;
+    } catch {
+      throw new Error(`${file.name} is no picture that this browser reads; use PNG, JPEG, WebP or AVIF`);
+    }
+  }
+  close() {
+    this.#last?.picture.close();
+    this.#last = null;
+  }
+}
+
+/** What a <video> shows: each of its frames once. */
+class Player {
+  natural = null;
+  onend = () => {};
+  slow = true;
+  #fresh = false; #easel = new Easel(); #closed = false;
+  constructor() {
+    this.video = Object.assign(document.createElement("video"), { muted: true, playsInline: true });
+    this.video.disableRemotePlayback = true;
+  }
+  watch() {
+    const { videoWidth: width, videoHeight: height } = this.video;
+    this.natural = { width, height };
+    const next = (_, { mediaTime }) => {
+      this.mediaTime = mediaTime;
+      this.#fresh = true;
+      if (!this.#closed) this.video.requestVideoFrameCallback(next);
+    };
+    this.video.requestVideoFrameCallback(next);
+  }
+  async take(width, height) {
+    if (!this.#fresh) return null;
+    this.#fresh = false;
+    return this.draw(width, height);
+  }
+  draw(width, height) {
+    const from = { width: this.video.videoWidth, height: this.video.videoHeight };
+    return { rgba: this.#easel.pixels(this.video, from, width, height), time_us: Math.round(1e6 * (this.mediaTime ?? this.video.currentTime)) };
+  }
+  close() {
+    this.#closed = true;
+    this.video.pause();
+  }
+}
+
+/** A clip, again and again. */
+export class Clip extends Player {
+  #file; #link; #rate = 1 / RATE; #last = null; #again = false;
+  constructor(file) {
+    super();
+    this.#file = file;
+  }
+  async open() {
+    const { video } = this;
+    this.#link = video.src = URL.createObjectURL(this.#file);
+    await new Promise((done, refuse) => {
+      const refused = () => refuse(new Error(`this browser cannot decode ${this.#file.name}` +
+        `${video.error?.message ? ` (${video.error.message})` : ""}; \`foveate live ${this.#file.name}\` decodes it and shows it on this page`));
+      video.onloadeddata = () => video.videoWidth ? done() : refused();
+      video.onerror = refused;
+    });
+    video.onerror = () => this.onend(`${this.#file.name} cannot be decoded further (${video.error?.message || "damaged"}); Reset begins again`);
+    video.onended = () => { this.#begin().then(() => video.play()).catch(() => {}); };
+    this.watch();
+  }
+  draw(width, height) {
+    this.mediaTime ??= this.video.currentTime;
+    const { mediaTime } = this, frame = super.draw(width, height);
+    if (this.#last !== null && mediaTime > this.#last) this.#rate = Math.min(mediaTime - this.#last, 1);
+    this.#last = mediaTime;
+    const fresh = this.#again;
+    this.#again = false;
+    return { ...frame, fresh };
+  }
+  run(on) {
+    if (on) this.video.play().catch(() => {}); else this.video.pause();
+  }
+  speed(factor) { this.video.playbackRate = factor; }
+  async take(width, height) {
+    // A frame that was stepped to is not taken again.
+    return this.mediaTime === this.#last ? null : super.take(width, height);
+  }
+  async step(width, height) {
+    const { video } = this, to = video.currentTime + this.#rate;
+    if (this.#last === null) return this.draw(width, height);
+    if (to >= video.duration) await this.#begin(); else await this.#seek(to);
+    return this.draw(width, height);
+  }
+  async restart() {
+    await this.#begin();
+  }
+  async #begin() {
+    this.#again = true;
+    this.#last = null;
+    await this.#seek(0);
+  }
+  #seek(to) {
+    return new Promise(done => {
+      this.video.onseeked = () => { this.mediaTime = this.video.currentTime; done(); };
+      this.video.currentTime = to;
+    });
+  }
+  close() {
+    super.close();
+    URL.revokeObjectURL(this.#link);
+  }
+}
+
+/** What to do about each refusal of a browser. */
+const REFUSALS = {
+  NotAllowedError: "the browser did not give the camera; allow it beside the page's address and choose it again",
+  NotFoundError: "there is no camera here; plug one in, or choose a scene or a clip",
+  NotReadableError: "the camera is in use by another program; close that and choose the camera again",
+  OverconstrainedError: "the camera has no such size; choose another size",
+};
+
+/** A webcam. */
+export class Webcam extends Player {
+  slow = false;
+  #stream;
+  async open(size) {
+    if (!navigator.mediaDevices) throw new Error("a browser gives its camera only to pages from this computer or by https; open the page as a file, or by `foveate live`");
+    const video = { width: { ideal: size?.width ?? 640 }, height: { ideal: size?.height ?? 480 }, frameRate: { ideal: 60 } };
+    try {
+      this.#stream = await navigator.mediaDevices.getUserMedia({ video });
+    } catch (error) {
+      throw new Error(REFUSALS[error.name] ?? `the camera does not start (${error.name}: ${error.message})`);
+    }
+    for (const track of this.#stream.getVideoTracks())
+      track.onended = () => this.onend("the camera has gone; plug it in and choose it again");
+    this.video.srcObject = this.#stream;
+    await this.video.play();
+    this.watch();
+  }
+  run() {}
+  speed() {}
+  async step(width, height) { return this.draw(width, height); }
+  async restart() {}
+  close() {
+    super.close();
+    for (const track of this.#stream?.getTracks() ?? []) {
+      track.onended = null;
+      track.stop();
+    }
+  }
+}
+
+/** Frames that `foveate live` decodes on this computer; `path` is where it serves them. */
+export class Computer {
+  natural = null;
+  slow = false;
+  onend = () => {};
+  #path; #after = -1; #ended = false; #waiting = null; #first = true;
+  constructor(path) { this.#path = path; }
+  async open() {
+    while (!this.#waiting) {
+      this.#waiting = await this.#next();
+      if (this.#ended) return;
+    }
+    const { width, height } = this.#waiting.head;
+    this.natural = { width, height };
+  }
+  run() {}
+  speed() {}
+  async take(width, height) {
+    if (this.#ended) return null;
+    const frame = this.#waiting ?? await this.#next();
+    this.#waiting = null;
+    if (!frame) return null;
+    const fresh = this.#first;
+    this.#first = false;
+    const same = frame.head.width === width && frame.head.height === height;
+    const pixels = same ? { grey: frame.grey } : { rgba: scaled(frame, width, height) };
+    return { ...pixels, time_us: frame.head.t_us, fresh };
+  }
+  async step(width, height) { return this.take(width, height); }
+  async restart() {
+    await fetch("restart", { method: "POST" });
+    this.#after = -1;
+    this.#ended = false;
+    this.#waiting = null;
+    this.#first = true;
+  }
+  async #next() {
+    let bytes;
+    try {
+      const answer = await fetch(`${this.#path}?after=${this.#after}`);
+      if (!answer.ok) throw new Error(await answer.text());
+      bytes = await answer.arrayBuffer();
+    } catch {
+      return this.#end("foveate live does not answer; start it again and open its new link");
+    }
+    const length = new DataView(bytes).getUint32(0, true);
+    const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
+    const grey = new Uint8Array(bytes, 4 + length);
+    if (head.status === "failed") return this.#end(head.text);
+    if (!grey.length) return head.status === "ended" ? this.#end(`${head.text || "the input has ended"}; Reset begins again`) : null;
+    this.#after = head.number;
+    return { head, grey };
+  }
+  #end(text) {
+    this.#ended = true;
+    this.onend(text);
+    return null;
+  }
+  close() { this.#ended = true; }
+}
+
+const easel = new Easel();
+/** Grey pixels at another size, as RGBA. */
+function scaled({ head: { width: from, height: rows }, grey }, width, height) {
+  const picture = new OffscreenCanvas(from, rows), data = new ImageData(from, rows);
+  const words = new Uint32Array(data.data.buffer);
+  for (let place = 0; place < words.length; place++) words[place] = 0xFF000000 | grey[place] * 0x010101;
+  picture.getContext("2d").putImageData(data, 0, 0);
+  return easel.pixels(picture, picture, width, height);
+}
