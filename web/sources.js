@@ -254,12 +254,14 @@ export class Webcam extends Player {
   }
 }
 
-/** Frames that `foveate live` decodes on this computer; `path` is where it serves them. */
+/** Frames that `foveate live` decodes on this computer; `path` is where it serves them. A clip has its own times; what a camera
+ * sends is shown when it comes. */
 export class Computer {
   natural = null;
-  slow = false;
+  slow = true;
   onend = () => {};
   #path; #after = -1; #ended = false; #waiting = null; #first = true;
+  #factor = 1; #shown = { now: 0, time_us: 0 };
   constructor(path) { this.#path = path; }
   async open() {
     while (!this.#waiting) {
@@ -270,21 +272,34 @@ export class Computer {
     this.natural = { width, height };
   }
   run() {}
-  speed() {}
-  async take(width, height) {
+  speed(factor) { this.#factor = factor; }
+  async take(width, height, now) {
     if (this.#ended) return null;
-    const frame = this.#waiting ?? await this.#next();
+    this.#waiting ??= await this.#next();
+    if (!this.#waiting) return null;
+    const { live, t_us: time_us } = this.#waiting.head;
+    const due = this.#shown.now + (time_us - this.#shown.time_us) / 1000 / this.#factor;
+    if (!live && !this.#first && now < due - 4) return null;
+    // One that came late does not hurry the next.
+    this.#shown = { now: Math.max(due, now - 4), time_us };
+    return this.#show(width, height);
+  }
+  async step(width, height) {
+    if (this.#ended) return null;
+    this.#waiting ??= await this.#next();
+    return this.#waiting && this.#show(width, height);
+  }
+  #show(width, height) {
+    const frame = this.#waiting, fresh = this.#first;
     this.#waiting = null;
-    if (!frame) return null;
-    const fresh = this.#first;
     this.#first = false;
     const same = frame.head.width === width && frame.head.height === height;
     const pixels = same ? { grey: frame.grey } : { rgba: scaled(frame, width, height) };
     return { ...pixels, time_us: frame.head.t_us, fresh };
   }
-  async step(width, height) { return this.take(width, height); }
   async restart() {
-    await fetch("restart", { method: "POST" });
+    const answer = await fetch("restart", { method: "POST" }).catch(() => null);
+    if (answer && !answer.ok) return this.onend(await answer.text());
     this.#after = -1;
     this.#ended = false;
     this.#waiting = null;

@@ -16,6 +16,7 @@ mod frames;
 mod infer;
 mod input;
 mod link;
+mod live;
 mod outputs;
 #[cfg(test)]
 mod page;
@@ -48,6 +49,7 @@ pub(crate) use fit::FitArgs;
 pub(crate) use infer::InferArgs;
 pub(crate) use input::warn_of;
 pub(crate) use link::LinkArgs;
+pub(crate) use live::LiveArgs;
 pub(crate) use outputs::OutputArgs;
 pub(crate) use stress::StressArgs;
 pub(crate) use view::ViewArgs;
@@ -75,6 +77,7 @@ pub(crate) enum Command {
     Dataset(DatasetArgs),
     Decode(DecodeArgs),
     View(ViewArgs),
+    Live(LiveArgs),
     Explain(ExplainArgs),
     Analyze(AnalyzeArgs),
     Explore(ExploreArgs),

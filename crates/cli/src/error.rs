@@ -110,6 +110,7 @@ impl CliError {
             Self::Cosim(CosimError::Short { .. } | CosimError::NoModel { .. }) => TOOL,
             Self::Estimate(error) => estimate_code(error),
             Self::Simulator(error) => simulator_code(error),
+            Self::View(ViewError::Footage(error)) => footage_code(error),
             _ => INPUT,
         }
     }

@@ -56,6 +56,7 @@ fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
         Command::Dataset(args) => command::dataset::run(args),
         Command::Decode(args) => command::decode::run(args),
         Command::View(args) => command::view::run(args),
+        Command::Live(args) => command::live::run(args),
         Command::Explain(args) => command::explain::run(args),
         Command::Analyze(args) => command::analyze::run(args),
         Command::Explore(args) => command::explore::run(args),

@@ -5,9 +5,11 @@ use std::io;
 use std::net::SocketAddr;
 use std::path::PathBuf;
 
+use foveate_design::ConfigError;
+use foveate_footage::FootageError;
 use thiserror::Error;
 
-/// A stream that cannot be shown.
+/// A stream, or frames, that cannot be shown.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ViewError {
@@ -47,6 +49,12 @@ pub enum ViewError {
         /// What was given.
         path: PathBuf,
     },
+    /// Frames that cannot be read.
+    #[error(transparent)]
+    Footage(#[from] FootageError),
+    /// Settings that there are not.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
     /// An address that others could reach.
     #[error(
         "{address} is not an address of this machine alone; take one that begins with 127.0.0.1 or \

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a camera sends, live on a page in the browser: its screen, its decisions, what is lost, and the registers of
-//! a core on a serial line.
+//! Pages in the browser of this machine, live: what a camera sends ([`View`]: its screen, its decisions, what is lost, and the
+//! registers of a core on a serial line), and a camera that runs in the page itself ([`Player`]), with frames of an input.
 //!
 //! A [`View`] has three threads. One reads the stream and never waits for a browser; one asks the board for its
 //! registers; one answers browsers on this machine, each of which asks for the newest frame when it has drawn the
@@ -14,7 +14,9 @@ mod input;
 mod live;
 mod page;
 mod picture;
+mod player;
 mod reader;
+mod reel;
 mod server;
 mod site;
 
@@ -26,6 +28,7 @@ use foveate_design::Config;
 
 pub use camera_page::camera_page;
 pub use error::ViewError;
+pub use player::{Player, PlayerOptions};
 
 use board::Board;
 use input::Input;

@@ -58,6 +58,7 @@ impl Command {
             Self::Check(_)
             | Self::Decode(_)
             | Self::View(_)
+            | Self::Live(_)
             | Self::Generate(_)
             | Self::Build(_)
             | Self::Cosim(_)

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What `foveate live` shows: the page on which a camera runs in the browser, with frames that this machine decodes.
+
+use std::fmt::Write as _;
+use std::net::SocketAddr;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Duration;
+
+use foveate_design::{CameraConfig, Preset};
+use foveate_footage::InputOptions;
+use serde_json::Value;
+
+use crate::camera_page::camera_page;
+use crate::http::Answer;
+use crate::reel::Reel;
+use crate::server::{Server, Site};
+use crate::{ViewError, thread};
+
+/// How long a browser waits for a frame.
+const PATIENCE: Duration = Duration::from_secs(1);
+
+/// What the page is to show, and where.
+#[derive(Clone, Debug)]
+pub struct PlayerOptions {
+    /// Inputs as of `foveate simulate`. Without one the page has what the browser has: scenes, its camera, files that it decodes.
+    pub inputs: Vec<String>,
+    /// How they are read.
+    pub input: InputOptions,
+    /// The preset with which the page begins; without one it is the page's own.
+    pub preset: Option<String>,
+    /// The camera with which it begins, if that is another than the preset's.
+    pub camera: Option<CameraConfig>,
+    /// Where browsers find the page. It must be an address of this machine alone.
+    pub address: SocketAddr,
+}
+
+/// A page with a camera, until this is dropped.
+#[derive(Debug)]
+pub struct Player {
+    site: Arc<PlayerSite>,
+    server: Server,
+    settings: String,
+}
+
+impl Player {
+    /// Opens the inputs and serves the page.
+    ///
+    /// # Errors
+    /// When the inputs or the address cannot be used.
+    pub fn open(options: PlayerOptions) -> Result<Self, ViewError> {
+        let PlayerOptions { inputs, input, preset, camera, address } = options;
+        let settings = settings(preset.as_deref(), camera.as_ref())?;
+        let opened = if inputs.is_empty() { None } else { Some(Reel::open(inputs, input)?) };
+        let (reel, source) = opened.unzip();
+        let site = Arc::new(PlayerSite { reel, is_over: AtomicBool::new(false) });
+        let server = Server::start(address, Arc::clone(&site))?;
+        if let Some(source) = source {
+            let site = Arc::clone(&site);
+            thread("reader", move || {
+                if let Some(reel) = &site.reel {
+                    reel.run(source);
+                }
+            })?;
+        }
+        Ok(Self { site, server, settings })
+    }
+
+    /// The link of the page, with its settings.
+    #[must_use]
+    pub fn link(&self) -> String {
+        let link = self.server.link();
+        if self.settings.is_empty() { link.to_owned() } else { format!("{link}#{}", self.settings) }
+    }
+
+    /// What should be said since this was asked last.
+    #[must_use]
+    pub fn news(&self) -> Vec<String> {
+        self.site.reel.as_ref().map(Reel::news).unwrap_or_default()
+    }
+
+    /// Frames that were decoded.
+    #[must_use]
+    pub fn frames(&self) -> u64 {
+        self.site.reel.as_ref().map_or(0, Reel::frames)
+    }
+}
+
+impl Drop for Player {
+    fn drop(&mut self) {
+        self.site.is_over.store(true, Ordering::Relaxed);
+        if let Some(reel) = &self.site.reel {
+            reel.end();
+        }
+        self.server.wake();
+    }
+}
+
+/// The page, and the inputs if there are some.
+#[derive(Debug)]
+struct PlayerSite {
+    reel: Option<Reel>,
+    is_over: AtomicBool,
+}
+
+impl Site for PlayerSite {
+    fn command(&self) -> &'static str {
+        "foveate live"
+    }
+
+    fn page(&self, _nonce: &str) -> String {
+        camera_page(self.reel.as_ref().map(|_| "frames"))
+    }
+
+    /// The page says itself what it may load.
+    fn policy(&self, _nonce: &str) -> String {
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'".to_owned()
+    }
+
+    fn answer(&self, method: &str, within: &str, query: &str, _body: &[u8]) -> Option<Answer> {
+        let reel = self.reel.as_ref()?;
+        Some(match (method, within) {
+            ("GET", "frames") => {
+                let after = query.strip_prefix("after=").and_then(|after| after.parse().ok());
+                Answer::binary(reel.frame(after, PATIENCE))
+            }
+            ("POST", "restart") => match reel.restart() {
+                Ok(()) => Answer::text("200 OK", "begins again"),
+                Err(why) => Answer::text("409 Conflict", &why),
+            },
+            (_, "frames" | "restart") => Answer::not_so(),
+            _ => return None,
+        })
+    }
+
+    fn is_over(&self) -> bool {
+        self.is_over.load(Ordering::Relaxed)
+    }
+}
+
+/// Settings as the page takes them behind its link: the preset, and every key of the camera that is another than the preset's.
+fn settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<String, ViewError> {
+    let mut text = preset.map(|name| format!("preset={name}")).unwrap_or_default();
+    let Some(camera) = camera else { return Ok(text) };
+    let name = preset.unwrap_or("paper");
+    if preset.is_none() {
+        text = format!("preset={name}");
+    }
+    let (before, now) = (keys(&Preset::find(name)?.config()?.camera), keys(camera));
+    let is_feature = |key: &str| key.starts_with("spatial.");
+    let differs = |(key, value): &&(String, Value)| {
+        !before.iter().any(|(other, old)| other == key && old == value)
+    };
+    let feature_differs = before.iter().filter(|(key, _)| is_feature(key)).count()
+        != now.iter().filter(|(key, _)| is_feature(key)).count()
+        || now.iter().filter(differs).any(|(key, _)| is_feature(key));
+    // Features are numbered: they differ as a whole.
+    let taken =
+        |own: &&(String, Value)| if is_feature(&own.0) { feature_differs } else { differs(own) };
+    for (key, value) in now.iter().filter(taken) {
+        let value = value.to_string().replace('"', "%22").replace(' ', "%20");
+        write!(text, "&{key}={value}").expect("a String takes everything");
+    }
+    Ok(text)
+}
+
+/// Every key of a camera with its value, dotted: `spatial.0.level`. The frame has the size of the input.
+fn keys(camera: &CameraConfig) -> Vec<(String, Value)> {
+    fn walk(path: &str, value: Value, found: &mut Vec<(String, Value)>) {
+        let inner =
+            |name: &str| if path.is_empty() { name.to_owned() } else { format!("{path}.{name}") };
+        match value {
+            Value::Object(table) => {
+                table.into_iter().for_each(|(name, value)| walk(&inner(&name), value, found));
+            }
+            Value::Array(list) => {
+                let numbered = list.into_iter().enumerate();
+                numbered.for_each(|(at, value)| walk(&inner(&at.to_string()), value, found));
+            }
+            Value::Null => {}
+            value => found.push((path.to_owned(), value)),
+        }
+    }
+    let mut found = Vec::new();
+    walk("", serde_json::to_value(camera).unwrap_or_default(), &mut found);
+    found.retain(|(key, _)| key != "frame.width" && key != "frame.height");
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use foveate_design::Config;
+
+    use super::settings;
+
+    #[test]
+    fn the_link_has_what_differs_from_the_preset() {
+        let of = |preset, set: &[&str]| {
+            let toml = foveate_design::Preset::find(preset).unwrap().toml;
+            let camera = Config::from_toml_with(toml, set).unwrap().camera;
+            settings(Some(preset), Some(&camera)).unwrap()
+        };
+        assert_eq!(of("fovea", &[]), "preset=fovea");
+        assert_eq!(
+            of("fovea", &["region.size=16", "render.irrelevant='hold'", "frame.width=64"]),
+            "preset=fovea&region.size=16&render.irrelevant=%22hold%22"
+        );
+        let all = of("fovea", &["spatial.0.level=77"]);
+        assert!(
+            all.contains("spatial.0.feature=%22") && all.contains("spatial.0.level=77"),
+            "{all}"
+        );
+        assert_eq!(settings(None, None).unwrap(), "");
+        assert!(settings(Some("nonsense"), Some(&Config::default().camera)).is_err());
+    }
+}
