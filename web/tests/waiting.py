@@ -9,4 +9,4 @@ def until(page, expression, arg=None, timeout=8):
     end = time.monotonic() + timeout
     while not page.evaluate(expression, arg):
         assert time.monotonic() < end, f"after {timeout} s not yet: {expression}; the page says {page.inner_text('#notice')!r}"
-        time.sleep(0.02)
+        time.sleep(0.005)

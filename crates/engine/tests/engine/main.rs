@@ -5,6 +5,7 @@
 mod batches;
 mod film;
 mod hard_cases;
+mod memory;
 mod properties;
 mod recipe;
 mod refusals;

@@ -7,7 +7,8 @@ use foveate_web::{Desk, MAX_RECORDING};
 fn a_recording_has_a_row_per_region_and_frame_until_it_is_full() {
     let mut desk = Desk::default();
     // 24,576 regions of 40 bytes and more.
-    let (handle, _) = desk.configure(b"[region]\nsize = 2\n", (256, 384)).unwrap();
+    let toml = b"[region]\nsize = 2\n[temporal]\nmin_count = 4\n[[spatial]]\nfeature = \"edge\"\nmin_score = 4\n";
+    let (handle, _) = desk.configure(toml, (256, 384)).unwrap();
     let camera = desk.camera(handle).unwrap();
     assert!(camera.events().unwrap_err().to_string().contains("nothing is recorded"));
     camera.record(true, false);
@@ -16,7 +17,7 @@ fn a_recording_has_a_row_per_region_and_frame_until_it_is_full() {
     assert_eq!((first.frames, first.full), (1, false));
     let text = String::from_utf8(camera.events().unwrap().to_vec()).unwrap();
     assert!(text.starts_with(
-        "frame,t_us,x,y,x0,y0,srs,trs,score_edge,t_count,action\n0,5,0,0,0,0,0,0,0,4,blank\n"
+        "frame,t_us,x,y,x0,y0,srs,trs,score_edge,t_count,action\n0,5,0,0,0,0,0,1,0,4,blank\n"
     ));
     assert_eq!(text.lines().count(), 1 + 128 * 192);
     let last = (0..200).map(|_| camera.step_grey(&frame, None).unwrap().recording.unwrap());

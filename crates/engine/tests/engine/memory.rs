@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! From what an engine remembers of the time before a frame, a model goes on as one that has seen every frame.
+
+use foveate_engine::{Before, Engine};
+use foveate_frame::{Frame, Plane};
+use foveate_model::{FunctionalCamera, FunctionalOutcome, Remembered};
+use proptest::prelude::*;
+
+use crate::film::{film, scripts};
+use crate::recipe::cameras;
+
+/// What a model makes of a frame that goes on from the memory of an engine which has just taken that frame.
+fn resumed(engine: &Engine, frame: &Frame) -> FunctionalOutcome {
+    let camera = engine.camera();
+    let shown = engine.rendered_before().map(Plane::to_words).unwrap();
+    let shown = Frame::new(camera.width(), camera.height(), camera.pixel_bits(), shown).unwrap();
+    let remembered = |region| {
+        let Before { reference, summary } = engine.before(region).unwrap();
+        Remembered { reference, summary }
+    };
+    let mut model = FunctionalCamera::resume(camera, &shown, remembered).unwrap();
+    model.step(frame).unwrap().clone()
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(100))]
+
+    #[test]
+    fn a_model_goes_on_from_the_memory_of_an_engine(
+        camera in cameras(),
+        (seed, script) in scripts(),
+    ) {
+        let mut model = FunctionalCamera::new(&camera);
+        let mut engine = Engine::new(&camera);
+        prop_assert_eq!(engine.before(0), None);
+        engine.remember(true);
+        for frame in &film(&camera, seed, &script) {
+            engine.step(frame).unwrap();
+            prop_assert_eq!(&resumed(&engine, frame), model.step(frame).unwrap());
+        }
+        engine.reset();
+        prop_assert_eq!(engine.before(0), None);
+        engine.remember(false);
+        engine.step(&film(&camera, seed, &script)[0]).unwrap();
+        prop_assert_eq!(engine.before(0), None);
+    }
+}
