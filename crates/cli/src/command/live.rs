@@ -29,5 +29,5 @@ pub(crate) fn run(args: &LiveArgs) -> Result<(), CliError> {
         }
         std::thread::sleep(LOOK);
     }
-    Err(CliError::Stopped { done: format!("{} frames decoded", player.frames()) })
+    Err(CliError::Stopped { done: format!("{} frames", player.frames()) })
 }

@@ -22,6 +22,7 @@ mod infer_clips;
 mod infer_files;
 mod inputs;
 mod link;
+mod live;
 mod outputs;
 mod prefix;
 mod progress;

@@ -8,6 +8,7 @@ mod browser;
 mod client;
 mod guard;
 mod line;
+mod player;
 mod sent;
 mod shown;
 mod trouble;

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Frames of an input for the page that runs a camera: each of a clip once, in order, the bits of the file.
+
+use std::fs;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+use foveate_camera::CameraConfig;
+use foveate_footage::{InputOptions, open};
+use foveate_frame::Plane;
+use foveate_view::{Player, PlayerOptions, ViewError};
+use serde_json::Value;
+
+use crate::client::{Answer, get, parts, request};
+
+fn play(inputs: &[&str]) -> Result<Player, ViewError> {
+    play_at(inputs, "127.0.0.1:0")
+}
+
+fn play_at(inputs: &[&str], address: &str) -> Result<Player, ViewError> {
+    Player::open(PlayerOptions {
+        inputs: inputs.iter().copied().map(str::to_owned).collect(),
+        input: InputOptions { frames: Some(3), ..InputOptions::default() },
+        preset: None,
+        camera: None,
+        address: address.parse().unwrap(),
+    })
+}
+
+/// The head and the pixels of an answer.
+fn frame(link: &str, after: i64) -> (Value, Vec<u8>) {
+    let answer = get(link, &format!("frames?after={after}"));
+    assert_eq!(answer.status, 200);
+    let (length, rest) = answer.body.split_first_chunk().unwrap();
+    let (text, pixels) = rest.split_at(u32::from_le_bytes(*length) as usize);
+    (serde_json::from_slice(text).unwrap(), pixels.to_owned())
+}
+
+fn restart(link: &str) -> Answer {
+    let (host, token) = parts(link);
+    request(host, &format!("POST /{token}/restart HTTP/1.1\r\nHost: {host}\r\n\r\n"))
+}
+
+/// Frames of a scene as `simulate` reads them.
+fn expected() -> Vec<Vec<u8>> {
+    let options = InputOptions { frames: Some(3), ..InputOptions::default() };
+    let mut source = open(&["scene:street"], &CameraConfig::default(), &options).unwrap();
+    let mut frames = Vec::new();
+    while let Some(next) = source.next_frame().unwrap() {
+        match next.frame.plane() {
+            Plane::Bytes(pixels) => frames.push(pixels.to_vec()),
+            Plane::Words(_) => panic!("8 bits are bytes"),
+        }
+    }
+    assert!(frames.len() == 3 && frames[0] != frames[1] && frames[1] != frames[2]);
+    frames
+}
+
+#[test]
+fn a_clip_waits_for_the_page_and_loses_no_frame() {
+    let (player, expected) = (play(&["scene:street"]).unwrap(), expected());
+    let link = player.link();
+    let mut after = -1;
+    for round in 0..2_i64 {
+        for (number, pixels) in (0_i64..).zip(&expected) {
+            // The page takes its time, and asks twice.
+            std::thread::sleep(Duration::from_millis(30));
+            let (head, found) = frame(&link, after);
+            assert_eq!(head["number"], 3 * round + number, "{head}");
+            assert_eq!((&head["status"], &head["live"]), (&"running".into(), &false.into()));
+            assert_eq!((&head["width"], &head["height"]), (&224.into(), &224.into()));
+            assert_eq!(head["t_us"], [0, 33_333, 66_667][usize::try_from(number).unwrap()]);
+            assert!(found == *pixels, "frame {number}");
+            assert!(frame(&link, after).1 == *pixels, "frame {number} a second time");
+            after = head["number"].as_i64().unwrap();
+        }
+        let (head, found) = frame(&link, after);
+        assert_eq!((&head["status"], found.len()), (&"ended".into(), 0), "{head}");
+        assert!(head["text"].as_str().unwrap().contains("has ended"), "{head}");
+        // The page begins again as if it knew nothing.
+        assert_eq!(restart(&link).status, 200);
+        after = if round == 0 { -1 } else { after };
+    }
+    assert!(player.news().is_empty() && player.frames() >= 6);
+}
+
+#[test]
+fn only_the_link_opens_the_page_and_its_frames() {
+    let player = play(&["scene:street"]).unwrap();
+    let link = player.link();
+    let page = String::from_utf8(get(&link, "").body).unwrap();
+    assert!(page.contains("data-frames=\"frames\"") && page.contains("Content-Security-Policy"));
+    assert!(get(&link, "").head.contains("frame-ancestors 'none'"));
+    assert_eq!(get(&link, "restart").status, 405);
+    assert_eq!(get(&link, "register").status, 404);
+    let (host, token) = parts(&link);
+    for path in ["", "frames?after=-1"] {
+        for (token, named) in [("x", host), (&token[1..], host), (token, "evil.example")] {
+            let asked = format!("GET /{token}/{path} HTTP/1.1\r\nHost: {named}\r\n\r\n");
+            assert_eq!(request(host, &asked).status, 403, "{path}");
+        }
+    }
+    // Without an input the page has what the browser has.
+    let player = play(&[]).unwrap();
+    let page = String::from_utf8(get(&player.link(), "").body).unwrap();
+    assert!(!page.contains("data-frames=") && page.contains("Foveate, live"));
+    assert_eq!(get(&player.link(), "frames?after=-1").status, 404);
+}
+
+#[test]
+fn an_input_that_breaks_off_says_why() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("cut.y4m");
+    let mut clip = b"YUV4MPEG2 W4 H2 F25:1 Cmono\n".to_vec();
+    for _ in 0..2 {
+        clip.extend(b"FRAME\n12345678");
+    }
+    clip.truncate(clip.len() - 3);
+    fs::write(&file, clip).unwrap();
+    let player = play(&[file.to_str().unwrap()]).unwrap();
+    let link = player.link();
+    assert_eq!(frame(&link, -1).1, b"12345678");
+    let (head, found) = frame(&link, 0);
+    assert!(head["status"] != "running" && found.is_empty(), "{head}");
+    let patience = Instant::now() + Duration::from_secs(20);
+    let news = loop {
+        let news = player.news();
+        if !news.is_empty() || Instant::now() > patience {
+            break news;
+        }
+    };
+    assert_eq!(news, [head["text"].as_str().unwrap()]);
+}
+
+#[test]
+fn what_cannot_be_played_is_refused_at_once() {
+    let refused = |input: &str| play(&[input]).unwrap_err().to_string();
+    assert!(refused("missing.mp4").contains("`missing.mp4` does not exist"));
+    assert!(refused("scene:nothing").contains("nothing"));
+    assert!(refused("rtsp://me:secret@127.0.0.1:9/x").contains("rtsp://127.0.0.1:9/x"));
+    let outside = play_at(&["scene:street"], "0.0.0.0:0");
+    assert!(matches!(outside, Err(ViewError::Address { .. })), "{outside:?}");
+    assert!(!Path::new("missing.mp4").exists());
+}
