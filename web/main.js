@@ -25,6 +25,8 @@ let engine, described, presets, table;
 let own = { ...START };
 let camera = null, config = null, source = null, pixels = null, files = [];
 let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
+/** Means a side, as they were chosen last. */
+let means = 1;
 let speed = 1, wanted = 0, recording = false, recorded = "", began = null, explained = { at: 0, cost: 0 };
 /** The last two frames, which a changed camera sees at once while all stands still. */
 let last = [];
@@ -58,6 +60,7 @@ function configure(wish) {
   camera?.free();
   camera = made;
   config = unsized(made.facts.config);
+  means = config.periphery?.blocks ?? means;
   begin();
   screens.resize(camera.facts);
   controls.show(camera.facts, own.preset);
@@ -95,7 +98,11 @@ function tried(change) {
 }
 
 function changed(key, value) {
-  return tried(() => configure(wished(key, value)));
+  return tried(() => {
+    const before = means;
+    configure(wished(key, value));
+    if (key === "region.size") means = before;
+  });
 }
 
 /** The configuration with another value of a key, and with what that brings. */
@@ -104,6 +111,8 @@ function wished(key, value) {
   const wish = withKey(config, key, value);
   // A camera without means has no periphery.
   if (key === "render.irrelevant" && value !== "mean") delete wish.periphery;
+  // Means that do not divide the new side become the engine's own choice, and come back with a side that they divide.
+  if (key === "region.size" && wish.periphery) wish.periphery.blocks = value % means ? undefined : means;
   return wish;
 }
 

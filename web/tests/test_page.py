@@ -170,6 +170,15 @@ def test_what_the_engine_refuses_is_told_beside_the_control(still):
     assert "size = 16" in page.evaluate(TOML)
 
 
+def test_means_follow_the_side_of_a_region(still):
+    page = still(f"#size={WIDTH}x{HEIGHT}&preset=fovea")
+    seen = []
+    for side in (9, 10, 16):
+        put(page, "region.size", side)
+        seen.append(page.evaluate("[foveate.config.region.size, foveate.config.periphery.blocks]"))
+    assert seen == [[9, 1], [10, 2], [16, 2]]
+
+
 def test_presets_are_those_of_the_command(still):
     page = still(f"#size={WIDTH}x{HEIGHT}")
     names = [line.split()[0] for line in foveate("presets").splitlines()]
@@ -467,7 +476,7 @@ def test_reduced_motion_begins_paused(opened):
 def test_hardware_is_from_the_table_or_a_command(still):
     page = still("#preset=fovea")
     assert page.locator("#area dd").count() == 5
-    put(page, "region.size", 11)
+    put(page, "region.size", 24)
     command = page.inner_text("#area pre")
     assert command.startswith("foveate estimate --config camera.toml")
     assert page.locator("#area dd").count() == 0
