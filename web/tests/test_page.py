@@ -9,6 +9,7 @@ import gzip
 import io
 import os
 import re
+import shlex
 import subprocess
 import urllib.parse
 from pathlib import Path
@@ -480,6 +481,13 @@ def test_hardware_is_from_the_table_or_a_command(still):
     command = page.inner_text("#area pre")
     assert command.startswith("foveate estimate --config camera.toml")
     assert page.locator("#area dd").count() == 0
+    # The design of any preset becomes a core.
+    control(page, "preset", "select").select_option("serial")
+    put(page, "region.size", 24)
+    (Path(page.folder) / "camera.toml").write_text(page.evaluate(TOML))
+    command = shlex.split(page.inner_text("#area pre"))
+    told = foveate("check", *command[2:], cwd=page.folder)
+    assert "raster" in told and "640 x 480" in told and "24x24" in told
 
 
 def test_the_computer_serves_frames(server):
