@@ -259,7 +259,7 @@ export class Computer {
   natural = null;
   slow = false;
   onend = () => {};
-  #path; #after = -1; #ended = false; #waiting = null; #first = true;
+  #path; #after = -1; #ended = false; #waiting = null; #first = true; #run = 0;
   constructor(path) { this.#path = path; }
   async open() {
     while (!this.#waiting) {
@@ -285,6 +285,7 @@ export class Computer {
   async step(width, height) { return this.take(width, height); }
   async restart() {
     await fetch("restart", { method: "POST" });
+    this.#run++;
     this.#after = -1;
     this.#ended = false;
     this.#waiting = null;
@@ -292,6 +293,7 @@ export class Computer {
   }
   async #next() {
     let bytes;
+    const run = this.#run;
     try {
       const answer = await fetch(`${this.#path}?after=${this.#after}`);
       if (!answer.ok) throw new Error(await answer.text());
@@ -299,6 +301,8 @@ export class Computer {
     } catch {
       return this.#end("foveate live does not answer; start it again and open its new link");
     }
+    // What was on its way when all began again.
+    if (run !== this.#run) return null;
     const length = new DataView(bytes).getUint32(0, true);
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
     const grey = new Uint8Array(bytes, 4 + length);
