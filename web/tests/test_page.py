@@ -105,6 +105,19 @@ def test_a_scene_runs_and_nothing_is_requested(opened):
     assert requests == []
 
 
+def test_a_scene_slows_down_and_changes_its_size(opened):
+    page = opened("#size=160x120")
+    page.select_option("#speed", "0.1")
+    page.wait_for_timeout(400)
+    before = page.evaluate("foveate.sums.frames")
+    page.wait_for_timeout(1500)
+    assert 2 <= page.evaluate("foveate.sums.frames") - before <= 7
+    page.select_option("#size", "320x240")
+    assert page.evaluate("[foveate.camera.facts.width, foveate.camera.facts.height]") == [320, 240]
+    frames(page, 1)
+    assert page.evaluate("document.querySelector('#receiver canvas').width") == 320
+
+
 CHANGES = {
     "region.size": 16,
     "region.neighborhood": "shared",
