@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Builds the book (docs/, mkdocs.yml) into target/book and fails on a broken link, a missing anchor, a page that the contents
 # do not list, and anything that a reader's browser would load from the network. MkDocs comes from PyPI, see python_tools.sh.
-# FOVEATE_PAGE may name the live page as one file; without it cargo makes it.
 #
 #   scripts/book.sh            then open target/book/index.html
 #   scripts/book.sh --serve    at http://127.0.0.1:8000, built anew when a page changes
@@ -14,11 +13,7 @@ case ${1:-} in
 esac
 tools=$(scripts/python_tools.sh --book)
 # The live page, of which the tutorial has a frame. Git does not know it here.
-if [ -n "${FOVEATE_PAGE:-}" ]; then
-    cp "$FOVEATE_PAGE" docs/live.html
-else
-    cargo run --quiet --locked -p foveate-view --example camera_page >docs/live.html
-fi
+"$(scripts/foveate.sh)" live --page docs/live.html
 # The theme's note about its successor, which reads the same mkdocs.yml.
 export NO_MKDOCS_2_WARNING=1
 if [ "${1:-}" = --serve ]; then exec "$tools/mkdocs" serve; fi

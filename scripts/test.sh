@@ -40,14 +40,14 @@ step "shell, Python, dependencies"
 scripts/static.sh
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
-step "book"
-scripts/book.sh
 step "build of the tests"
 cargo test --workspace --locked --quiet --no-run --lib --bins --tests
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
 step "the engine of the live page, in a browser and natively"
 scripts/web.sh --test
+step "book"
+scripts/book.sh
 step "Python package, the documents with it, workflow on this machine"
 wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(scripts/python.sh)

@@ -85,7 +85,7 @@ compiler() {
     echo "$folder"
 }
 
-# Makes a file of WebAssembly a fifth smaller, at the same speed.
+# Makes a file of WebAssembly a seventh smaller, at the same speed.
 shrink() {
     local program features=(simd bulk-memory sign-ext nontrapping-float-to-int mutable-globals reference-types multivalue)
     program=$(command -v wasm-opt || { command -v apt-get >/dev/null && echo "$(unpacked binaryen binaryen)/wasm-opt"; }) ||

@@ -3,7 +3,7 @@
 """Makes the pictures of the live page that the book shows: docs/images/live-*.png. Chromium opens the page, and its own keys and
 controls are used. `scripts/python_tools.sh --browser` prints the folder of a Python with what this needs.
 
-    scripts/web_pictures.py PAGE         of this file; `cargo run -p foveate-view --example camera_page` writes it
+    scripts/web_pictures.py PAGE         of this file; `foveate live --page PAGE` writes it
 """
 
 import io

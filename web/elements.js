@@ -35,3 +35,19 @@ export function download(name, type, text) {
   make("a", { href: link, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(link), 10_000);
 }
+
+/** Copies a text, and says so. */
+export async function copy(text, what) {
+  try {
+    await navigator.clipboard.writeText(text);
+    say("copied", `${what} is in the clipboard`);
+  } catch {
+    // Without the right to the clipboard there is still the old way.
+    const area = make("textarea", { value: text });
+    document.body.append(area);
+    area.select();
+    const done = document.execCommand("copy");
+    area.remove();
+    say("copied", done ? `${what} is in the clipboard` : `the browser refuses its clipboard; ${what} is: ${text}`);
+  }
+}

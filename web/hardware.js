@@ -24,10 +24,11 @@ export function showHardware(place, table, facts) {
     const [lut, ff, ram, mhz, rate] = found.slice(5);
     const figures = [["LUT", lut], ["FF", ff], ["RAMB36", ram], ["MHz", mhz], ["frames/s", rate]];
     const list = figures.map(([name, value]) => make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value })));
-    const note = make("p", { className: "quiet" }, make("small", { textContent: `${table.tool}; the clock is estimated from the netlist, 25 % either way. Thresholds are registers and change nothing.` }));
+    const note = make("p", { className: "quiet" }, make("small", { textContent: `${table.tool}; the clock is estimated from the netlist, 25 % either way. Thresholds are inputs of the core and change none of this.` }));
     place.replaceChildren(title, make("dl", {}, ...list), note);
   } else {
-    const command = `foveate estimate --config camera.toml --set 'hardware.organization="raster"' --set frame.width=${width} --set frame.height=${height}`;
+    const keys = ["'hardware={organization=\"raster\",sync=true}'", `frame.width=${width}`, `frame.height=${height}`];
+    const command = `foveate estimate --config camera.toml ${keys.map(key => `--set ${key}`).join(" ")}`;
     place.replaceChildren(title, make("p", { textContent: "It is not in the table. With the copied TOML as camera.toml, this estimates it:" }),
       make("pre", { textContent: command, tabIndex: 0 }));
   }

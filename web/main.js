@@ -4,12 +4,13 @@
 import { Engine } from "./engine.js";
 import { Controls } from "./controls.js";
 import { withDepth } from "./depth.js";
-import { at, bytes, download, make, plain, say } from "./elements.js";
+import { at, copy, make, plain, say } from "./elements.js";
 import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
 import { readLink, writeLink } from "./link.js";
 import { PixelCamera } from "./pixel_camera.js";
 import { showReasons } from "./reasons.js";
+import { Recording } from "./recording.js";
 import { Screens } from "./screens.js";
 import { Clip, Computer, Pictures, Scene, Webcam } from "./sources.js";
 import { withKey, writeToml } from "./toml.js";
@@ -25,10 +26,13 @@ let engine, described, presets, table;
 let own = { ...START };
 let camera = null, config = null, source = null, pixels = null, files = [];
 let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
-let speed = 1, wanted = 0, recording = false, recorded = "", began = null, explained = { at: 0, cost: 0 };
+/** Means a side, as they were chosen last. */
+let means = 1;
+let speed = 1, wanted = 0, began = null, explained = { at: 0, cost: 0 };
 /** The last two frames, which a changed camera sees at once while all stands still. */
 let last = [];
 let screens, figures, controls;
+const recording = new Recording(() => camera);
 
 // What went wrong, until the next try.
 function notice(text) {
@@ -54,10 +58,11 @@ function sizeOf() {
 function configure(wish) {
   const { width, height } = sizeOf();
   const made = engine.configure(writeToml(wish), width, height);
-  stopRecording();
+  recording.end();
   camera?.free();
   camera = made;
   config = unsized(made.facts.config);
+  means = config.periphery?.blocks ?? means;
   begin();
   screens.resize(camera.facts);
   controls.show(camera.facts, own.preset);
@@ -95,7 +100,11 @@ function tried(change) {
 }
 
 function changed(key, value) {
-  return tried(() => configure(wished(key, value)));
+  return tried(() => {
+    const before = means;
+    configure(wished(key, value));
+    if (key === "region.size") means = before;
+  });
 }
 
 /** The configuration with another value of a key, and with what that brings. */
@@ -104,6 +113,8 @@ function wished(key, value) {
   const wish = withKey(config, key, value);
   // A camera without means has no periphery.
   if (key === "render.irrelevant" && value !== "mean") delete wish.periphery;
+  // Means that do not divide the new side become the engine's own choice, and come back with a side that they divide.
+  if (key === "region.size" && wish.periphery) wish.periphery.blocks = value % means ? undefined : means;
   return wish;
 }
 
@@ -211,13 +222,13 @@ async function opened(list) {
 function step(frame) {
   const start = performance.now();
   if (frame.fresh && figures.sums.frames) {
-    stopRecording();
+    recording.end();
     forget();
   }
   began ??= frame.time_us;
   const time = Math.max(frame.time_us - began, 0);
   const sent = frame.rgba ? camera.stepRgba(frame.rgba, time) : camera.step(frame.grey, time);
-  if (sent.recording) recordedSo(sent.recording);
+  if (sent.recording) recording.grew(sent.recording);
   const events = pixels.step(camera.input);
   screens.paint(camera);
   const now = performance.now();
@@ -267,21 +278,21 @@ function stepOnce() {
 async function reset() {
   notice();
   last = [];
-  const again = recording;
-  stopRecording();
+  const again = recording.on;
+  recording.end();
   await source?.restart().catch(error => notice(error.message));
   if (!camera) return;
   begin();
-  if (again) record(true);
+  if (again) recording.begin();
   if (paused) wanted = 1;
 }
 
 // --- One region
 
-function explain(now) {
+function explain(now, asked = false) {
   const region = screens.chosen;
   if (!region || !last.length) return;
-  if (!paused && (now - explained.at < EXPLAIN_MS || explained.cost > EXPLAIN_COST)) return;
+  if (!paused && !asked && (now - explained.at < EXPLAIN_MS || explained.cost > EXPLAIN_COST)) return;
   const start = performance.now();
   const message = tried(() => showReasons(at("reasons"), camera.explain(region.x, region.y, own.source)));
   if (message) at("reasons").replaceChildren(make("p", { className: "refused", textContent: plain(message) }));
@@ -302,51 +313,6 @@ function keepLink() {
   kept = setTimeout(() => history.replaceState(null, "", link()), 200);
 }
 
-async function copy(text, what) {
-  try {
-    await navigator.clipboard.writeText(text);
-    say("copied", `${what} is in the clipboard`);
-  } catch {
-    // Without the right to the clipboard there is still the old way.
-    const area = make("textarea", { value: text });
-    document.body.append(area);
-    area.select();
-    const done = document.execCommand("copy");
-    area.remove();
-    say("copied", done ? `${what} is in the clipboard` : `the browser refuses its clipboard; ${what} is: ${text}`);
-  }
-}
-
-/** Records every region of every frame from now on, or ends that and keeps what was recorded for the download. */
-function record(on) {
-  const message = tried(() => {
-    if (!on) recorded = camera.events();
-    camera.record(on);
-    recording = on;
-  });
-  at("record").setAttribute("aria-pressed", recording);
-  at("download").disabled = !recording && !recorded;
-  say("recorded", message ?? (on ? "recording" : `events.csv has ${bytes(recorded.length)}`));
-}
-
-function stopRecording() {
-  if (recording) record(false);
-}
-
-/** Says how much is recorded; a full recording has ended by itself. */
-function recordedSo({ frames, bytes: size, full }) {
-  say("recorded", `${frames} frames, ${bytes(size)}${full ? ", which is all that is kept; download it" : ""}`);
-}
-
-function downloadEvents() {
-  const message = tried(() => {
-    const text = recording ? camera.events() : recorded;
-    download("events.csv", "text/csv", text);
-    say("recorded", `events.csv has ${bytes(text.length)}`);
-  });
-  if (message) say("recorded", message);
-}
-
 /** Takes the settings of the link; what it says wrongly is told, and the rest is as at the start. */
 async function fromLink() {
   let wish = readLink("");
@@ -359,17 +325,18 @@ async function fromLink() {
   showSizes();
   const preset = presetConfig(own.preset), from = own.source;
   // A camera must be there before a source shows it something.
-  let refused = tried(() => configure(wrong ? preset : wish.apply(preset)));
+  const refused = tried(() => configure(wrong ? preset : wish.apply(preset)));
   if (refused) {
     own.size = "";
     showSizes();
     configure(preset);
   }
+  let told = wrong ?? (refused && `the link is refused: ${refused}`);
   if (!await choose(from) && !source) {
-    refused ??= at("notice").textContent;
+    told ??= at("notice").textContent;
     await choose(frames_path && from !== "computer" ? "computer" : START.source);
   }
-  if (wrong ?? refused) notice(wrong ?? `the link is refused: ${refused}`);
+  if (told) notice(told);
 }
 
 function showSizes() {
@@ -405,8 +372,8 @@ function wire() {
   at("speed").onchange = event => { speed = Number(event.target.value); source?.speed(speed); };
   at("copy-toml").onclick = () => copy(camera.facts.toml, "the TOML");
   at("copy-link").onclick = () => copy(location.href.replace(/#.*$/, "") + link(), "the link");
-  at("record").onclick = () => record(!recording);
-  at("download").onclick = downloadEvents;
+  at("record").onclick = () => { if (recording.on) recording.end(); else recording.begin(); };
+  at("download").onclick = () => recording.download();
   addEventListener("hashchange", () => { if (location.hash !== link()) fromLink(); });
   document.onkeydown = event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select, textarea")) return;
@@ -455,7 +422,7 @@ async function start() {
     made.free();
     return { name, summary, config: unsized(config) };
   });
-  screens = new Screens(() => explain(performance.now() + EXPLAIN_MS));
+  screens = new Screens(() => explain(performance.now(), true));
   figures = new Figures();
   controls = new Controls(at("controls"), described, { presets, change: changed, toggle: toggled, preset: presetChosen });
   wire();

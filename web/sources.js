@@ -260,7 +260,7 @@ export class Computer {
   natural = null;
   slow = true;
   onend = () => {};
-  #path; #after = -1; #ended = false; #waiting = null; #first = true;
+  #path; #after = -1; #ended = false; #waiting = null; #first = true; #run = 0;
   #factor = 1; #shown = { now: 0, time_us: 0 };
   constructor(path) { this.#path = path; }
   async open() {
@@ -300,6 +300,7 @@ export class Computer {
   async restart() {
     const answer = await fetch("restart", { method: "POST" }).catch(() => null);
     if (answer && !answer.ok) return this.onend(await answer.text());
+    this.#run++;
     this.#after = -1;
     this.#ended = false;
     this.#waiting = null;
@@ -307,6 +308,7 @@ export class Computer {
   }
   async #next() {
     let bytes;
+    const run = this.#run;
     try {
       const answer = await fetch(`${this.#path}?after=${this.#after}`);
       if (!answer.ok) throw new Error(await answer.text());
@@ -314,6 +316,8 @@ export class Computer {
     } catch {
       return this.#end("foveate live does not answer; start it again and open its new link");
     }
+    // What was on its way when all began again.
+    if (run !== this.#run) return null;
     const length = new DataView(bytes).getUint32(0, true);
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
     const grey = new Uint8Array(bytes, 4 + length);

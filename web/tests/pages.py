@@ -24,14 +24,9 @@ ROOT = Path(__file__).resolve().parents[2]
 
 @pytest.fixture(scope="session")
 def page_file(tmp_path_factory):
-    """The page as one file: FOVEATE_PAGE, or made by the library."""
-    given = os.environ.get("FOVEATE_PAGE")
-    if given:
-        return Path(given)
-    command = ["cargo", "run", "--quiet", "--locked", "-p", "foveate-view", "--example", "camera_page"]
-    done = subprocess.run(command, cwd=ROOT, capture_output=True, check=True)
+    """The page as one file, as the program writes it."""
     path = tmp_path_factory.mktemp("page") / "page.html"
-    path.write_bytes(done.stdout)
+    subprocess.run([os.environ["FOVEATE"], "live", "--page", path], check=True)
     return path
 
 

@@ -9,6 +9,7 @@ import gzip
 import io
 import os
 import re
+import shlex
 import subprocess
 import urllib.parse
 from pathlib import Path
@@ -104,6 +105,19 @@ def test_a_scene_runs_and_nothing_is_requested(opened):
     assert requests == []
 
 
+def test_a_scene_slows_down_and_changes_its_size(opened):
+    page = opened("#size=160x120")
+    page.select_option("#speed", "0.1")
+    page.wait_for_timeout(400)
+    before = page.evaluate("foveate.sums.frames")
+    page.wait_for_timeout(1500)
+    assert 2 <= page.evaluate("foveate.sums.frames") - before <= 7
+    page.select_option("#size", "320x240")
+    assert page.evaluate("[foveate.camera.facts.width, foveate.camera.facts.height]") == [320, 240]
+    frames(page, 1)
+    assert page.evaluate("document.querySelector('#receiver canvas').width") == 320
+
+
 CHANGES = {
     "region.size": 16,
     "region.neighborhood": "shared",
@@ -168,6 +182,15 @@ def test_what_the_engine_refuses_is_told_beside_the_control(still):
     put(page, "region.size", 16)
     assert page.locator("[data-key='region.size'] .refused").is_hidden()
     assert "size = 16" in page.evaluate(TOML)
+
+
+def test_means_follow_the_side_of_a_region(still):
+    page = still(f"#size={WIDTH}x{HEIGHT}&preset=fovea")
+    seen = []
+    for side in (9, 10, 16):
+        put(page, "region.size", side)
+        seen.append(page.evaluate("[foveate.config.region.size, foveate.config.periphery.blocks]"))
+    assert seen == [[9, 1], [10, 2], [16, 2]]
 
 
 def test_presets_are_those_of_the_command(still):
@@ -467,10 +490,17 @@ def test_reduced_motion_begins_paused(opened):
 def test_hardware_is_from_the_table_or_a_command(still):
     page = still("#preset=fovea")
     assert page.locator("#area dd").count() == 5
-    put(page, "region.size", 11)
+    put(page, "region.size", 24)
     command = page.inner_text("#area pre")
     assert command.startswith("foveate estimate --config camera.toml")
     assert page.locator("#area dd").count() == 0
+    # The design of any preset becomes a core.
+    control(page, "preset", "select").select_option("serial")
+    put(page, "region.size", 24)
+    (Path(page.folder) / "camera.toml").write_text(page.evaluate(TOML))
+    command = shlex.split(page.inner_text("#area pre"))
+    told = foveate("check", *command[2:], cwd=page.folder)
+    assert "raster" in told and "640 x 480" in told and "24x24" in told
 
 
 def test_the_computer_serves_frames(server):

@@ -19,7 +19,7 @@ macro_rules! web {
 }
 
 /// The modules of the page, each behind those that it imports.
-const MODULES: [&str; 13] = web![
+const MODULES: [&str; 14] = web![
     "engine.js",
     "elements.js",
     "toml.js",
@@ -31,6 +31,7 @@ const MODULES: [&str; 13] = web![
     "controls.js",
     "figures.js",
     "reasons.js",
+    "recording.js",
     "hardware.js",
     "main.js",
 ];

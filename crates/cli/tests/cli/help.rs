@@ -12,7 +12,7 @@ use foveate_toolchain::testing::require_tools;
 
 /// Not run here: they take minutes, each is the subject of other tests, and `examples` in the sources
 /// sees that they are taken.
-const LONG: [&str; 17] = [
+const LONG: [&str; 18] = [
     "foveate build --board icebreaker",
     "foveate build --board ulx3s",
     "foveate cosim",
@@ -28,6 +28,7 @@ const LONG: [&str; 17] = [
     "foveate infer resnet50.onnx",
     "foveate infer yolox_nano.onnx",
     // Until Ctrl-C.
+    "foveate live",
     "foveate view",
     "cat packets.bin | foveate view",
     // Events of a real sensor, and a folder of the system.

@@ -2,6 +2,7 @@
 //! A page's cameras against the model, and what is committed against its sources.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod calls;
 mod cameras;
 mod committed;
 mod explanations;
