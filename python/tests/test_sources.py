@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The source distribution has every file that is needed to build it; scripts/sdist.sh builds it."""
+"""The source distribution has every file that is needed to build it; scripts/artefacts.sh --try builds it."""
 import re
 import subprocess
 import sys

@@ -66,7 +66,8 @@ impl Command {
             | Self::Link(_)
             | Self::Bench(_)
             | Self::Presets(_)
-            | Self::Completions(_) => None,
+            | Self::Completions(_)
+            | Self::Man(_) => None,
         }
     }
 }
