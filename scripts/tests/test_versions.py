@@ -22,11 +22,11 @@ def pyproject(**project):
 
 
 class Versions(unittest.TestCase):
-    def found(self, manifest=manifest(), pyproject=pyproject(), citation=CITATION, changelog=CHANGELOG):
-        return list(versions.disagreements(manifest, pyproject, citation, changelog))
+    def found(self, given=None, project=None, citation=CITATION, changelog=CHANGELOG):
+        return list(versions.disagreements(given or manifest(), project or pyproject(), citation, changelog))
 
-    def lacks(self, manifest=manifest(), citation=CITATION, changelog=CHANGELOG, tag=None):
-        return list(versions.missing(manifest, citation, changelog, tag))
+    def lacks(self, given=None, citation=CITATION, changelog=CHANGELOG, tag=None):
+        return list(versions.missing(given or manifest(), citation, changelog, tag))
 
     def test_nothing_where_all_agree(self):
         self.assertEqual(self.found(), [])
@@ -36,27 +36,27 @@ class Versions(unittest.TestCase):
     def test_every_place_is_looked_at(self):
         older = manifest()
         older["workspace"]["dependencies"]["foveate-frame"]["version"] = "1.2.3"
-        for given, word in [
-            ({"manifest": older}, 'foveate-frame is of version 1.2.3; it has to be "=1.2.3"'),
-            ({"pyproject": pyproject(dynamic=[])}, "pyproject.toml"),
+        for changed, word in [
+            ({"given": older}, 'foveate-frame is of version 1.2.3; it has to be "=1.2.3"'),
+            ({"project": pyproject(dynamic=[])}, "pyproject.toml"),
             ({"citation": CITATION.replace("1.2.3", "1.2.4")}, "CITATION.cff: version is 1.2.4"),
             # Not the version of the format.
             ({"citation": "cff-version: 1.2.3\n"}, "CITATION.cff: version is None"),
             ({"changelog": CHANGELOG.replace("1.2.3", "1.3.0")}, "the newest section is [1.3.0]"),
         ]:
-            (one,) = self.found(**given)
+            (one,) = self.found(**changed)
             self.assertIn(word, one)
 
     def test_a_release_lacks_what_is_not_there(self):
-        for given, word in [
+        for changed, word in [
             ({"changelog": CHANGELOG.replace("[1.2.3] - 2026-11-25", "[Unreleased]")}, "name it [1.2.3]"),
             ({"changelog": CHANGELOG.replace(" - 2026-11-25", "")}, "is of None"),
             ({"changelog": CHANGELOG.replace("- A thing.", "")}, "says nothing"),
             ({"citation": CITATION.replace("11-25", "11-24")}, "date-released is 2026-11-24; the changelog says 2026-11-25"),
-            ({"manifest": manifest(repository=None)}, "no repository"),
+            ({"given": manifest(repository=None)}, "no repository"),
             ({"tag": "1.2.3"}, "it has to be v1.2.3"),
         ]:
-            (one,) = self.lacks(**given)
+            (one,) = self.lacks(**changed)
             self.assertIn(word, one)
 
     def test_a_crate_without_licences_or_with_a_link_to_elsewhere_is_unfit(self):
