@@ -111,10 +111,11 @@ try_python() {
     try_package wheel "$out"/*.whl
     try_package sources "$out/foveate-$version.tar.gz"
 }
+# The sources are built without optimization: the question is whether all are there.
 try_package() {
     local environment=$clean/$1
     python3 -m venv "$environment"
-    (cd "$clean" && TMPDIR=$clean "$environment/bin/pip" install --quiet --disable-pip-version-check --no-cache-dir "$2")
+    (cd "$clean" && TMPDIR=$clean CARGO_PROFILE_RELEASE_OPT_LEVEL=0 CARGO_PROFILE_RELEASE_LTO=off "$environment/bin/pip" install --quiet --disable-pip-version-check --no-cache-dir "$2")
     (cd "$clean" && "$environment/bin/python" -c '
 import foveate as fv
 for outcome in fv.simulate("scene:street", "paper", max_frames=20):
