@@ -98,7 +98,7 @@ for text in (told["pkg-url"], told["bin-dir"]):
 
 make_python() {
     rm -f "$out"/*.whl "$out/foveate-$version.tar.gz"
-    "$tools/maturin" build --release --locked --zig --target "$target" --compatibility "manylinux${glibc/./_}" --quiet --out "$out"
+    "$tools/maturin" build --release --locked --zig --target "$target" --compatibility "manylinux_${glibc/./_}" --quiet --out "$out"
     "$tools/maturin" sdist --out "$out" 2>&1 | tail -1
     "$tools/twine" check --strict "$out"/*.whl "$out/foveate-$version.tar.gz"
     # What the name of the wheel promises, judged by its symbols.
