@@ -104,7 +104,7 @@ make_python() {
     # What the name of the wheel promises, judged by its symbols.
     local judged
     judged=$("$tools/auditwheel" show "$out"/*.whl)
-    grep -q "constrained.*manylinux_${glibc/./_}_x86_64\|is consistent with.*manylinux_${glibc/./_}_x86_64" <<<"${judged//$'\n'/ }" ||
+    grep -q "is consistent with the following platform tag: \"manylinux_${glibc/./_}_x86_64\"" <<<"${judged//$'\n'/ }" ||
         { echo "artefacts: the wheel is no manylinux_${glibc/./_}: $judged" >&2 && return 1; }
 }
 try_python() {
