@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, icepack, iverilog, a C++
-# compiler (with that for 32 bits), ffmpeg, shellcheck, Tcl, Python.
+# compiler (with that for 32 bits), make, ffmpeg, shellcheck, Tcl, Python.
 # With --browser, Chromium alone, for scripts/web.sh --test.
 # Debian 12, Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. Elsewhere it says what to install.
 set -euo pipefail
@@ -24,6 +24,8 @@ else
     command -v icepack >/dev/null || missing+=(fpga-icestorm)
     command -v iverilog >/dev/null || missing+=(iverilog)
     command -v g++ >/dev/null || missing+=(g++)
+    # Verilator's own makefile, which the benches of a core use.
+    command -v make >/dev/null || missing+=(make)
     { command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)
     command -v shellcheck >/dev/null || missing+=(shellcheck)
     # FST waves of a Verilator model need zlib's header.

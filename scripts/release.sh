@@ -6,6 +6,7 @@
 #   scripts/release.sh            all steps
 #   scripts/release.sh STEP...    some of them
 #   scripts/release.sh --list     what there is
+#   scripts/release.sh --left     what this commit lacks to be released, and what is done by hand then (RELEASING.md)
 #
 # Logs are in target/release-log/COMMIT: STEP.log of each step, figures.md of all.
 set -euo pipefail
@@ -56,7 +57,7 @@ step_area() { foveate estimate --compare --markdown; }
 step_lint() { scripts/lint.sh && scripts/area_growth.py; }
 step_formal() { scripts/formal.sh; }
 step_coverage() { scripts/coverage.sh; }
-step_sdist() { scripts/sdist.sh; }
+step_artefacts() { scripts/artefacts.sh --try; }
 step_buses() { scripts/buses.sh; }
 step_boards() { scripts/board_parts.sh --faults && scripts/boards.sh; }
 step_newer() { scripts/newer_tools.sh; }
@@ -66,18 +67,49 @@ step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart cosim benches netlists area lint formal buses boards coverage sdist newer mutation memory bench)
+steps=(test quickstart cosim benches netlists area lint formal buses boards coverage artefacts newer mutation memory bench)
 
+# What no step does. Ends with 1 while this commit lacks something.
+left() {
+    local version name lacks=() open=()
+    version=$(scripts/versions.py --print)
+    [ -z "$(git status --porcelain)" ] || lacks+=("the tree has changes that no commit has; git status shows them")
+    mapfile -t -O "${#lacks[@]}" lacks < <(scripts/versions.py --release 2>&1)
+    ! git rev-parse --quiet --verify "refs/tags/v$version" >/dev/null ||
+        lacks+=("there is a tag v$version already, of $(git rev-list -1 --abbrev-commit "v$version"); raise the version, or delete it if it was never pushed")
+    for name in "${steps[@]}"; do
+        [ -e "$log/$name.passed" ] || open+=("$name")
+    done
+    [ ${#open[@]} -eq 0 ] || lacks+=("steps that have not passed on ${commit:0:10}: ${open[*]}; scripts/release.sh runs them")
+    if [ ${#lacks[@]} -gt 0 ]; then
+        printf '%s\n' "before Foveate $version is released:" "${lacks[@]/#/- }"
+    else
+        echo "nothing is left for the steps of Foveate $version"
+    fi
+    cat <<END
+by hand then, in this order (RELEASING.md has the reasons):
+1. git tag --sign v$version --message "Foveate $version" && git push origin v$version
+2. wait for the hosted run "Release": checks, artefacts, container, and a draft of the release; download its artefacts into target/artefacts
+3. cargo publish --workspace --exclude foveate-python --locked
+4. \$(scripts/python_tools.sh --artefacts)/twine upload target/artefacts/*.whl target/artefacts/foveate-$version.tar.gz
+5. publish the draft
+6. on another machine: cargo binstall foveate && pip install foveate && foveate --version
+7. a section [Unreleased] in CHANGELOG.md, and the next version in Cargo.toml and CITATION.cff
+END
+    [ ${#lacks[@]} -eq 0 ]
+}
+
+commit=$(git rev-parse HEAD)
+log=$(realpath -m "${CARGO_TARGET_DIR:-target}/release-log/$commit")
 case ${1:-} in
--h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
+--left) left && exit 0 || exit 1 ;;
+-h | --help) sed -n '3,12s/^# \{0,1\}//p' "$0" && exit 0 ;;
 --list) printf '%s\n' "${steps[@]}" && exit 0 ;;
 esac
 for name in "$@"; do
     declare -F "step_$name" >/dev/null || { echo "release: there is no step $name; scripts/release.sh --list shows them" >&2; exit 2; }
 done
 [ -z "$(git status --porcelain --untracked-files=no)" ] || { echo "release: commit first; a log belongs to a commit" >&2; exit 2; }
-commit=$(git rev-parse HEAD)
-log=$(realpath -m "${CARGO_TARGET_DIR:-target}/release-log/$commit")
 mkdir -p "$log"
 scripts/install_tools.sh
 cargo build --release --locked --quiet --package foveate
@@ -120,3 +152,4 @@ done
 } >"$log/figures.md"
 echo "figures: $log/figures.md"
 [ ${#failed[@]} -eq 0 ] || { echo "release: ${failed[*]} failed" >&2; exit 1; }
+[ $# -gt 0 ] || left

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Checks what is not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), dependencies
-# (cargo-deny: licences, bans, sources; skipped where it is not installed), and that no large file is tracked. Installs what is
-# missing of the first three.
+# Checks what is not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), hosted workflows (their schema),
+# the container file (hadolint), CITATION.cff (its schema), that all places name one version, dependencies (cargo-deny: licences,
+# bans, sources; skipped where it is not installed), and that no large file is tracked. Installs what is missing but the last.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_tools.sh
@@ -13,6 +13,10 @@ shellcheck "${shell[@]}"
 mapfile -t python < <(git ls-files '*.py')
 "$tools/ruff" check --quiet "${python[@]}"
 python3 -W error::SyntaxWarning -m unittest discover --quiet --start-directory scripts/tests
+"$tools/check-jsonschema" --builtin-schema vendor.github-workflows .github/workflows/*.yml
+"$tools/hadolint" Containerfile
+"$tools/check-jsonschema" --builtin-schema vendor.citation-file-format CITATION.cff
+scripts/versions.py
 # Nothing here has to be as large; what is came by mistake.
 large=$(git ls-files -z | xargs -0 -I{} find {} -maxdepth 0 -size +1000k)
 [ -z "$large" ] || { echo "static: tracked files of more than 1 MB: $large" >&2 && exit 1; }

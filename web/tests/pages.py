@@ -19,7 +19,6 @@ from PIL import Image
 from waiting import until
 
 CHROMIUMS = ("chromium", "chromium-browser", "google-chrome", "chrome")
-ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.fixture(scope="session")

@@ -88,6 +88,7 @@ pub(crate) enum Command {
     Bench(BenchArgs),
     Presets(PresetsArgs),
     Completions(CompletionsArgs),
+    Man(ManArgs),
 }
 
 /// Where the design comes from.
@@ -355,6 +356,15 @@ pub(crate) struct CompletionsArgs {
     /// The shell
     #[arg(value_enum)]
     pub(crate) shell: Shell,
+}
+
+/// Write the manual pages, one for each command
+#[derive(Args, Debug)]
+#[command(after_help = "Example: foveate man -o man/man1")]
+pub(crate) struct ManArgs {
+    /// Folder to write `foveate.1`, `foveate-check.1` ... into; pages of these names are replaced
+    #[arg(long, short, value_name = "DIR")]
+    pub(crate) output: PathBuf,
 }
 
 fn at_least_one() -> RangedI64ValueParser<u32> {

@@ -67,5 +67,6 @@ fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
         Command::Bench(args) => command::bench::run(args),
         Command::Presets(args) => command::presets::run(args),
         Command::Completions(args) => command::completions::run(args),
+        Command::Man(args) => command::man::run(args),
     }
 }

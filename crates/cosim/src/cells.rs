@@ -9,7 +9,7 @@ use crate::harness::rendered;
 use askama::Template;
 
 /// Text of a DSP slice that multiplies.
-const DSP: &str = include_str!("../../../tb/cells/dsp48e2.v");
+const DSP: &str = include_str!("../tb/cells/dsp48e2.v");
 
 /// A block RAM with a port to read and a port to write, or one that does both.
 #[derive(Template)]

@@ -68,7 +68,7 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         Vivado { banner: banner(design), before: prefix.name(""), has_rpu: Top::has_rpu(design) };
     let beside = [
         ("foveate_rcm.core".to_owned(), text_of(&fusesoc(design, prefix, paths))),
-        ("constraints/ooc.xdc".to_owned(), include_str!("../../../constraints/ooc.xdc").to_owned()),
+        ("constraints/ooc.xdc".to_owned(), include_str!("../constraints/ooc.xdc").to_owned()),
         ("vivado_ooc.tcl".to_owned(), text_of(&vivado)),
         ("design.toml".to_owned(), design_toml(design)),
         ("tb/replay.sh".to_owned(), text_of(&replay(design, prefix))),

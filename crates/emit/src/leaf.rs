@@ -22,10 +22,10 @@ macro_rules! leaves {
 
 macro_rules! text {
     (cores, $name:literal) => {
-        include_str!(concat!("../../../rtl/", $name, ".v"))
+        include_str!(concat!("../rtl/", $name, ".v"))
     };
     (boards, $name:literal) => {
-        include_str!(concat!("../../../rtl/board/", $name, ".v"))
+        include_str!(concat!("../rtl/board/", $name, ".v"))
     };
 }
 

@@ -15,7 +15,7 @@ use foveate_pictures::palette::{DARK, LIGHT};
 use sha2::{Digest as _, Sha256};
 
 macro_rules! web {
-    ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../../../web/", $name))),*] };
+    ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../web/", $name))),*] };
 }
 
 /// The modules of the page, each behind those that it imports.
@@ -40,17 +40,17 @@ const MODULES: [&str; 14] = web![
 #[must_use]
 pub fn camera_page(frames: Option<&str>) -> String {
     let script: String = MODULES.iter().map(|module| as_part(module)).collect();
-    let style = include_str!("../../../web/style.css")
+    let style = include_str!("../web/style.css")
         .replace("/*LIGHT*/", &variables(&LIGHT))
         .replace("/*DARK*/", &variables(&DARK));
     let frames = frames.map_or(String::new(), |path| format!(" data-frames=\"{path}\""));
-    include_str!("../../../web/index.html")
+    include_str!("../web/index.html")
         .replace("<html lang=\"en\">", &format!("<html lang=\"en\"{frames}>"))
         .replace("POLICY", &policy(&script, &style))
         .replace("/*STYLE*/", &style)
-        .replace("/*HARDWARE*/", include_str!("../../../web/hardware.json"))
+        .replace("/*HARDWARE*/", include_str!("../web/hardware.json"))
         .replace("/*SCRIPT*/", &script)
-        .replace("/*WASM*/", &packed(include_bytes!("../../../web/foveate.wasm")))
+        .replace("/*WASM*/", &packed(include_bytes!("../web/foveate.wasm")))
 }
 
 /// A module as a part of one script: it imports nothing, because what it would import stands above it.
@@ -106,7 +106,7 @@ mod tests {
 
     #[test]
     fn every_module_of_the_folder_is_in_it() {
-        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../web");
+        let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/web");
         let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
         let modules: Vec<_> =
             files.filter(|path| path.extension().is_some_and(|own| own == "js")).collect();

@@ -67,7 +67,8 @@ impl Command {
             | Self::Link(_)
             | Self::Bench(_)
             | Self::Presets(_)
-            | Self::Completions(_) => None,
+            | Self::Completions(_)
+            | Self::Man(_) => None,
         }
     }
 }

@@ -17,6 +17,7 @@ pub(crate) mod generate;
 pub(crate) mod infer;
 pub(crate) mod link;
 pub(crate) mod live;
+pub(crate) mod man;
 pub(crate) mod presets;
 pub(crate) mod simulate;
 pub(crate) mod stress;

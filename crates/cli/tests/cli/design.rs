@@ -267,6 +267,25 @@ fn completions_name_the_commands() {
     }
 }
 
+#[test]
+fn there_is_a_manual_page_for_each_command() {
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &["man", "-o", "man/man1"]);
+    let page = |name: &str| fs::read_to_string(dir.path().join("man/man1").join(name)).unwrap();
+    let main = page("foveate.1");
+    let names: Vec<&str> = main
+        .lines()
+        .filter_map(|line| line.strip_prefix("foveate\\-")?.strip_suffix("(1)"))
+        .collect();
+    assert!(names.contains(&"simulate") && names.contains(&"man"), "{main}");
+    for name in &names {
+        assert!(page(&format!("foveate-{name}.1")).contains(".SH SYNOPSIS"), "{name}");
+    }
+    assert_eq!(fs::read_dir(dir.path().join("man/man1")).unwrap().count(), names.len() + 1);
+    fs::write(dir.path().join("file"), "").unwrap();
+    fail_in(dir.path(), 2, &["man", "-o", "file"], &["cannot make the folder `file`"]);
+}
+
 /// Regenerate with the commands that CONTRIBUTING.md has under "Change what is generated".
 #[test]
 fn the_committed_cores_are_not_stale() {
