@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""`foveate live` and its page together: settings and frames of the command are those of the page, to the byte."""
+
+import os
+import subprocess
+from pathlib import Path
+
+import pytest
+from waiting import until
+
+pytest_plugins = ["pages"]
+
+FOVEATE = os.environ.get("FOVEATE", "foveate")
+DESIGN = ["--preset", "fovea", "--set", "region.size=4", "--set", "spatial.0.level=40"]
+
+
+@pytest.fixture
+def served(visit, chromium, tmp_path):
+    """Opens the page of `foveate live` on a clip that no browser decodes."""
+    clip = tmp_path / "clip.y4m"
+    source = ["-f", "lavfi", "-i", "testsrc=size=100x60:rate=20:duration=0.6"]
+    subprocess.run(["ffmpeg", "-v", "error", *source, "-pix_fmt", "yuv420p", clip], check=True)
+    with subprocess.Popen([FOVEATE, "live", clip, *DESIGN], stdout=subprocess.PIPE, text=True) as live:
+        link = live.stdout.readline().strip()
+        yield lambda **options: (visit(chromium, link, **options), clip)
+        live.terminate()
+        assert live.wait(10) == 143
+
+
+def test_a_clip_is_what_simulate_makes_of_it(served):
+    page, clip = served(reduced_motion="reduce")
+    until(page, "foveate.sums.frames === 1")
+    assert page.evaluate("[foveate.camera.facts.width, foveate.camera.facts.height]") == [100, 60]
+    page.click("#record")
+    page.click("#reset")
+    until(page, "foveate.sums.frames === 1")
+    for number in range(2, 8):
+        page.click("#step")
+        until(page, "number => foveate.sums.frames === number", number)
+    page.click("#record")
+    with page.expect_download() as waiting:
+        page.click("#download")
+    ours = Path(waiting.value.path()).read_text().splitlines()
+    out = Path(page.folder) / "out"
+    subprocess.run([FOVEATE, "simulate", clip, "-o", out, *DESIGN, "--events", "csv", "--quiet"], check=True)
+    theirs = (out / "events.csv").read_text().splitlines()
+    assert ours == theirs[: 1 + 7 * 25 * 15]
+
+
+def test_a_clip_has_its_own_times_and_an_end(served):
+    page, _ = served()
+    until(page, "document.getElementById('notice').textContent.includes('the clip has ended')")
+    assert page.evaluate("foveate.sums.frames") == 12
+    # Slowly, and begun again: 12 frames of 50 ms take 6 s at a tenth.
+    page.locator("#speed").select_option("0.1")
+    page.click("#reset")
+    until(page, "foveate.sums.frames === 1")
+    page.wait_for_timeout(1200)
+    assert 2 <= page.evaluate("foveate.sums.frames") <= 5
