@@ -3,8 +3,8 @@
 
 use std::fmt::Write as _;
 use std::net::SocketAddr;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use foveate_design::{CameraConfig, Preset};
@@ -53,7 +53,8 @@ impl Player {
         let settings = settings(preset.as_deref(), camera.as_ref())?;
         let opened = if inputs.is_empty() { None } else { Some(Reel::open(inputs, input)?) };
         let (reel, source) = opened.unzip();
-        let site = Arc::new(PlayerSite { reel, is_over: AtomicBool::new(false) });
+        let (page, is_over) = (OnceLock::new(), AtomicBool::new(false));
+        let site = Arc::new(PlayerSite { reel, page, is_over });
         let server = Server::start(address, Arc::clone(&site))?;
         if let Some(source) = source {
             let site = Arc::clone(&site);
@@ -100,6 +101,8 @@ impl Drop for Player {
 #[derive(Debug)]
 struct PlayerSite {
     reel: Option<Reel>,
+    /// Made for the first browser; to compress the engine takes a while.
+    page: OnceLock<String>,
     is_over: AtomicBool,
 }
 
@@ -109,7 +112,8 @@ impl Site for PlayerSite {
     }
 
     fn page(&self, _nonce: &str) -> String {
-        camera_page(self.reel.as_ref().map(|_| "frames"))
+        let frames = self.reel.as_ref().map(|_| "frames");
+        self.page.get_or_init(|| camera_page(frames)).clone()
     }
 
     /// The page says itself what it may load.

@@ -47,7 +47,7 @@ struct State {
     newest: Option<Shot>,
     /// The number of the next frame.
     next: u64,
-    /// Frames before this number were asked for.
+    /// The last number that was asked for.
     wanted: u64,
     /// The page wants to begin again.
     begins_again: bool,
@@ -55,13 +55,36 @@ struct State {
     news: Vec<String>,
 }
 
+/// How frames come.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Kind {
+    /// When they are asked for, as often as is wanted.
+    Clip,
+    /// When they are asked for, once.
+    Once,
+    /// When they want to.
+    Camera,
+}
+
+impl Kind {
+    fn of(inputs: &[String]) -> Self {
+        let any = |test: fn(&Path) -> bool| inputs.iter().any(|input| test(Path::new(input)));
+        match (any(is_camera), any(is_read_once)) {
+            (true, _) => Self::Camera,
+            (false, true) => Self::Once,
+            (false, false) => Self::Clip,
+        }
+    }
+}
+
 /// An input, and how far it was read.
 #[derive(Debug)]
 pub(crate) struct Reel {
     inputs: Vec<String>,
     options: InputOptions,
-    is_camera: bool,
-    is_read_once: bool,
+    kind: Kind,
+    /// Its name, which has no password.
+    name: String,
     state: Mutex<State>,
     changed: Condvar,
 }
@@ -80,11 +103,10 @@ impl Reel {
         options: InputOptions,
     ) -> Result<(Self, Box<dyn Source>), FootageError> {
         let source = open(&inputs, &bytes(), &options)?;
-        let once = |test: fn(&Path) -> bool| inputs.iter().any(|input| test(Path::new(input)));
-        let text = format!("`{}`", source.inputs().join(", "));
+        let name = format!("`{}`", source.inputs().join(", "));
         let state = State {
             status: Status::Running,
-            text,
+            text: name.clone(),
             newest: None,
             next: 0,
             wanted: 0,
@@ -93,8 +115,8 @@ impl Reel {
             news: Vec::new(),
         };
         let reel = Self {
-            is_camera: once(is_camera),
-            is_read_once: once(is_read_once),
+            kind: Kind::of(&inputs),
+            name,
             inputs,
             options,
             state: Mutex::new(state),
@@ -129,8 +151,6 @@ impl Reel {
                 return;
             }
             state.begins_again = false;
-            state.status = Status::Running;
-            state.text = format!("`{}`", self.inputs.join(", "));
         }
     }
 
@@ -140,16 +160,16 @@ impl Reel {
         loop {
             let mut state = self.lock();
             // A frame is read when it is asked for.
-            while !self.is_camera && state.next > state.wanted && !self.is_stopped(&state) {
+            while self.is_early(&state) && !Self::is_stopped(&state) {
                 state = self.wait(state);
             }
-            if self.is_stopped(&state) {
+            if Self::is_stopped(&state) {
                 return Ok(None);
             }
             drop(state);
             let Some(read) = source.next_frame()? else { return Ok(source.problem()) };
             let mut state = self.lock();
-            if self.is_stopped(&state) {
+            if Self::is_stopped(&state) {
                 return Ok(None);
             }
             let shot = Shot { number: state.next, time_us: read.time_us, frame: read.frame };
@@ -159,7 +179,15 @@ impl Reel {
         }
     }
 
-    fn is_stopped(&self, state: &State) -> bool {
+    /// Whether nobody has asked for the next frame, and it can wait.
+    fn is_early(&self, state: &State) -> bool {
+        match self.kind {
+            Kind::Clip | Kind::Once => state.next > state.wanted,
+            Kind::Camera => false,
+        }
+    }
+
+    fn is_stopped(state: &State) -> bool {
         state.is_over || state.begins_again
     }
 
@@ -183,7 +211,7 @@ impl Reel {
         let text = json!({
             "status": status.name(),
             "text": state.text,
-            "live": self.is_camera,
+            "live": self.kind == Kind::Camera,
             "number": shot.map(|shot| shot.number),
             "t_us": shot.map(|shot| shot.time_us),
             "width": shot.map(|shot| shot.frame.width()),
@@ -199,16 +227,19 @@ impl Reel {
         [&length.to_le_bytes(), text.as_bytes(), pixels].concat()
     }
 
-    /// Begins again, if the input can be read a second time.
+    /// Begins again, if the input can be read a second time. A camera that sends goes on; one that has broken off is opened
+    /// again.
     pub(crate) fn restart(&self) -> Result<(), String> {
-        if self.is_camera {
-            return Ok(());
-        }
-        if self.is_read_once {
-            return Err("standard input comes once; start `foveate live` again".to_owned());
-        }
         let mut state = self.lock();
+        match (self.kind, state.status) {
+            (Kind::Once, _) => {
+                return Err("standard input comes once; start `foveate live` again".to_owned());
+            }
+            (Kind::Camera, Status::Running) => return Ok(()),
+            (Kind::Camera, Status::Ended | Status::Failed) | (Kind::Clip, _) => {}
+        }
         state.begins_again = true;
+        (state.status, state.text) = (Status::Running, self.name.clone());
         state.newest = None;
         state.wanted = state.next;
         self.changed.notify_all();
@@ -235,5 +266,46 @@ impl Reel {
 
     fn wait<'a>(&self, state: MutexGuard<'a, State>) -> MutexGuard<'a, State> {
         self.changed.wait(state).unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+
+    /// The head of an answer.
+    fn head(answer: &[u8]) -> serde_json::Value {
+        let (length, rest) = answer.split_first_chunk().unwrap();
+        serde_json::from_slice(&rest[..u32::from_le_bytes(*length) as usize]).unwrap()
+    }
+
+    #[test]
+    fn a_camera_that_has_broken_off_is_opened_again_and_one_that_sends_goes_on() {
+        let options = InputOptions { frames: Some(3), ..InputOptions::default() };
+        let (mut reel, source) = Reel::open(vec!["scene:street".to_owned()], options).unwrap();
+        // A scene that does not wait.
+        reel.kind = Kind::Camera;
+        reel.restart().unwrap();
+        assert!(!reel.lock().begins_again);
+        let reel = Arc::new(reel);
+        let reading = {
+            let reel = Arc::clone(&reel);
+            std::thread::spawn(move || reel.run(source))
+        };
+        let long = Duration::from_secs(60);
+        for run in 1..=2 {
+            // Nobody asked for the first two.
+            let last = head(&reel.frame(Some(3 * run - 2), long));
+            assert_eq!((&last["number"], &last["live"]), (&(3 * run - 1).into(), &true.into()));
+            assert_eq!(head(&reel.frame(Some(3 * run - 1), long))["status"], "ended");
+            reel.restart().unwrap();
+            // It is not what it was any more, also before the reader has noticed.
+            assert_eq!(reel.lock().status, Status::Running);
+        }
+        reel.end();
+        reading.join().unwrap();
+        assert!(reel.news().is_empty());
     }
 }
