@@ -13,6 +13,7 @@ mod hint;
 mod interrupt;
 mod output;
 mod progress;
+mod serving;
 
 use std::ffi::OsString;
 

@@ -3,40 +3,21 @@
 //! tested in the crate `view`, the page in Chromium.
 #![cfg(unix)]
 
-use std::io::{BufRead as _, BufReader, Read as _, Write as _};
-use std::net::TcpStream;
-use std::process::{Command, Stdio};
-
-use crate::common::{fail_in, listening, run_in, succeed_in};
+use crate::common::{fail_in, run_in, succeed_in};
+use crate::served::Served;
 
 #[test]
 fn frames_are_served_until_it_is_told_to_stop() {
+    let dir = tempfile::tempdir().unwrap();
     for (signal, code) in [("INT", 130), ("TERM", 143)] {
-        let mut child = listening()
-            .args(["live", "scene:street", "--frames", "2", "--preset", "fovea"])
-            .args(["--set", "region.size=16"])
-            .stdin(Stdio::null())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut link = String::new();
-        BufReader::new(child.stdout.take().unwrap()).read_line(&mut link).unwrap();
-        let (address, settings) = link.trim().split_once('#').unwrap();
+        let frames = ["live", "scene:street", "--frames", "2"];
+        let design = ["--preset", "fovea", "--set", "region.size=16"];
+        let live = Served::start(dir.path(), &[&frames[..], &design].concat());
+        let (_, settings) = live.link.split_once('#').unwrap();
         assert_eq!(settings, "preset=fovea&region.size=16");
-        let (host, token) = address.strip_prefix("http://").unwrap().split_once('/').unwrap();
-        let mut browser = TcpStream::connect(host).unwrap();
-        write!(browser, "GET /{token}frames?after=-1 HTTP/1.1\r\nHost: {host}\r\n\r\n").unwrap();
-        let mut status = [0; 15];
-        browser.read_exact(&mut status).unwrap();
-        assert_eq!(&status, b"HTTP/1.1 200 OK");
-
-        let id = child.id().to_string();
-        let killed = Command::new("kill").args([&format!("-{signal}"), &id]).status().unwrap();
-        assert!(killed.success());
-        assert_eq!(child.wait().unwrap().code(), Some(code));
-        let mut told = String::new();
-        child.stderr.take().unwrap().read_to_string(&mut told).unwrap();
+        live.gives("frames?after=-1");
+        let (stopped, told) = live.stopped_by(signal);
+        assert_eq!(stopped, Some(code));
         assert_eq!(told, "foveate: interrupted after 1 frames\n");
     }
 }

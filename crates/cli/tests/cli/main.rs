@@ -27,6 +27,7 @@ mod outputs;
 mod prefix;
 mod progress;
 mod serial;
+mod served;
 mod signals;
 mod simulation;
 mod stress;

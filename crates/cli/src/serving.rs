@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Commands that serve a page: its link is printed, then what there is to say, until somebody stops it.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::sleep;
+use std::time::Duration;
+
+use crate::error::CliError;
+use crate::{interrupt, output};
+
+/// Between two looks at what there is to say.
+const LOOK: Duration = Duration::from_millis(50);
+
+/// A command that listens for signals before it opens anything.
+pub(crate) struct Serving {
+    interrupted: Arc<AtomicBool>,
+}
+
+impl Serving {
+    pub(crate) fn begin() -> Result<Self, CliError> {
+        Ok(Self { interrupted: interrupt::flag()? })
+    }
+
+    /// Prints the link, and says the news until a signal comes.
+    pub(crate) fn until_stopped(
+        self,
+        link: &str,
+        news: impl Fn() -> Vec<String>,
+        frames: impl Fn() -> u64,
+    ) -> Result<(), CliError> {
+        output::text(&format!("{link}\n"))?;
+        while !self.interrupted.load(Ordering::Relaxed) {
+            for text in news() {
+                eprintln!("foveate: {text}");
+            }
+            sleep(LOOK);
+        }
+        Err(CliError::Stopped { done: format!("{} frames", frames()) })
+    }
+}

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A command that serves a page until a signal comes, and a browser that knows its link.
+#![cfg(unix)]
+
+use std::io::{BufRead as _, BufReader, Read as _, Write as _};
+use std::net::TcpStream;
+use std::path::Path;
+use std::process::{Child, ChildStderr, Command, Stdio};
+
+use crate::common::listening;
+
+/// A command that has printed its link.
+pub(crate) struct Served {
+    child: Child,
+    pub(crate) link: String,
+    /// What it says.
+    pub(crate) errors: BufReader<ChildStderr>,
+}
+
+impl Served {
+    /// Starts it in `folder`.
+    pub(crate) fn start(folder: &Path, args: &[&str]) -> Self {
+        let mut child = listening()
+            .args(args)
+            .current_dir(folder)
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .unwrap();
+        let mut link = String::new();
+        BufReader::new(child.stdout.take().unwrap()).read_line(&mut link).unwrap();
+        let errors = BufReader::new(child.stderr.take().unwrap());
+        Self { child, link: link.trim().to_owned(), errors }
+    }
+
+    /// Asks for what is below the link, and expects a good answer.
+    pub(crate) fn gives(&self, what: &str) {
+        let (page, _settings) = self.link.split_once('#').unwrap_or((&self.link, ""));
+        let (host, token) = page.strip_prefix("http://").unwrap().split_once('/').unwrap();
+        let mut browser = TcpStream::connect(host).unwrap();
+        write!(browser, "GET /{token}{what} HTTP/1.1\r\nHost: {host}\r\n\r\n").unwrap();
+        let mut status = [0; 15];
+        browser.read_exact(&mut status).unwrap();
+        assert_eq!(&status, b"HTTP/1.1 200 OK");
+    }
+
+    /// Ends it by a signal; its exit code, and what it said since it was read last.
+    pub(crate) fn stopped_by(mut self, signal: &str) -> (Option<i32>, String) {
+        let id = self.child.id().to_string();
+        let sent = Command::new("kill").args([&format!("-{signal}"), &id]).status().unwrap();
+        assert!(sent.success());
+        let code = self.child.wait().unwrap().code();
+        let mut told = String::new();
+        self.errors.read_to_string(&mut told).unwrap();
+        (code, told)
+    }
+}
