@@ -128,31 +128,25 @@ fn every_planted_fault_of_what_finds_frames_is_caught() {
     all_are_caught(sync_faults::FAULTS);
 }
 
+/// Lists that every run plants whole.
+const ALWAYS: [&[Fault]; 4] =
+    [faults::FAULTS, deep_faults::FAULTS, summary_faults::FAULTS, sync_faults::FAULTS];
+/// Lists of which it plants some.
+const SAMPLED: [&[Fault]; 4] = [
+    summary_faults::RASTER,
+    serial_faults::FAULTS,
+    serial_summary_faults::FAULTS,
+    raster_faults::FAULTS,
+];
+
 /// The faults of every organization.
 fn all_faults() -> impl Iterator<Item = &'static Fault> {
-    let lists = [
-        faults::FAULTS,
-        deep_faults::FAULTS,
-        summary_faults::FAULTS,
-        summary_faults::RASTER,
-        serial_faults::FAULTS,
-        serial_summary_faults::FAULTS,
-        raster_faults::FAULTS,
-        sync_faults::FAULTS,
-    ];
-    lists.into_iter().flatten()
+    ALWAYS.into_iter().chain(SAMPLED).flatten()
 }
 
 /// Those that this run plants.
 fn planted_faults() -> impl Iterator<Item = &'static Fault> {
-    let always = [faults::FAULTS, deep_faults::FAULTS, summary_faults::FAULTS, sync_faults::FAULTS];
-    let sampled = [
-        summary_faults::RASTER,
-        serial_faults::FAULTS,
-        serial_summary_faults::FAULTS,
-        raster_faults::FAULTS,
-    ];
-    always.into_iter().flatten().chain(sampled.into_iter().flat_map(planted))
+    ALWAYS.into_iter().flatten().chain(SAMPLED.into_iter().flat_map(planted))
 }
 
 /// Else a fault would be caught that is none.
