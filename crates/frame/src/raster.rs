@@ -2,7 +2,7 @@
 //! A frame as video has it: a byte per pixel up to 8 bits, a word above, so that video goes
 //! from a pipe into the engine without being widened, narrowed or copied on the way.
 
-use crate::{Frame, FrameError, index};
+use crate::{Frame, FrameError, convert_depth, index};
 
 /// Pixels row by row with nothing between: a frame, or what is on the screen, without padding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -20,6 +20,16 @@ impl Plane<'_> {
         match self {
             Self::Bytes(pixels) => pixels.iter().map(|&pixel| pixel.into()).collect(),
             Self::Words(pixels) => pixels.to_vec(),
+        }
+    }
+
+    /// Appends pixels of `bits` bits as 8-bit grey, a byte each: what a browser draws.
+    pub fn grey(self, bits: u32, grey: &mut Vec<u8>) {
+        let low = |pixel: u16| convert_depth(pixel, bits, 8).to_le_bytes()[0];
+        match self {
+            Self::Bytes(pixels) if bits == 8 => grey.extend_from_slice(pixels),
+            Self::Bytes(pixels) => grey.extend(pixels.iter().map(|&pixel| low(pixel.into()))),
+            Self::Words(pixels) => grey.extend(pixels.iter().map(|&pixel| low(pixel))),
         }
     }
 }

@@ -50,17 +50,7 @@ impl Depth {
     /// Pixels of the camera as 8-bit grey.
     pub(crate) fn show(&self, pixels: Plane<'_>, grey: &mut Vec<u8>) {
         grey.clear();
-        match pixels {
-            Plane::Bytes(pixels) if self.bits == 8 => grey.extend_from_slice(pixels),
-            Plane::Bytes(pixels) => {
-                grey.extend(pixels.iter().map(|&pixel| self.grey(pixel.into())));
-            }
-            Plane::Words(pixels) => grey.extend(pixels.iter().map(|&pixel| self.grey(pixel))),
-        }
-    }
-
-    fn grey(&self, pixel: u16) -> u8 {
-        low(convert_depth(pixel, self.bits, 8))
+        pixels.grey(self.bits, grey);
     }
 }
 
