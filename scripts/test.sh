@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs every check: format, clippy, documentation, the book, the Python package, the workflow, unit, property, golden, command line,
+# Runs every check: format, clippy, documentation, the book, the live page in Chromium, the Python package, the workflow, unit, property, golden, command line,
 # RTL lint, co-simulation, a sample of proofs and of mutants. Installs what is missing.
 #
 # A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used where FOVEATE_DATA names their folder.
