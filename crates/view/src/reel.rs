@@ -55,6 +55,21 @@ struct State {
     news: Vec<String>,
 }
 
+impl State {
+    fn new(text: String) -> Self {
+        Self {
+            status: Status::Running,
+            text,
+            newest: None,
+            next: 0,
+            wanted: 0,
+            begins_again: false,
+            is_over: false,
+            news: Vec::new(),
+        }
+    }
+}
+
 /// How frames come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
@@ -104,16 +119,7 @@ impl Reel {
     ) -> Result<(Self, Box<dyn Source>), FootageError> {
         let source = open(&inputs, &bytes(), &options)?;
         let name = format!("`{}`", source.inputs().join(", "));
-        let state = State {
-            status: Status::Running,
-            text: name.clone(),
-            newest: None,
-            next: 0,
-            wanted: 0,
-            begins_again: false,
-            is_over: false,
-            news: Vec::new(),
-        };
+        let state = State::new(name.clone());
         let reel = Self {
             kind: Kind::of(&inputs),
             name,
@@ -289,6 +295,13 @@ mod tests {
         reel.kind = Kind::Camera;
         reel.restart().unwrap();
         assert!(!reel.lock().begins_again);
+        // It is not what it was any more before the reader has noticed.
+        for status in [Status::Ended, Status::Failed] {
+            *reel.lock() = State { status, begins_again: false, ..State::new(String::new()) };
+            reel.restart().unwrap();
+            let state = reel.lock();
+            assert!(state.begins_again && state.status == Status::Running);
+        }
         let reel = Arc::new(reel);
         let reading = {
             let reel = Arc::clone(&reel);
@@ -301,8 +314,6 @@ mod tests {
             assert_eq!((&last["number"], &last["live"]), (&(3 * run - 1).into(), &true.into()));
             assert_eq!(head(&reel.frame(Some(3 * run - 1), long))["status"], "ended");
             reel.restart().unwrap();
-            // It is not what it was any more, also before the reader has noticed.
-            assert_eq!(reel.lock().status, Status::Running);
         }
         reel.end();
         reading.join().unwrap();
