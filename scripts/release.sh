@@ -36,6 +36,7 @@ step_benches() {
     # Lists of faults, netlists and designs of which the tests take a part.
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted netlists without_forwarding every_feature one_lane
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-boards --test boards -- faults
+    FOVEATE_WHOLE=1 cargo test --locked --package foveate-emit --test emit
 }
 step_netlists() {
     local array=(--level rcm --rounds 1)

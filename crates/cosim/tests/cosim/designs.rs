@@ -27,7 +27,7 @@ fn every_preset_agrees_at_rpu_level_in_both_simulators() {
             // Every organization takes four regions side by side. Icarus is slow, and every sequence comes in each round.
             let (rows, rounds) = match simulator {
                 Simulator::Verilator => (3, Stimulus::default().rounds),
-                Simulator::Iverilog => (2, 1),
+                Simulator::Iverilog => (1, 1),
             };
             let design = design(&preset.config().unwrap(), (4, rows));
             let (width, height) = (32, 8 * rows);

@@ -496,10 +496,10 @@ fn of_raster(size: u32, word: u32) -> String {
 /// A sample; [`every_tied_output_fails_at_every_size`] is the whole.
 #[test]
 fn every_tied_output_fails() {
-    if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
+    if !require_tools(&[Tool::Iverilog, Tool::Vvp, Tool::Verilator]) {
         return;
     }
-    for toml in [
+    let quick = [
         format!("hardware.sync = true\n{}", of_organization(2, None)),
         of_organization(8, None),
         format!("render.irrelevant = 'mean'\n{}", of_organization(8, None)),
@@ -508,14 +508,17 @@ fn every_tied_output_fails() {
             of_organization(6, None)
         ),
         format!("denoise.filter = 'none'\n{}", of_organization(20, None)),
+        of_raster(4, 2),
+        format!("{}spatial = [{{ feature = 'mad', min_score = 5 }}]\n", of_raster(8, 4)),
+    ];
+    // With five to fifteen seconds in Icarus, and less than three in Verilator.
+    let long = [
         of_organization(8, Some((3, "raster"))),
         format!("render.irrelevant = 'mean'\n{}", of_organization(4, Some((7, "parallel")))),
         format!("hardware.sync = true\n{}", of_raster(8, 1)),
-        of_raster(4, 2),
-        format!("{}spatial = [{{ feature = 'mad', min_score = 5 }}]\n", of_raster(8, 4)),
-    ] {
-        negative_controls(&toml, Player::Icarus);
-    }
+    ];
+    quick.iter().for_each(|toml| negative_controls(toml, Player::Icarus));
+    long.iter().for_each(|toml| negative_controls(toml, Player::Verilator));
 }
 
 /// Sizes, folds, feeds and words, every organization: `cargo test -p foveate-cosim --test cosim -- --ignored tied`.
