@@ -51,10 +51,7 @@ pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(S
     let design = design(camera)?;
     let report = at_once_with(py, move |cancel| {
         let toolchain = Toolchain::system().cancelled_by(cancel);
-        let job = EstimateJob {
-            leaves_of: Some(design.unit().split.to_owned()),
-            ..EstimateJob::of(&design, Top::Rcm)
-        };
+        let job = EstimateJob::of(&design, Top::Rcm).with_leaves(&design);
         let cache = Cache::from_env().map_err(raise)?;
         foveate_estimate::estimate(&toolchain, &cache, &job).map_err(raise)
     })??;

@@ -179,7 +179,7 @@ pub(crate) struct CosimArgs {
     /// of serial and raster designs the whole frame. A file, or a module with parameter values, that none of these
     /// reaches is then an error
     #[arg(long, value_enum)]
-    pub(crate) level: Option<CosimLevel>,
+    pub(crate) level: Option<Level>,
     /// Regions of the array for --level rcm, columns x rows. The default is 3x2, or more if two lanes need
     /// more regions, but at most the grid of the frame
     #[arg(long, value_name = "CxR", value_parser = parse_grid)]
@@ -233,14 +233,9 @@ pub(crate) struct CosimArgs {
     pub(crate) quiet: bool,
 }
 
+/// What of a design is simulated or placed.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum Level {
-    Rpu,
-    Rcm,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
-pub(crate) enum CosimLevel {
     Rpu,
     Rcm,
     Axi,
@@ -271,9 +266,10 @@ pub(crate) struct EstimateArgs {
     /// How often to place it, each time from another seed
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = at_least_one(), requires = "place_and_route")]
     pub(crate) seeds: u32,
-    /// What to place: one RPU (of `serial` and `raster`: the smallest array), or the whole array
-    #[arg(long, value_enum, default_value_t = Level::Rpu, requires = "place_and_route")]
-    pub(crate) level: Level,
+    /// What to place: one RPU (of `serial` and `raster`: the smallest array), the whole array, or a core on AXI. The
+    /// default is one RPU, and the core on AXI if the design is one
+    #[arg(long, value_enum, requires = "place_and_route")]
+    pub(crate) level: Option<Level>,
     /// Place the Verilog as it is for every device: for an ECP5, without the memories of that family
     /// (`FOVEATE_ECP5`)
     #[arg(long, requires = "place_and_route")]

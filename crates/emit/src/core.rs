@@ -2,9 +2,10 @@
 //! The files of a core beside its Verilog: file lists, FuseSoC, constraints, Vivado, the benches' script.
 //! Its README is in [`crate::readme`].
 
-use crate::axi::{self, AXI_TOP};
+use crate::axi;
 use crate::organization::emitter;
 use crate::text::text_of;
+use crate::top::AXI_TOP;
 use crate::{Prefix, SourceFile, Top, banner, synth, verilog};
 use askama::Template;
 use foveate_design::{Array, Design};

@@ -26,14 +26,16 @@ mod text;
 mod thresholds;
 mod top;
 mod verilog;
+mod wrapped;
 
 pub use crate::axi::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
-pub use crate::axi::{AXI_TOP, Field, Kind, Register, on_bus, register_table, registers, software};
+pub use crate::axi::{AXI_PARTS, Field, Kind, Register};
+pub use crate::axi::{on_bus, register_table, registers, software};
 pub use crate::core::core;
 pub use error::EmitError;
 pub use leaf::{BOARD_LEAVES, LEAVES, Leaf};
 pub use prefix::Prefix;
-pub use top::{Parameter, Top};
+pub use top::{AXI_CLOCK, AXI_TOP, Parameter, Top};
 pub use verilog::verilog;
 
 use foveate_design::{Design, PipelinedDesign, PipelinedTiming};

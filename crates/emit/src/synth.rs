@@ -5,9 +5,11 @@
 //! module around it has a register of the device for each bit.
 
 use crate::text::text_of;
-use crate::{Prefix, SourceFile, Top, banner};
+use crate::top::{self, AXI_CLOCK, AXI_TOP};
+use crate::wrapped::WrappedPort;
+use crate::{Prefix, SourceFile, Top, axi, banner};
 use askama::Template;
-use foveate_design::{Array, Design, Direction, Port, PortRole};
+use foveate_design::{Design, PortRole};
 
 /// What scripts of a family of devices differ in.
 pub(crate) struct Family {
@@ -114,6 +116,7 @@ struct Script {
     /// What is placed unless something else is asked for.
     top: &'static str,
     has_rpu: bool,
+    on_axi: bool,
 }
 
 #[derive(Template)]
@@ -142,36 +145,9 @@ struct Around {
     banner: String,
     before: String,
     module: String,
+    /// The port of its clock.
+    clock: &'static str,
     ports: Vec<WrappedPort>,
-}
-
-/// A port but the clock.
-struct WrappedPort {
-    name: String,
-    bits: u32,
-    /// Its range and a space; nothing for one bit.
-    range: String,
-    input: bool,
-}
-
-impl WrappedPort {
-    fn of(port: &Port) -> Self {
-        let bits = port.bits();
-        Self {
-            name: port.name.clone(),
-            bits,
-            range: if bits == 1 { String::new() } else { format!("[{}:0] ", bits - 1) },
-            input: port.direction == Direction::Input,
-        }
-    }
-}
-
-/// What is placed unless something else is asked for: arrays of hundreds of RPUs fit no such device.
-pub(crate) fn top(design: &Design) -> Top {
-    match design.unit().array {
-        Array::Copies => Top::Rpu,
-        Array::Whole => Top::Rcm,
-    }
 }
 
 /// What nextpnr is told for the first device of a family, as a list of FuseSoC.
@@ -197,8 +173,9 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
             before_synthesis: family.before_synthesis,
             devices: family.devices,
             names: names.join(", "),
-            top: top(design).module(),
+            top: top::placed(design),
             has_rpu: Top::has_rpu(design),
+            on_axi: design.is_on_axi(),
         };
         let tcl = Tcl {
             banner: banner(design),
@@ -218,19 +195,17 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         files.push(file(format!("{}.tcl", family.script), text_of(&tcl)));
         files.push(file(format!("{}_registers.v", family.script), text_of(&registers)));
     }
-    for &top in Top::all_of(design) {
+    let arrays = Top::all_of(design).iter().map(|top| {
         let ports = top.ports(design);
-        let around = Around {
-            banner: banner(design),
-            before: before(),
-            module: prefix.name(top.module()),
-            ports: ports
-                .iter()
-                .filter(|port| port.role != PortRole::Clock)
-                .map(WrappedPort::of)
-                .collect(),
-        };
-        files.push(file(format!("{}_ports.v", prefix.name(top.module())), text_of(&around)));
+        let wrapped = ports.iter().filter(|port| port.role != PortRole::Clock);
+        (top.module(), "clk_i", wrapped.map(WrappedPort::of).collect())
+    });
+    let on_bus = axi::wrapped_ports(design).map(|ports| (AXI_TOP, AXI_CLOCK, ports));
+    for (module, clock, ports) in arrays.chain(on_bus) {
+        let module = prefix.name(module);
+        let name = format!("{module}_ports.v");
+        let around = Around { banner: banner(design), before: before(), module, clock, ports };
+        files.push(file(name, text_of(&around)));
     }
     files
 }

@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The two modules that may be on top of a design.
+//! The modules that may be on top of a design: its unit, its array, and that on a bus.
 
 use foveate_design::{Array, Design, Hardware, Interface, Port};
+
+/// The module on top of a core on a bus, with the array inside.
+pub const AXI_TOP: &str = "rcm_axi";
+/// The port of its clock.
+pub const AXI_CLOCK: &str = "aclk";
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
@@ -72,5 +77,15 @@ impl Top {
     #[must_use]
     pub fn ports(self, design: &Design) -> Vec<Port> {
         self.interface(design).ports()
+    }
+}
+
+/// The module that is placed unless something else is asked for: all of a core, but arrays of hundreds of RPUs fit no
+/// such device.
+pub(crate) fn placed(design: &Design) -> &'static str {
+    match design.unit().array {
+        _ if design.is_on_axi() => AXI_TOP,
+        Array::Copies => Top::Rpu.module(),
+        Array::Whole => Top::Rcm.module(),
     }
 }

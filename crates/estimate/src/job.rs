@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An estimate: one run of Yosys for unit and array, one for the leaves, side by side.
+//! An estimate: one run of Yosys for unit and array, one for a core on a bus, and one for the leaves beside them.
 
 use std::sync::atomic::Ordering;
 use std::thread;
 
-use foveate_toolchain::{Cache, SynthesisJob, ToolError, Toolchain, sources_sha256};
+use foveate_toolchain::{Cache, Synthesis, SynthesisJob, ToolError, Toolchain, sources_sha256};
 
+use crate::bus::BusArea;
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::leaves::leaf_areas;
 use crate::levels::{Library, longest_paths};
-use crate::netlist::Netlist;
+use crate::netlist::{NETLIST, Netlist};
 use crate::report::{AreaReport, Areas, Paths, Rtl, Timing, Units};
-
-/// What messages call the netlist.
-const NETLIST: &str = "netlist.json";
 
 /// A design to estimate.
 #[derive(Debug, Clone)]
 pub struct EstimateJob {
     /// The array and its unit.
     pub synthesis: SynthesisJob,
+    /// The core on a bus, with that array inside; none of an array with ports only.
+    pub bus: Option<SynthesisJob>,
     /// What people call the unit: `RPU` or `lane`.
     pub unit_name: String,
     /// How many of them the array has.
@@ -45,14 +45,15 @@ pub fn estimate(
     cache: &Cache,
     job: &EstimateJob,
 ) -> Result<AreaReport, EstimateError> {
-    let (synthesis, leaves) = thread::scope(|scope| {
+    let (synthesis, bus, leaves) = thread::scope(|scope| {
         let leaves = scope.spawn(|| {
-            let run = |top: &String| job.synthesis.run_apart(top, toolchain, cache);
+            let run = |top: &String| job.on_top().run_apart(top, toolchain, cache);
             job.leaves_of.as_ref().map(run).transpose()
         });
         let synthesis = job.synthesis.run(toolchain, cache);
+        let bus = job.bus.as_ref().map(|bus| bus.run(toolchain, cache)).transpose();
         let leaves = leaves.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-        Ok::<_, EstimateError>((synthesis?, leaves?))
+        Ok::<_, EstimateError>((synthesis?, bus?, leaves?))
     })?;
     // A netlist of many regions takes seconds to be read.
     let go_on = || match toolchain.cancel_flag().load(Ordering::Relaxed) {
@@ -66,7 +67,12 @@ pub fn estimate(
     let without: Vec<&str> = units.iter().map(String::as_str).collect();
     let paths = longest_paths(NETLIST, &synthesis.json, &[without[0], &job.synthesis.array])?;
     go_on()?;
-    let clock = ClockEstimate::of(NETLIST, &synthesis.json, &job.synthesis.array, Library::Xilinx)?;
+    let apart = leaves.map(|json| Netlist::parse(NETLIST, &json)).transpose()?;
+    let on_top = bus.as_ref().unwrap_or(&synthesis);
+    let clock = ClockEstimate::of(NETLIST, &on_top.json, &job.on_top().array, Library::Xilinx)?;
+    go_on()?;
+    let of_bus = |(job, made): (&SynthesisJob, &Synthesis)| BusArea::of(job, made, apart.as_ref());
+    let bus = job.bus.as_ref().zip(bus.as_ref()).map(of_bus).transpose()?;
     go_on()?;
     let [unit, array] = paths.try_into().expect("a path for each of the two modules");
     Ok(AreaReport::new(
@@ -78,20 +84,27 @@ pub fn estimate(
             unit: netlist.whole_area(without[0], &[])?,
             glue: netlist.whole_area(&job.synthesis.array, &without)?,
             array: netlist.whole_area(&job.synthesis.array, &[])?,
+            bus,
         },
         Timing {
             paths: Paths { rpu: unit, rcm: array },
             clock,
             clocks_per_frame: job.clocks_per_frame,
         },
-        match (&job.leaves_of, leaves) {
-            (Some(top), Some(json)) => leaf_areas(top, &Netlist::parse(NETLIST, &json)?)?,
+        match (&job.leaves_of, &apart) {
+            (Some(top), Some(apart)) => leaf_areas(top, apart)?,
             _ => Vec::new(),
         },
     ))
 }
 
 impl EstimateJob {
+    /// What is taken of a device: the core on a bus, else the array.
+    #[must_use]
+    pub fn on_top(&self) -> &SynthesisJob {
+        self.bus.as_ref().unwrap_or(&self.synthesis)
+    }
+
     /// The modules that are the unit, the most frequent first: one for each set of parameters.
     fn units(&self, netlist: &Netlist) -> Result<Vec<String>, EstimateError> {
         let mut found = Vec::new();

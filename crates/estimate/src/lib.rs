@@ -9,6 +9,7 @@
 //! LUTs. Use the figures to compare one design with another.
 
 mod area;
+mod bus;
 mod cells;
 mod clock;
 mod comparison;
@@ -28,6 +29,7 @@ mod synthesis;
 mod table;
 
 pub use area::Area;
+pub use bus::{BusArea, PartArea};
 pub use cells::CellKind;
 pub use clock::ClockEstimate;
 pub use comparison::{Candidate, Comparison, Skipped};

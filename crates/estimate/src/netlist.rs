@@ -12,6 +12,9 @@ use serde::Deserialize;
 use crate::area::Area;
 use crate::error::EstimateError;
 
+/// What messages call a netlist.
+pub(crate) const NETLIST: &str = "netlist.json";
+
 /// The modules of a netlist by name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Netlist(BTreeMap<String, Module>);
@@ -57,10 +60,14 @@ impl Netlist {
     }
 
     pub(crate) fn module(&self, name: &str) -> Result<&Module, EstimateError> {
-        self.0.get(name).ok_or_else(|| EstimateError::MissingModule {
+        self.0.get(name).ok_or_else(|| self.missing(name))
+    }
+
+    fn missing(&self, name: &str) -> EstimateError {
+        EstimateError::MissingModule {
             module: name.to_owned(),
             present: self.0.keys().map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", "),
-        })
+        }
     }
 
     /// The area of a module's own cells, without submodules.
@@ -76,6 +83,18 @@ impl Netlist {
         inside.try_fold(self.own_area(top)?, |sum, (name, &count)| {
             Ok(sum.plus(self.own_area(name)?.times(count)))
         })
+    }
+
+    /// The area of the modules with this name in the source that stand in `top` itself, with all that is inside them.
+    pub(crate) fn area_in(&self, top: &str, source_name: &str) -> Result<Area, EstimateError> {
+        let mut found = None;
+        for (name, &count) in &self.module(top)?.submodules {
+            if self.module(name)?.source_name == source_name {
+                let area = self.whole_area(name, &[])?.times(count);
+                found = Some(found.unwrap_or_else(Area::default).plus(area));
+            }
+        }
+        found.ok_or_else(|| self.missing(source_name))
     }
 
     /// How often each module stands below `top`, at any depth; `leaves` are not entered.
@@ -179,6 +198,19 @@ mod tests {
         assert_eq!((whole.lut_logic_high, whole.lut_memory, whole.carry), (40, 8, 12));
         let without = netlist.whole_area("rpu", &["pair"]).unwrap();
         assert_eq!((without.lut_logic_high, without.lut_memory, without.carry), (7, 8, 3));
+    }
+
+    #[test]
+    fn modules_in_another_are_found_by_the_name_in_their_source() {
+        let json = include_bytes!("../tests/fixtures/leaves_yosys_0.23.json");
+        let netlist = Netlist::parse("netlist", json).unwrap();
+        let (pair, adders) = (netlist.area_in("rpu", "pair"), netlist.area_in("pair", "adder"));
+        let beside = netlist.whole_area("rpu", &["pair"]).unwrap();
+        assert_eq!(pair.unwrap().plus(beside), netlist.whole_area("rpu", &[]).unwrap());
+        assert!(adders.unwrap().carry > 0, "a module with parameters has another name");
+        // Not one that stands deeper.
+        let error = netlist.area_in("rpu", "adder").unwrap_err();
+        assert!(matches!(error, EstimateError::MissingModule { .. }), "{error}");
     }
 
     #[test]

@@ -11,6 +11,9 @@ use foveate_pictures::page::number::grouped;
 use foveate_toolchain::ToolRecord;
 use paper::paper_table;
 
+/// What a core on a bus is called.
+const ON_BUS: &str = "RCM on AXI";
+
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];
 
 /// The report as tables for a terminal of `width` columns; 80 is enough.
@@ -54,17 +57,23 @@ fn area_table(report: &AreaReport) -> Table {
     let mut rows = area_rows(&report.unit, &report.rpu);
     rows.extend(area_rows("RCM", &report.rcm));
     rows.push(area_row("  glue only", &report.rcm_glue));
-    rows.push(share_row(report));
-    Table {
-        title: area_title(report),
-        header: header("module", &COLUMNS),
-        rows,
-        note: Some(
-            "low, high: logic LUTs with and without small ones sharing a LUT. LUT = high + memory. \
-             carry: units of CARRY4. RAMB36: block RAM; half of one is a RAMB18."
-                .to_owned(),
-        ),
+    let mut note =
+        "low, high: logic LUTs with and without small ones sharing a LUT. LUT = high + memory. \
+                    carry: units of CARRY4. RAMB36: block RAM; half of one is a RAMB18."
+            .to_owned();
+    if let Some(bus) = &report.bus {
+        rows.extend(bus.parts.iter().map(|part| area_row(&part.name, &part.area)));
+        rows.extend(area_rows(ON_BUS, &bus.whole));
+        if !bus.parts.is_empty() {
+            note += &format!(
+                " {ON_BUS}: all of it, module {}. The parts between it and the RCM are synthesized apart, \
+                 and do not add up to it: logic is optimized across modules.",
+                bus.module
+            );
+        }
     }
+    rows.push(share_row(report));
+    Table { title: area_title(report), header: header("module", &COLUMNS), rows, note: Some(note) }
 }
 
 fn area_title(report: &AreaReport) -> String {
@@ -88,9 +97,15 @@ fn path_table(report: &AreaReport) -> Table {
     if rcm != rpu {
         note += &format!("RCM: {}. ", way(rcm));
     }
+    let mut rows = vec![row(&report.unit, rpu), row("RCM", rcm)];
+    if let Some(bus) = &report.bus {
+        note += &format!("{ON_BUS}: {}. ", way(&bus.path));
+        rows.push(row(ON_BUS, &bus.path));
+    }
     if let Some(clock) = &report.clock {
         note += &format!(
-            "Estimated clock of the RCM: {}, by Yosys' cell models, which are of the 7 series. ",
+            "Estimated clock of the {}: {}, by Yosys' cell models, which are of the 7 series. ",
+            whole_name(report),
             clock.text()
         );
     }
@@ -107,9 +122,14 @@ fn path_table(report: &AreaReport) -> Table {
     Table {
         title: "Longest path in logic levels, from and to registers, memories and ports".to_owned(),
         header: header("module", &["levels", "CARRY4"]),
-        rows: vec![row(&report.unit, rpu), row("RCM", rcm)],
+        rows,
         note: Some(note),
     }
+}
+
+/// What all of a design is called.
+fn whole_name(report: &AreaReport) -> &'static str {
+    if report.bus.is_some() { ON_BUS } else { "RCM" }
 }
 
 /// The cells of a path, runs of one type as one word.
@@ -168,9 +188,10 @@ fn share_row(report: &AreaReport) -> Vec<String> {
 
 fn leaf_table(report: &AreaReport) -> Table {
     // The first is the module whose leaves they are.
-    let of_array = report.leaves.first().is_some_and(|leaf| leaf.module == "rcm");
-    let whole = if of_array { "RCM" } else { report.unit.as_str() };
-    let title = if of_array { "the RCM".to_owned() } else { format!("one {whole}") };
+    let of_array =
+        report.bus.is_some() || report.leaves.first().is_some_and(|leaf| leaf.module == "rcm");
+    let whole = if of_array { whole_name(report) } else { report.unit.as_str() };
+    let title = if of_array { format!("the {whole}") } else { format!("one {whole}") };
     Table {
         title: format!("Modules of {title}, each synthesized apart"),
         header: header(
@@ -207,7 +228,7 @@ pub fn ramb36(bram18: u64) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::report::tests::{example, serial_example};
+    use crate::report::tests::{bus_example, example, serial_example};
 
     #[test]
     fn text_fits_the_terminal() {
@@ -249,6 +270,30 @@ mod tests {
         assert_eq!(text.matches("| --- |").count(), 4);
         assert!(text.contains("| RPU, Yosys estimate | 160 | 0.87x |"), "{text}");
         assert!(text.contains("| median WIDTH=8 SIDE=8 | 2 |"), "{text}");
+    }
+
+    #[test]
+    fn a_core_on_a_bus_is_shown_with_what_is_around_the_array() {
+        let text = render_text(&bus_example(), 200);
+        let rows: Vec<&str> =
+            text.lines().map(|line| line.split("  ").next().unwrap_or("")).collect();
+        let at = |name: &str| {
+            rows.iter().position(|row| *row == name).unwrap_or_else(|| panic!("{name}: {text}"))
+        };
+        assert!(at("RCM") < at("registers") && at("registers") < at("RCM on AXI"), "{text}");
+        for part in [
+            "Modules of the RCM on AXI, each",
+            " 205 ",
+            " 1,404 ",
+            "  of XCVU9P                 0.00%  0.12%",
+            "Estimated clock of the RCM on AXI: 60",
+            "RCM on AXI       7",
+        ] {
+            assert!(text.contains(part), "{part} in\n{text}");
+        }
+        let widest = render_text(&bus_example(), 80).lines().map(|line| line.chars().count()).max();
+        assert!(widest <= Some(80));
+        assert!(!render_text(&example(4), 80).contains("AXI"));
     }
 
     #[test]

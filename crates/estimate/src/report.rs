@@ -4,6 +4,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::area::Area;
+use crate::bus::BusArea;
 use crate::clock::ClockEstimate;
 use crate::device::{Device, Share};
 use crate::error::EstimateError;
@@ -46,11 +47,12 @@ pub(crate) struct Timing {
 }
 
 /// Areas as they are measured.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub(crate) struct Areas {
     pub(crate) unit: Area,
     pub(crate) glue: Area,
     pub(crate) array: Area,
+    pub(crate) bus: Option<BusArea>,
 }
 
 /// What the array has many of.
@@ -93,21 +95,24 @@ pub struct AreaReport {
     pub rcm_glue: Area,
     /// The RCM: glue and all RPUs or lanes.
     pub rcm: Area,
+    /// The core on a bus, with the RCM inside; nothing where the RCM is all that there is.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bus: Option<BusArea>,
     /// The longest paths.
     pub paths: Paths,
-    /// The clock that the RCM is expected to reach; nothing where it has no logic between registers.
+    /// The clock that the RCM, or the core on a bus, is expected to reach; nothing where it has no logic between registers.
     #[serde(default)]
     pub clock: Option<ClockEstimate>,
     /// Clocks from one frame to the next.
     pub clocks_per_frame: u64,
     /// Frames per second at the estimated clock, or at one that was given; nothing where there is none.
     pub speed: Option<Speed>,
-    /// The share of the device that the RCM takes.
+    /// The share of the device that the RCM, or the core on a bus, takes.
     pub share: Share,
     /// The paper's table.
     pub paper: Paper,
-    /// The leaves of an RPU, or of the array, and its own glue; empty if not asked for. They do not add
-    /// up to it, because logic is optimized across leaves.
+    /// The leaves of an RPU, of the array or of the core on a bus, and its own glue; empty if not asked for. They do not
+    /// add up to it, because logic is optimized across leaves.
     pub leaves: Vec<LeafArea>,
 }
 
@@ -123,9 +128,9 @@ impl AreaReport {
         leaves: Vec<LeafArea>,
     ) -> Self {
         let device = Device::xcvu9p();
-        let Areas { unit, glue, array } = areas;
+        let Areas { unit, glue, array, bus } = areas;
         let Timing { paths, clock, clocks_per_frame } = timing;
-        let share = Share::new(&array, &device);
+        let share = Share::new(bus.as_ref().map_or(&array, |bus| &bus.whole), &device);
         let paper = Paper {
             rpu: BesidePaper::new(&unit, PAPER_RPU),
             rcm: (regions == PAPER_REGIONS).then(|| BesidePaper::new(&array, PAPER_RCM)),
@@ -142,6 +147,7 @@ impl AreaReport {
             rpu: unit,
             rcm_glue: glue,
             rcm: array,
+            bus,
             paths,
             speed: clock.as_ref().map(|clock| Speed::estimated(clock, clocks_per_frame)),
             clock,
@@ -150,6 +156,19 @@ impl AreaReport {
             paper,
             leaves,
         }
+    }
+
+    /// All that the design takes: the core on a bus, else the RCM.
+    #[must_use]
+    pub fn whole(&self) -> &Area {
+        self.bus.as_ref().map_or(&self.rcm, |bus| &bus.whole)
+    }
+
+    /// Logic levels of the longest path of all.
+    #[must_use]
+    pub fn levels(&self) -> u32 {
+        let bus = self.bus.as_ref().map_or(0, |bus| bus.path.levels);
+        self.paths.rcm.levels.max(self.paths.rpu.levels).max(bus)
     }
 
     /// The report with frames per second at a clock of so many MHz, if one is given.
@@ -172,18 +191,39 @@ impl AreaReport {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
+    use crate::bus::PartArea;
 
     /// A report with round figures, for the tests of its renderings.
     pub(crate) fn example(regions: u64) -> AreaReport {
-        of_units(regions, Units { name: "RPU".into(), count: regions })
+        of_units(regions, Units { name: "RPU".into(), count: regions }, None)
     }
 
     /// The same as a serial array of `lanes` lanes.
     pub(crate) fn serial_example(regions: u64, lanes: u64) -> AreaReport {
-        of_units(regions, Units { name: "lane".into(), count: lanes })
+        of_units(regions, Units { name: "lane".into(), count: lanes }, None)
     }
 
-    fn of_units(regions: u64, units: Units) -> AreaReport {
+    /// The same as a core on a bus.
+    pub(crate) fn bus_example() -> AreaReport {
+        let area = |lut_total| Area { lut_total, lut_total_packed: lut_total, ..Area::default() };
+        let part = |name: &str, modules: &[&str], luts| PartArea {
+            name: name.into(),
+            modules: modules.iter().map(|&module| module.to_owned()).collect(),
+            area: area(luts),
+        };
+        let bus = BusArea {
+            module: "rcm_axi".into(),
+            rtl_sha256: "02".into(),
+            whole: area(1_404),
+            parts: vec![part("registers", &["axi_registers"], 205), part("rest", &["rcm_axi"], 9)],
+            path: LogicPath { levels: 7, ..LogicPath::default() },
+        };
+        let mut report = of_units(32_400, Units { name: "core".into(), count: 1 }, Some(bus));
+        report.leaves[0].module = "rcm_axi".into();
+        report
+    }
+
+    fn of_units(regions: u64, units: Units, bus: Option<BusArea>) -> AreaReport {
         let rpu = Area {
             lut_logic_low: 90,
             lut_logic_high: 120,
@@ -216,7 +256,7 @@ pub(crate) mod tests {
             area: rpu,
         };
         let leaves = vec![leaf("rpu", &[], 1), leaf("median", &["WIDTH=8", "SIDE=8"], 2)];
-        let areas = Areas { unit: rpu, glue, array: rpu.times(units.count).plus(glue) };
+        let areas = Areas { unit: rpu, glue, array: rpu.times(units.count).plus(glue), bus };
         let path = LogicPath {
             levels: 3,
             carry4: 2,
@@ -244,9 +284,18 @@ pub(crate) mod tests {
 
     #[test]
     fn json_reads_back() {
-        let report = example(784);
-        let json = report.to_json().unwrap();
-        assert!(json.contains("\"format_version\": 1"));
-        assert_eq!(serde_json::from_str::<AreaReport>(&json).unwrap(), report);
+        for report in [example(784), bus_example()] {
+            let json = report.to_json().unwrap();
+            assert!(json.contains("\"format_version\": 1"));
+            assert_eq!(json.contains("\"bus\""), report.bus.is_some());
+            assert_eq!(serde_json::from_str::<AreaReport>(&json).unwrap(), report);
+        }
+    }
+
+    #[test]
+    fn what_a_design_takes_is_all_of_it() {
+        let (array, on_bus) = (example(4), bus_example());
+        assert_eq!((array.whole(), array.levels()), (&array.rcm, 3));
+        assert_eq!((on_bus.whole().lut_total, on_bus.levels()), (1_404, 7));
     }
 }

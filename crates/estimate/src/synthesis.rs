@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which synthesis a design asks for: its unit, the array around it, and their Verilog.
+//! Which synthesis a design asks for: its unit, the array around it, what puts that on a bus, and their Verilog.
 
 use foveate_design::Design;
-use foveate_emit::Top;
+use foveate_emit::{AXI_TOP, SourceFile, Top, on_bus};
 use foveate_toolchain::{Source, SynthesisJob, sources_sha256};
 
 use crate::EstimateJob;
@@ -35,12 +35,33 @@ impl EstimateJob {
             units: units.into(),
             regions: design.regions().into(),
             clocks_per_frame: design.timing().clocks_per_frame(),
+            bus: match top {
+                Top::Rpu => None,
+                Top::Rcm => on_bus(design).map(|verilog| SynthesisJob {
+                    sources: as_sources(verilog),
+                    unit: unit.module.to_owned(),
+                    array: AXI_TOP.to_owned(),
+                    parameters: Vec::new(),
+                }),
+            },
             rpu_sha256: sources_sha256(&sources(design, Top::Rpu)),
             leaves_of: None,
         }
     }
+
+    /// The same with the modules apart: those of the unit, or of the array where that says more, or of a core on a bus.
+    #[must_use]
+    pub fn with_leaves(self, design: &Design) -> Self {
+        let of_array = design.unit().split.to_owned();
+        let leaves_of = self.bus.as_ref().map_or(of_array, |bus| bus.array.clone());
+        Self { leaves_of: Some(leaves_of), ..self }
+    }
 }
 
 pub(crate) fn sources(design: &Design, top: Top) -> Vec<Source> {
-    foveate_emit::verilog(design, top).into_iter().map(Source::from).collect()
+    as_sources(foveate_emit::verilog(design, top))
+}
+
+pub(crate) fn as_sources(files: Vec<SourceFile>) -> Vec<Source> {
+    files.into_iter().map(Source::from).collect()
 }

@@ -21,6 +21,7 @@ fn toy(regions: u64) -> EstimateJob {
             array: "rcm".to_owned(),
             parameters: Vec::new(),
         },
+        bus: None,
         unit_name: "RPU".to_owned(),
         units: regions,
         regions,

@@ -20,7 +20,7 @@ pub struct Silicon {
     pub unit: Area,
     /// How many of them the frame has.
     pub units: u64,
-    /// All of them and what they share.
+    /// All of them and what they share; of a core on AXI with what puts it there.
     pub array: Area,
     /// Logic levels of the longest path.
     pub levels: u32,
@@ -80,11 +80,8 @@ impl Synthesizer {
         let mut jobs = BTreeMap::new();
         let keys = designs.map(|design| {
             let job = EstimateJob::of(design, Top::Rcm);
-            let key = format!(
-                "{} {:?}",
-                sources_sha256(&job.synthesis.sources),
-                job.synthesis.parameters
-            );
+            let all = job.on_top();
+            let key = format!("{} {:?}", sources_sha256(&all.sources), all.parameters);
             jobs.entry(key.clone()).or_insert(job);
             key
         });
@@ -106,8 +103,8 @@ impl Synthesizer {
         let silicon = Silicon {
             unit: report.rpu,
             units: job.units,
-            array: report.rcm,
-            levels: report.paths.rcm.levels.max(report.paths.rpu.levels),
+            array: *report.whole(),
+            levels: report.levels(),
         };
         Ok(Synthesized { silicon, speed: report.speed })
     }

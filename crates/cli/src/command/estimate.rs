@@ -28,11 +28,6 @@ pub(crate) fn run(args: &EstimateArgs) -> Result<(), CliError> {
 
 fn one(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     let design = args.design.design()?;
-    if design.is_on_axi() {
-        output::warn(
-            "`rcm_axi` is not counted, only the array in it: what repairs video, packets and registers come on top",
-        );
-    }
     let progress = Progress::new(args.quiet);
     progress.work("synthesizing with Yosys");
     let report = flow.estimate(&design, true);

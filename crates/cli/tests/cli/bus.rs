@@ -87,24 +87,12 @@ fn edited_verilog_around_an_array_is_caught_and_replayed() {
 }
 
 #[test]
-fn an_estimate_says_what_it_leaves_out_of_a_core_on_axi() {
-    if !require_tools(&[Tool::Yosys]) {
-        return;
-    }
-    let dir = tempfile::tempdir().unwrap();
-    let estimate =
-        ["estimate", "--preset", "raster", "--set", "frame={width=32,height=16}", "--json"];
-    let said = |more: &[&str]| run_in(dir.path(), &[&estimate, more].concat()).stderr;
-    assert!(!said(&[]).contains("rcm_axi"));
-    let told = said(&["--set", "hardware.interface='axi'"]);
-    assert!(told.contains("`rcm_axi` is not counted"), "{told}");
-}
-
-#[test]
 fn options_of_cores_on_axi_are_refused_elsewhere() {
     let dir = tempfile::tempdir().unwrap();
     let ports = ["hardware.interface", "\"ports\"", "\"axi\""];
     fail_in(dir.path(), 2, &["cosim", "--preset", "raster", "--level", "axi"], &ports);
+    let place = ["estimate", "--preset", "raster", "--place-and-route", "hx8k", "--level", "axi"];
+    fail_in(dir.path(), 2, &place, &ports);
     let packets = ["cosim", "--preset", "raster", "scene:street", "--packets", "p.bin"];
     fail_in(dir.path(), 2, &packets, &ports);
     let whole = ["cosim", "--preset", "raster", "scene:street", "--end-to-end", "out"];

@@ -2,6 +2,7 @@
 //! The command line, end to end: every command as its users call it.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
+mod area;
 mod bench;
 mod build;
 mod bus;

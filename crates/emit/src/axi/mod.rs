@@ -2,6 +2,7 @@
 //! A core on a bus: the module `rcm_axi` around the array, and its registers.
 
 mod pages;
+mod ports;
 mod registers;
 mod rpu_array;
 mod top;
@@ -11,11 +12,22 @@ pub use registers::{Field, Kind, Register, registers};
 pub use rpu_array::{ARRAY_REGISTERS, array_registers, array_scores, array_software, array_table};
 
 use crate::text::{file, text_of};
+use crate::top::AXI_TOP;
+use crate::wrapped::WrappedPort;
 use crate::{Prefix, SourceFile, Top, banner, leaf, verilog as array};
 use foveate_design::{Bus, Design, Hardware, RasterDesign};
 
-/// The module on top of a core on a bus.
-pub const AXI_TOP: &str = "rcm_axi";
+/// What stands around the array of a core on a bus: what people call each part, and its modules. The top itself has
+/// nothing beside them but the time and three counters.
+pub const AXI_PARTS: [(&str, &[&str]); 4] = [
+    ("registers", &[REGISTERS]),
+    ("repair of frames", &["axi_video"]),
+    ("packets", &["packet_rows", "packet_frames", "packet_writer"]),
+    ("queue of regions", &["packet_regions"]),
+];
+
+/// The module that is made for each design, from the table of its registers.
+const REGISTERS: &str = "axi_registers";
 
 /// The modules of a core on a bus, the array included, each after those it instantiates; none without a bus.
 #[must_use]
@@ -47,6 +59,16 @@ pub fn software(design: &Design) -> Vec<SourceFile> {
     files.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }).into()
 }
 
+/// The ports of a core on a bus but its clock, for a module around it; none without a bus.
+pub(crate) fn wrapped_ports(design: &Design) -> Option<Vec<WrappedPort>> {
+    match (design.bus(), design.hardware()) {
+        (Bus::Ports, _) | (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
+        (Bus::Axi, Hardware::Raster(own)) => {
+            Some(ports::wrapped(&text_of(&top::view(design.on(own)))))
+        }
+    }
+}
+
 /// The script that makes IP for Vivado of a core on a bus; none without a bus.
 pub(crate) fn package_ip(design: &Design, prefix: &Prefix) -> Option<SourceFile> {
     let sources = prefix.apply(on_bus(design)?);
@@ -70,15 +92,12 @@ pub fn register_table(design: &Design) -> Option<Vec<Register>> {
 
 /// What stands around the array.
 fn around(design: RasterDesign<'_>) -> Vec<SourceFile> {
-    let leaves = ["axi_video", "packet_rows", "packet_regions", "packet_frames", "packet_writer"];
-    let leaves = leaf::with_parts(leaves.to_vec(), |_, _| true)
+    let parts = AXI_PARTS.iter().flat_map(|(_, modules)| modules.iter().copied());
+    let leaves = leaf::with_parts(parts.collect(), |_, _| true)
         .map(|leaf| file(leaf.name, leaf.contents.to_owned()));
     let registers = registers(design);
     let own = [
-        file(
-            "axi_registers",
-            text_of(&verilog::view(&design, ("axi_registers", false), &registers)),
-        ),
+        file(REGISTERS, text_of(&verilog::view(&design, (REGISTERS, false), &registers))),
         file(AXI_TOP, text_of(&top::view(design))),
     ];
     leaves.chain(own).collect()

@@ -143,7 +143,7 @@ fn view(design: RasterDesign<'_>, prefix: &Prefix, timing: &RasterTiming) -> Rea
         rcm_ports: port_rows(&design),
         thresholds: design.rcm_ports().iter().filter_map(|port| threshold(&design, port)).collect(),
         instance: instance(&design, prefix),
-        synthesized: crate::synth::top(&design).module(),
+        synthesized: crate::top::placed(&design),
         sync: sync::section(&design, "word", ""),
         has_rpu: Top::has_rpu(&design),
         on_axi: design.is_on_axi(),

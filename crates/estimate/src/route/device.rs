@@ -150,10 +150,10 @@ impl Family {
     }
 
     /// The pin of the clock, where nextpnr does not choose one: a file that its arguments name, and its text.
-    pub(crate) fn pins(self) -> Option<(&'static str, String)> {
+    pub(crate) fn pins(self, clock: &str) -> Option<(&'static str, String)> {
         match self {
             Self::Ecp5 | Self::Ice40Up | Self::Ice40Hx => None,
-            Self::Gowin => Some(("pins.cst", "IO_LOC \"clk_i\" 4;\n".to_owned())),
+            Self::Gowin => Some(("pins.cst", format!("IO_LOC \"{clock}\" 4;\n"))),
         }
     }
 

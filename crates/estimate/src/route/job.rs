@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use std::thread;
 
 use foveate_design::Design;
-use foveate_emit::{Parameter, Top};
+use foveate_emit::{AXI_CLOCK, AXI_TOP, Parameter, Top, on_bus};
 use foveate_toolchain::nextpnr::{self, NextpnrJob};
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, ToolError, Toolchain, sources_sha256};
@@ -22,7 +22,7 @@ use super::result::NextpnrReport;
 use crate::clock::ClockEstimate;
 use crate::error::EstimateError;
 use crate::levels::Library;
-use crate::synthesis::sources;
+use crate::synthesis::{as_sources, sources};
 use foveate_toolchain::ToolRecord;
 
 const NETLIST: &str = "netlist.json";
@@ -35,8 +35,10 @@ const AT_ONCE: usize = 2;
 pub struct RouteJob {
     /// The Verilog files.
     pub sources: Vec<Source>,
-    /// The module on top. Its clock is `clk_i`.
+    /// The module on top.
     pub top: String,
+    /// The port of its clock.
+    pub clock: &'static str,
     /// Its parameters and their values.
     pub parameters: Vec<Parameter>,
     /// How many seeds, from 1 on.
@@ -52,10 +54,24 @@ impl RouteJob {
         Self {
             sources: sources(design, top),
             top: top.module().to_owned(),
+            clock: "clk_i",
             parameters: top.parameters(design),
             seeds,
             is_portable,
         }
+    }
+
+    /// The whole core of a design on a bus; none of a design with ports only.
+    #[must_use]
+    pub fn on_bus(design: &Design, seeds: u32, is_portable: bool) -> Option<Self> {
+        Some(Self {
+            sources: as_sources(on_bus(design)?),
+            top: AXI_TOP.to_owned(),
+            clock: AXI_CLOCK,
+            parameters: Vec::new(),
+            seeds,
+            is_portable,
+        })
     }
 
     /// The whole design as one module: placement crosses all borders. Whether all modules are there is checked by the
@@ -96,6 +112,7 @@ struct Ready {
     netlist: Netlist,
     hierarchy: Hierarchy,
     json: Vec<u8>,
+    clock: &'static str,
     port_ff: u64,
 }
 
@@ -149,8 +166,8 @@ impl Ready {
         let file =
             |name: &str| run.files.get(name).expect("it is one of the wanted files").as_slice();
         let hierarchy = Hierarchy::parse(HIERARCHY, file(HIERARCHY))?;
-        let (netlist, json, port_ff) = to_place(file(NETLIST), &job.top, device.family)?;
-        Ok(Self { device, netlist, hierarchy, json, port_ff })
+        let (netlist, json, port_ff) = to_place(file(NETLIST), &job.top, job.clock, device.family)?;
+        Ok(Self { device, netlist, hierarchy, json, clock: job.clock, port_ff })
     }
 
     fn place(&self, toolchain: &Toolchain, cache: &Cache, seed: u32) -> Result<Vec<u8>, ToolError> {
@@ -159,7 +176,7 @@ impl Ready {
             args: self.device.arguments(),
             seed,
             netlist: self.json.clone(),
-            beside: self.device.family.pins(),
+            beside: self.device.family.pins(self.clock),
         };
         nextpnr::run(toolchain, cache, &job)
     }
@@ -249,10 +266,11 @@ impl Ready {
 pub(super) fn to_place(
     json: &[u8],
     top: &str,
+    clock: &'static str,
     family: Family,
 ) -> Result<(Netlist, Vec<u8>, u64), EstimateError> {
     let (mut netlist, creator) = Netlist::parse(json, top)?;
-    let port_ff = ports::become_registers(&mut netlist, family)?;
+    let port_ff = ports::become_registers(&mut netlist, clock, family)?;
     let json = netlist.to_json(top, creator)?;
     Ok((netlist, json, port_ff))
 }

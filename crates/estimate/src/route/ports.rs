@@ -10,24 +10,22 @@ use super::device::Family;
 use super::netlist::{Bit, Cell, Netlist};
 use crate::error::EstimateError;
 
-/// The port that keeps its pin.
-const CLOCK: &str = "clk_i";
-
-/// Replaces every port but the clock; returns the number of flip-flops that stand there instead.
+/// Replaces every port but the clock, which keeps its pin; returns the number of flip-flops that stand there instead.
 ///
 /// # Errors
 /// When there is no clock.
 pub(super) fn become_registers(
     netlist: &mut Netlist,
+    clock_port: &'static str,
     family: Family,
 ) -> Result<u64, EstimateError> {
-    let clock = netlist.ports.get(CLOCK).and_then(|port| port.bits.first()).cloned();
-    let clock = clock.ok_or(EstimateError::NoClock { port: CLOCK })?;
+    let clock = netlist.ports.get(clock_port).and_then(|port| port.bits.first()).cloned();
+    let clock = clock.ok_or(EstimateError::NoClock { port: clock_port })?;
     let mut net = netlist.last_net();
     let ports = std::mem::take(&mut netlist.ports);
     let before = netlist.cells.len();
     for (name, port) in ports {
-        if name == CLOCK {
+        if name == clock_port {
             netlist.ports.insert(name, port);
             continue;
         }
@@ -44,14 +42,14 @@ pub(super) fn become_registers(
     }
     let registers = netlist.cells.len() - before;
     if family == Family::Gowin {
-        pad(netlist, net + 1);
+        pad(netlist, clock_port, net + 1);
     }
     Ok(registers as u64)
 }
 
 /// Puts the input buffer that nextpnr wants there between the clock and its pin.
-fn pad(netlist: &mut Netlist, outside: u32) {
-    if let Some(bit) = netlist.ports.get_mut(CLOCK).and_then(|port| port.bits.first_mut()) {
+fn pad(netlist: &mut Netlist, clock_port: &str, outside: u32) {
+    if let Some(bit) = netlist.ports.get_mut(clock_port).and_then(|port| port.bits.first_mut()) {
         let inside = std::mem::replace(bit, Bit::Net(outside));
         let joined = [("I", false, Bit::Net(outside)), ("O", true, inside)];
         netlist.cells.insert("$pad$".to_owned(), Cell::new("IBUF", &[], &joined));

@@ -16,7 +16,7 @@ pub const ROUTE_FORMAT_VERSION: u32 = 2;
 pub struct RouteReport {
     /// [`ROUTE_FORMAT_VERSION`].
     pub format_version: u32,
-    /// The module on top: `rpu` or `rcm`.
+    /// The module on top: `rpu`, `rcm` or `rcm_axi`.
     pub top: String,
     /// The hash of the RTL; see `sources_sha256` of the toolchain.
     pub rtl_sha256: String,

@@ -59,7 +59,7 @@ fn what_is_placed_is_what_yosys_wrote_and_registers_at_the_ports() {
         json!({ "ports": ports, "cells": cells, "netnames": {}, "attributes": { "top": "1" } });
     let written = json!({ "creator": "Yosys", "modules": { "rpu": module } });
     let (_, placed, port_ff) =
-        to_place(written.to_string().as_bytes(), "rpu", Family::Ecp5).unwrap();
+        to_place(written.to_string().as_bytes(), "rpu", "clk_i", Family::Ecp5).unwrap();
     let mut placed: Value = serde_json::from_slice(&placed).unwrap();
     let at_port = placed["modules"]["rpu"]["cells"].as_object_mut().unwrap().remove("$port$y_o[0]");
     assert_eq!((port_ff, &at_port.unwrap()["type"]), (1, &"TRELLIS_FF".into()));
@@ -80,7 +80,11 @@ fn ports_are_registers_but_for_the_clock() {
         (Family::Gowin, "DFF", "D"),
     ] {
         let mut core = netlist(&all, &json!({}));
-        assert_eq!(ports::become_registers(&mut core, family).unwrap(), 4, "a constant needs none");
+        assert_eq!(
+            ports::become_registers(&mut core, "clk_i", family).unwrap(),
+            4,
+            "a constant needs none"
+        );
         assert_eq!(core.ports.keys().collect::<Vec<_>>(), ["clk_i"]);
         assert_eq!(core.count(kind), 4);
         let input = &core.cells["$port$d_i[1]"];
@@ -92,8 +96,12 @@ fn ports_are_registers_but_for_the_clock() {
             "a net that nobody reads"
         );
     }
-    let error = ports::become_registers(&mut netlist(&json!({}), &json!({})), Family::Ecp5);
-    assert!(error.unwrap_err().to_string().contains("`clk_i`"));
+    // A core on a bus has another name for its clock.
+    let mut core = netlist(&all, &json!({}));
+    let error = ports::become_registers(&mut core, "aclk", Family::Ecp5);
+    assert!(error.unwrap_err().to_string().contains("`aclk`"));
+    let (_, pins) = Family::Gowin.pins("aclk").unwrap();
+    assert!(pins.contains("\"aclk\""), "{pins}");
 }
 
 #[test]

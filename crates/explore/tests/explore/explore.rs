@@ -135,6 +135,34 @@ fn a_point_has_the_clock_of_its_netlist() {
     }
 }
 
+/// What a core on AXI takes is what stands in the tables, and not the array in it.
+#[test]
+fn a_core_on_axi_is_counted_as_a_whole() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    const ON_AXI: &str = "[design]\nframe.width = 32\nframe.height = 16\nregion.size = 4\nhardware.organization = 'raster'\n\
+         hardware.interface = 'axi'\n[vary]\ndenoise.filter = ['none']\n";
+    let synthesizer =
+        Synthesizer { toolchain: Toolchain::system(), cache: Cache::from_env().unwrap() };
+    let folder = tempfile::tempdir().unwrap();
+    let space = &Space::from_toml(ON_AXI).unwrap();
+    let inputs = [PathBuf::from("scene:street")];
+    let input = InputOptions { frames: Some(2), ..InputOptions::default() };
+    let tools = &synthesizer;
+    let request = Request { space, inputs: &inputs, input: &input, synthesizer: Some(tools) };
+    let found = explore(&request, &folder.path().join("out"), &Watch::new(usize::MAX)).unwrap();
+    let design = found.rows[0].config.validate().unwrap();
+    let job = EstimateJob::of(&design, Top::Rcm);
+    let report = estimate(&tools.toolchain, &tools.cache, &job).unwrap();
+    let silicon = found.rows[0].silicon.as_ref().unwrap();
+    assert_eq!(
+        (silicon.array, silicon.levels),
+        (report.bus.as_ref().unwrap().whole, report.levels())
+    );
+    assert!(silicon.array.lut_total > report.rcm.lut_total && report.rcm.lut_total > 0);
+}
+
 /// Every cell of a column of `points.parquet` as text.
 fn parquet_column(file: &Path, name: &str) -> Vec<String> {
     let reader = SerializedFileReader::new(fs::File::open(file).unwrap()).unwrap();

@@ -82,7 +82,7 @@ pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
 fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
     let is_part = args.full || args.netlist || args.simulator == SimulatorChoice::Iverilog;
     let packets = args.packets.clone().or(args.end_to_end.as_ref().map(|dir| dir.join(PACKETS)));
-    let is_asked = args.level == Some(args::CosimLevel::Axi) || packets.is_some();
+    let is_asked = args.level == Some(args::Level::Axi) || packets.is_some();
     let option = match (&args.packets, &args.end_to_end) {
         (Some(_), _) => "--packets",
         (None, Some(_)) => "--end-to-end",
@@ -115,14 +115,14 @@ fn levels(
 ) -> Result<Vec<Level>, CliError> {
     let one = match (args.full, args.level, args.grid) {
         (true, ..) => Level::Full,
-        (false, Some(args::CosimLevel::Rcm), Some((columns, rows))) => Level::Rcm { columns, rows },
-        (false, Some(args::CosimLevel::Rcm), None) => Level::sample(design),
+        (false, Some(args::Level::Rcm), Some((columns, rows))) => Level::Rcm { columns, rows },
+        (false, Some(args::Level::Rcm), None) => Level::sample(design),
         (false, _, Some(_)) => {
             let message = "--grid is for --level rcm; add it or leave --grid out";
             return Err(CliError::Usage(message.to_owned()));
         }
-        (false, Some(args::CosimLevel::Rpu), None) => Level::Rpu,
-        (false, Some(args::CosimLevel::Axi), None) => return Ok(Vec::new()),
+        (false, Some(args::Level::Rpu), None) => Level::Rpu,
+        (false, Some(args::Level::Axi), None) => return Ok(Vec::new()),
         (false, None, None) => match rtl {
             Some(sources) => return Ok(Level::all_of(design, sources, prefix)),
             None => Level::Rpu,

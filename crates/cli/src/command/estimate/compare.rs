@@ -102,8 +102,8 @@ fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<W
     config.hardware.fold = 1;
     let synthesize = |design: &Design| {
         let report = flow.estimate(design, false)?;
-        let clock_mhz = given.or(report.clock.map(|clock| clock.mhz));
-        Ok::<_, CliError>(FoldCost { clock_mhz, area: report.rcm })
+        let clock_mhz = given.or(report.clock.as_ref().map(|clock| clock.mhz));
+        Ok::<_, CliError>(FoldCost { clock_mhz, area: *report.whole() })
     };
     let design = match config.validate() {
         Ok(single) => Ok(cheapest_fold(single, rate, synthesize)?),

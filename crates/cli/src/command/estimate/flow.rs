@@ -16,10 +16,8 @@ pub(super) struct Flow {
 
 impl Flow {
     pub(super) fn estimate(&self, design: &Design, leaves: bool) -> Result<AreaReport, CliError> {
-        let job = EstimateJob {
-            leaves_of: leaves.then(|| design.unit().split.to_owned()),
-            ..EstimateJob::of(design, Top::Rcm)
-        };
+        let job = EstimateJob::of(design, Top::Rcm);
+        let job = if leaves { job.with_leaves(design) } else { job };
         Ok(estimate(&self.toolchain, &self.cache, &job)?)
     }
 }

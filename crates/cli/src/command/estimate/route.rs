@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate estimate --place-and-route`: the clock that a design reaches on a device.
 
+use foveate_design::Design;
 use foveate_emit::Top;
 use foveate_estimate::{RouteJob, place_and_route, render_routes_markdown, render_routes_text};
 
@@ -10,13 +11,11 @@ use crate::error::CliError;
 use crate::output;
 use crate::progress::Progress;
 
+const NOT_ON_AXI: &str = "--level axi is for a core on AXI; this design has hardware.interface = \"ports\", so set it to \"axi\"";
+
 pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     let design = args.design.design()?;
-    let top = match args.level {
-        Level::Rpu => Top::Rpu,
-        Level::Rcm => Top::Rcm,
-    };
-    let job = RouteJob::of(&design, top, args.seeds, args.portable);
+    let job = job(args, &design)?;
     let progress = Progress::new(args.quiet);
     progress.work("placing and routing with nextpnr");
     let report = place_and_route(&flow.toolchain, &flow.cache, &job, &args.place_and_route);
@@ -32,5 +31,17 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     match report.misfits().as_slice() {
         [] => Ok(()),
         misfits => Err(CliError::Failed(misfits.join("; "))),
+    }
+}
+
+/// What is placed: the core on AXI, if the design is one and no part of it is asked for.
+fn job(args: &EstimateArgs, design: &Design) -> Result<RouteJob, CliError> {
+    let of = |top| RouteJob::of(design, top, args.seeds, args.portable);
+    let on_bus = || RouteJob::on_bus(design, args.seeds, args.portable);
+    match args.level {
+        None => Ok(on_bus().unwrap_or_else(|| of(Top::Rpu))),
+        Some(Level::Rpu) => Ok(of(Top::Rpu)),
+        Some(Level::Rcm) => Ok(of(Top::Rcm)),
+        Some(Level::Axi) => on_bus().ok_or_else(|| CliError::Usage(NOT_ON_AXI.to_owned())),
     }
 }

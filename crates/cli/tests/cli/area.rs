@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What `estimate` says of a core on AXI is what Yosys says of the folder that `generate` writes, on every family.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+use std::process::Command;
+
+use crate::common::{run_in, succeed_in};
+use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::{Tool, Toolchain};
+use serde_json::Value;
+
+const DESIGN: [&str; 6] = [
+    "--preset",
+    "raster",
+    "--set",
+    "hardware.interface='axi'",
+    "--set",
+    "frame={width=64,height=48}",
+];
+
+/// Cells by type.
+type Cells = BTreeMap<String, u64>;
+
+/// Runs the words in the folder of a core, and returns what they print.
+fn run(core: &Path, mut command: Command) -> String {
+    let output = command.current_dir(core).output().unwrap();
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(output.status.success(), "{text}{}", String::from_utf8_lossy(&output.stderr));
+    text
+}
+
+/// The cells of a module of a generated core after Yosys alone, with the commands that the report names, and what was
+/// kept apart put together.
+fn synthesized(core: &Path, top: &str) -> Cells {
+    let files = fs::read_to_string(core.join(format!("{top}.f"))).unwrap();
+    let script = format!(
+        "read_verilog {}\n\
+         hierarchy -check -top {top}\n\
+         synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf -flatten -top {top}\n\
+         xilinx_srl -fixed -minlen 3\n\
+         setparam -set ENPOL 1 t:$__XILINX_SHREG_\n\
+         techmap -map +/xilinx/cells_map.v\n\
+         clean\n\
+         setattr -mod -unset keep_hierarchy *\n\
+         flatten\n\
+         tee -o stat.txt stat\n",
+        files.lines().collect::<Vec<_>>().join(" ")
+    );
+    fs::write(core.join("own.ys"), script).unwrap();
+    let mut yosys = Command::new(Toolchain::system().find(Tool::Yosys).unwrap().path);
+    yosys.args(["-q", "-s", "own.ys"]);
+    run(core, yosys);
+    let text = fs::read_to_string(core.join("stat.txt")).unwrap();
+    // Type and number, the number first in newer versions.
+    let cell = |line: &str| match line.split_whitespace().collect::<Vec<_>>()[..] {
+        [one, other] => one.parse().map_or_else(
+            |_| Some((one.to_owned(), other.parse().ok()?)),
+            |count| Some((other.to_owned(), count)),
+        ),
+        _ => None,
+    };
+    text.lines().filter_map(cell).collect()
+}
+
+fn count(cells: &Cells, kinds: &[&str]) -> u64 {
+    cells
+        .iter()
+        .filter(|(name, _)| kinds.iter().any(|kind| name.starts_with(kind)))
+        .map(|(_, n)| n)
+        .sum()
+}
+
+/// Logic LUTs, flip-flops, carry blocks and halves of block RAM, as the report of an area has them.
+fn figures(cells: &Cells) -> [u64; 4] {
+    let luts = (1..=6).map(|inputs| cells.get(&format!("LUT{inputs}")).unwrap_or(&0)).sum::<u64>();
+    [
+        luts + count(cells, &["INV"]),
+        count(cells, &["FD"]),
+        count(cells, &["CARRY4"]) + 2 * count(cells, &["CARRY8"]),
+        count(cells, &["RAMB18"]) + 2 * count(cells, &["RAMB36"]),
+    ]
+}
+
+fn reported(area: &Value) -> [u64; 4] {
+    ["lut_logic_high", "ff", "carry", "bram18"].map(|name| area[name].as_u64().unwrap())
+}
+
+#[test]
+fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(dir.path(), &[&["generate", "-o", "core"], &DESIGN[..]].concat());
+    let outcome = run_in(dir.path(), &[&["estimate", "--json"], &DESIGN[..]].concat());
+    assert!(outcome.code == 0 && !outcome.stderr.contains("warning"), "{}", outcome.stderr);
+    let report: Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let core = dir.path().join("core");
+    let whole = reported(&report["bus"]["whole"]);
+    assert_eq!(whole, figures(&synthesized(&core, "rcm_axi")));
+    // The array is another number, and less.
+    let array = reported(&report["rcm"]);
+    assert_eq!(array, figures(&synthesized(&core, "rcm")));
+    assert!(array[0] < whole[0] && array[1] < whole[1], "{array:?} of {whole:?}");
+    // Each part takes something. Together with the array they take more than the whole, which shares logic, but not by much.
+    let parts = report["bus"]["parts"].as_array().unwrap();
+    let luts = parts.iter().map(|part| reported(&part["area"])[0]).collect::<Vec<_>>();
+    assert!(luts.len() == 5 && luts.iter().all(|&luts| luts > 0), "{parts:?}");
+    let sum = array[0] + luts.iter().sum::<u64>();
+    assert!(sum.abs_diff(whole[0]) * 5 < whole[0], "{sum} beside {}", whole[0]);
+
+    // A folder with another core on the bus has another number.
+    let path = core.join("rtl/rcm_axi.v");
+    let sound = fs::read_to_string(&path).unwrap();
+    let less = sound.replace("64'd0 : time_q + 1'b1", "64'd0 : {32'd0, time_q[31:0] + 1'b1}");
+    assert_ne!(less, sound);
+    fs::write(path, less).unwrap();
+    let fewer = figures(&synthesized(&core, "rcm_axi"));
+    assert!(fewer[1] + 64 <= whole[1], "{fewer:?} of {whole:?}: 32 bits of the time, twice");
+}
+
+#[test]
+fn an_estimate_of_a_core_on_axi_says_what_the_bus_costs() {
+    if !require_tools(&[Tool::Yosys]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let text = succeed_in(dir.path(), &[&["estimate"], &DESIGN[..]].concat());
+    for row in [
+        "core ",
+        "RCM ",
+        "registers ",
+        "repair of frames ",
+        "packets ",
+        "queue of regions ",
+        "time and counters ",
+        "RCM on AXI ",
+        "axi_video ",
+    ] {
+        assert!(text.lines().any(|line| line.starts_with(row)), "{row} in\n{text}");
+    }
+    let ports = [&["estimate"], &DESIGN[..2], &DESIGN[4..]].concat();
+    let without = succeed_in(dir.path(), &ports);
+    assert!(!without.contains("AXI") && !without.contains("registers "), "{without}");
+}
+
+/// Cells of the netlist that a script of a core left, without the registers at its ports.
+fn placed(folder: &Path) -> Cells {
+    let netlist: Value =
+        serde_json::from_slice(&fs::read(folder.join("netlist.json")).unwrap()).unwrap();
+    let modules = netlist["modules"].as_object().unwrap();
+    let top = modules.values().find(|module| !module["attributes"]["top"].is_null()).unwrap();
+    let mut cells = Cells::new();
+    for (name, cell) in top["cells"].as_object().unwrap() {
+        if !name.ends_with("u_bit") {
+            *cells.entry(cell["type"].as_str().unwrap().to_owned()).or_default() += 1;
+        }
+    }
+    cells
+}
+
+#[test]
+fn the_script_of_a_core_on_axi_places_what_the_estimate_counts() {
+    if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    succeed_in(
+        dir.path(),
+        &[&["generate", "-o", "core", "--prefix", "cam0"], &DESIGN[..]].concat(),
+    );
+    let program = |tool| Toolchain::system().find(tool).unwrap().path;
+    // Without a word it takes the whole core; the array is another one.
+    let [whole, array] = [("", "whole"), ("rcm", "array")].map(|(word, kept)| {
+        let mut command = Command::new("sh");
+        command.args(["synth/ice40.sh", word, "hx8k", "1"]).env("KEEP", kept);
+        command.env("YOSYS", program(Tool::Yosys)).env("NEXTPNR", program(Tool::NextpnrIce40));
+        fs::create_dir(dir.path().join("core").join(kept)).unwrap();
+        run(&dir.path().join("core"), command);
+        placed(&dir.path().join("core").join(kept))
+    });
+    let estimate = ["estimate", "--place-and-route", "hx8k", "--seeds", "1", "--json"];
+    let estimate =
+        |more: &[&str]| succeed_in(dir.path(), &[&estimate[..], more, &DESIGN[..]].concat());
+    let report = |text: String| serde_json::from_str::<Value>(&text).unwrap();
+    for (report, cells, top) in [
+        (report(estimate(&[])), &whole, "rcm_axi"),
+        (report(estimate(&["--level", "axi"])), &whole, "rcm_axi"),
+        (report(estimate(&["--level", "rcm"])), &array, "rcm"),
+    ] {
+        assert_eq!(report["top"], top);
+        let taken = |what: &str| report["devices"][0]["placed"][what]["used"].as_u64().unwrap();
+        assert_eq!(taken("ff"), count(cells, &["SB_DFF"]), "{top}");
+        assert_eq!(taken("block_ram"), count(cells, &["SB_RAM40"]), "{top}");
+    }
+    assert!(count(&whole, &["SB_LUT4"]) > count(&array, &["SB_LUT4"]), "{whole:?}, {array:?}");
+}
