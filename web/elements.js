@@ -36,11 +36,11 @@ export function download(name, type, text) {
   setTimeout(() => URL.revokeObjectURL(link), 10_000);
 }
 
-/** Copies a text, and says so. */
-export async function copy(text, what) {
+/** Copies a text, and says so in an element. */
+export async function copy(text, what, id = "copied") {
   try {
     await navigator.clipboard.writeText(text);
-    say("copied", `${what} is in the clipboard`);
+    say(id, `${what} is in the clipboard`);
   } catch {
     // Without the right to the clipboard there is still the old way.
     const area = make("textarea", { value: text });
@@ -48,6 +48,6 @@ export async function copy(text, what) {
     area.select();
     const done = document.execCommand("copy");
     area.remove();
-    say("copied", done ? `${what} is in the clipboard` : `the browser refuses its clipboard; ${what} is: ${text}`);
+    say(id, done ? `${what} is in the clipboard` : `the browser refuses its clipboard; ${what} is: ${text}`);
   }
 }

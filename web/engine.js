@@ -17,19 +17,21 @@ export class Engine {
   #exports;
   #described;
 
-  /** The engine of the bytes of foveate.wasm. */
+  /** The engine of the bytes of foveate.wasm, or of the `module` of another engine, which may be in another thread. */
   static async load(bytes) {
-    let compiled;
     try {
-      compiled = await WebAssembly.instantiate(bytes, {});
+      const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
+      const { exports } = await WebAssembly.instantiate(module, {});
+      return new Engine(exports, module);
     } catch (error) {
       throw new Error(`foveate.wasm cannot be used here: ${error.message}; a browser of 2023 or later has what it needs (WebAssembly with SIMD)`);
     }
-    return new Engine(compiled.instance.exports);
   }
 
-  constructor(exports) {
+  constructor(exports, module) {
     this.#exports = exports;
+    /** The compiled engine, of which others can be made. */
+    this.module = module;
   }
 
   /** {version, presets, scenes, keys, features, limits}: what a page can offer, from the tables of the project. */
@@ -56,6 +58,29 @@ export class Engine {
     return this.bytes().slice();
   }
 
+  /** Takes over the bytes of an ONNX file. */
+  takeNetwork(bytes) {
+    this.put(bytes);
+    this.call("foveate_network_file");
+  }
+
+  /** Makes the network of the file for frames of that size and depth. `wishes` are {name, framing, mean, scale, detect} in the words of
+   *  `foveate infer`; what is left out of the last three is guessed, and an empty `detect` is none. {input, outputs, macs, fits, likely, head,
+   *  score, overlap, classes, framing, mean, scale, options}. */
+  openNetwork(wishes, width, height, bits) {
+    this.put(encoder.encode(JSON.stringify(wishes)));
+    this.call("foveate_network_open", whole(width, "width"), whole(height, "height"), whole(bits, "bits"));
+    return JSON.parse(this.text());
+  }
+
+  /** What the network says of a frame and of what the receiver sees, which follow each other as `camera.pixels` and `camera.rendered`
+   *  have them: {agreement, relative_rms, found, whole, seen, classes, class, same_places}. */
+  look(planes) {
+    this.put(planes);
+    this.call("foveate_network_look");
+    return JSON.parse(this.text());
+  }
+
   // What follows is for Camera alone.
 
   /** Calls an export; its number, or its message as an Error. */
@@ -64,7 +89,7 @@ export class Engine {
     try {
       answer = this.#exports[name](...values);
     } catch (error) {
-      throw new Error(`the engine stopped at a fault of its own (${error.message}); reload the page`);
+      throw Object.assign(new Error(`the engine stopped at a fault of its own (${error.message}); reload the page`), { fault: true });
     }
     if (answer < 0) throw new Error(this.text());
     return answer;
@@ -74,8 +99,8 @@ export class Engine {
   put(bytes) {
     const place = this.#exports.foveate_input(bytes.length);
     if (place === 0) {
-      const most = this.describe().limits.pixels;
-      throw new Error(`${bytes.length} bytes are more than the engine takes at once, a frame of ${most} pixels in colour`);
+      const most = this.describe().limits.network_bytes;
+      throw new Error(`${bytes.length} bytes are more than the engine takes at once, which are ${most}`);
     }
     new Uint8Array(this.#exports.memory.buffer, place, bytes.length).set(bytes);
   }
@@ -146,6 +171,16 @@ class Camera {
   /** What the receiver sees after it, as 8-bit grey. */
   get screen() {
     return this.#bytes("foveate_screen");
+  }
+
+  /** What the camera saw of the last frame as it has it: a byte per pixel up to 8 bits, else two, the lower first. */
+  get pixels() {
+    return this.#bytes("foveate_pixels");
+  }
+
+  /** What the receiver sees after it, in the same way. */
+  get rendered() {
+    return this.#bytes("foveate_rendered");
   }
 
   /** A byte per region: bit 0 SRS, bit 1 TRS, above them 0 forward, 1 hold, 2 blank, 3 summarize. */

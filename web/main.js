@@ -8,6 +8,7 @@ import { at, copy, make, plain, say } from "./elements.js";
 import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
 import { readLink, writeLink } from "./link.js";
+import { NetworkView } from "./network.js";
 import { PixelCamera } from "./pixel_camera.js";
 import { showReasons } from "./reasons.js";
 import { Recording } from "./recording.js";
@@ -31,7 +32,7 @@ let means = 1;
 let speed = 1, wanted = 0, began = null, explained = { at: 0, cost: 0 };
 /** The last two frames, which a changed camera sees at once while all stands still. */
 let last = [];
-let screens, figures, controls;
+let screens, figures, controls, network;
 const recording = new Recording(() => camera);
 
 // What went wrong, until the next try.
@@ -81,6 +82,7 @@ function describe() {
 function begin() {
   forget();
   figures.reset(camera.facts);
+  network.restart();
 }
 
 function forget() {
@@ -217,6 +219,13 @@ async function opened(list) {
   option.textContent = files.length > 1 ? `${files.length} pictures` : files[0].name;
 }
 
+/** Takes what was dropped: a network, or else a source. */
+function dropped(list) {
+  const [networks, others] = [true, false].map(is => list.filter(({ name }) => /\.onnx$/i.test(name) === is));
+  if (networks.length) network.open(networks[0]);
+  if (others.length) opened(others);
+}
+
 // --- Frames
 
 function step(frame) {
@@ -233,6 +242,7 @@ function step(frame) {
   screens.paint(camera);
   const now = performance.now();
   figures.add(sent, events, frame.time_us, now - start, now);
+  network.seen(sent.number);
   explain(now);
 }
 
@@ -301,10 +311,17 @@ function explain(now, asked = false) {
 
 // --- What is taken along
 
+/** The source as `foveate infer` takes it. */
+function inputsOfCommand() {
+  if (own.source.startsWith("scene:")) return [own.source];
+  const names = own.source === "files" ? files.map(({ name }) => name) : ["clip.mp4"];
+  return own.size ? [...names, "--resize", own.size] : names;
+}
+
 function link() {
   const { source: from, size, preset } = own;
   // Files stay on this computer.
-  return `#${writeLink({ source: from === "files" ? "" : from, size, preset }, presetConfig(preset), config)}`;
+  return `#${writeLink({ source: from === "files" ? "" : from, size, preset }, presetConfig(preset), config, network.wishes)}`;
 }
 
 let kept = 0;
@@ -321,6 +338,7 @@ async function fromLink() {
     presetConfig(wish.own.preset ?? START.preset);
     if (wish.own.size && !/^\d+x\d+$/.test(wish.own.size)) throw new Error(`the link's size \`${wish.own.size}\` is none; write 640x480`);
   });
+  network.wishes = wrong ? {} : wish.network;
   own = { ...START, source: frames_path ? "computer" : START.source, ...(wrong ? {} : wish.own) };
   showSizes();
   const preset = presetConfig(own.preset), from = own.source;
@@ -391,7 +409,7 @@ function wire() {
   };
   addEventListener("dragover", drop(true));
   addEventListener("dragleave", drop(false));
-  addEventListener("drop", event => { drop(false)(event); if (event.dataTransfer?.files.length) opened(event.dataTransfer.files); });
+  addEventListener("drop", event => { drop(false)(event); if (event.dataTransfer?.files.length) dropped([...event.dataTransfer.files]); });
   matchMedia("(prefers-color-scheme: dark)").onchange = () => {
     screens.recolour();
     if (last.length) screens.paint(camera);
@@ -424,12 +442,13 @@ async function start() {
   });
   screens = new Screens(() => explain(performance.now(), true));
   figures = new Figures();
+  network = new NetworkView(engine.module, { camera: () => camera, source: inputsOfCommand, told: keepLink });
   controls = new Controls(at("controls"), described, { presets, change: changed, toggle: toggled, preset: presetChosen });
   wire();
   await fromLink();
   // For tests, and for whoever opens the console.
   window.foveate = { engine, get camera() { return camera; }, get config() { return config; }, get sums() { return figures.sums; },
-    get source() { return source; } };
+    get source() { return source; }, network };
   run();
 }
 

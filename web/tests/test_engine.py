@@ -159,7 +159,7 @@ def test_refusals(page):
         ("() => engine.configure('', 8, 8).events()", "nothing is recorded"),
         ("() => engine.configure('', 8, 8).scores(7)", "the camera has 1"),
         ("() => engine.configure('', 8, 8).explain(0, 0)", "no frame yet"),
-        ("() => engine.configure('', 8, 8).step(new Uint8Array(4e7))", "40000000 bytes are more than the engine takes"),
+        ("() => engine.configure('', 8, 8).step(new Uint8Array(3e8))", "300000000 bytes are more than the engine takes"),
     ]:
         said = page.evaluate(f"refused({call})")
         assert said and words in said, f"{call}: {said}"

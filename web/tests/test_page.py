@@ -434,7 +434,8 @@ def test_all_goes_by_keyboard(still):
         assert name[1], f"{name[0]} has no visible focus"
         reached.add(name[0])
     keys = set(page.evaluate("[...document.querySelectorAll('[data-key]')].map(own => own.dataset.key)"))
-    buttons = {"source", "open", "size", "pause", "step", "reset", "speed", "input", "decisions", "receiver", "copy-toml", "copy-link", "record"}
+    buttons = {"source", "open", "size", "pause", "step", "reset", "speed", "input", "decisions", "receiver", "open-network"}
+    buttons |= {"copy-toml", "copy-link", "record"}
     assert keys | buttons <= reached, keys | buttons - reached
     page.focus("#receiver")
     for key in ("ArrowRight", "ArrowRight", "ArrowDown"):

@@ -8,8 +8,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_fidelity::{ErrorTally, Figures};
-use foveate_footage::boxes::{Boxes, Clip, Rect, assign};
+use foveate_footage::boxes::{Boxes, Clip, assign};
 use foveate_footage::{InputOptions, Source, SourceFrame, Subject, is_read_once, open, subjects};
+use foveate_frame::Rect;
 
 use crate::measure::{self, Measured};
 use crate::objects::Objects;

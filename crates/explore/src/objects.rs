@@ -2,7 +2,8 @@
 //! Of how many ground-truth objects a camera sends at least half.
 
 use foveate_camera::Camera;
-use foveate_footage::boxes::{Grid, Rect};
+use foveate_footage::boxes::Grid;
+use foveate_frame::Rect;
 use serde::{Deserialize, Serialize};
 
 /// Objects over frames.

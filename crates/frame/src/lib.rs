@@ -3,19 +3,21 @@
 //!
 //! [`Frame`] holds words; the models compute on it. [`Raster`] holds bytes up to 8 bits and words
 //! above, so video is neither widened nor copied on its way to the engine. Both report the same
-//! [`FrameError`]. This crate knows no design.
+//! [`FrameError`]. A [`Rect`] is a place in it. This crate knows no design.
 
 mod depth;
 mod error;
 mod frame;
 mod luma;
 mod raster;
+mod rect;
 
 pub use depth::{convert_depth, display_depth};
 pub use error::FrameError;
 pub use frame::Frame;
 pub use luma::{luma, luma_of_rgba};
 pub use raster::{Plane, Raster};
+pub use rect::{MAX_COORDINATE, Rect};
 
 /// A size or coordinate as an index. Lossless: `usize` has 32 bits or more on every platform that
 /// can hold a frame.

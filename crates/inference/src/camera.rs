@@ -2,13 +2,12 @@
 //! What the network sees: the rendered frames of a design, and where each differs from the one before.
 
 use crate::InferenceError;
-use crate::picture::Picture;
-use crate::witness::Witness;
 use foveate_design::Design;
 use foveate_engine::Engine;
-use foveate_footage::boxes::Rect;
 use foveate_footage::{Kind, SourceFrame};
+use foveate_frame::Rect;
 use foveate_network::Mask;
+use foveate_network::sight::{Frames, Picture, Witness};
 
 /// A design with a receiver behind it.
 pub(crate) struct Camera {
@@ -66,10 +65,21 @@ impl Seen<'_> {
     }
 }
 
+/// The frames of a camera, as a network is shown them.
+#[must_use]
+pub fn frames_of(camera: &foveate_design::Camera) -> Frames {
+    Frames {
+        width: camera.width(),
+        height: camera.height(),
+        pixel_max: camera.pixel_max(),
+        region: camera.region_size(),
+    }
+}
+
 impl Camera {
     pub(crate) fn new(shown: Shown<'_>, kind: Kind) -> Self {
         let Shown { design, witness, with_originals } = shown;
-        let picture = witness.picture(design);
+        let picture = witness.picture(frames_of(design));
         let black = (kind == Kind::Set).then(|| picture.clone());
         let engine = Engine::new(design);
         Self { engine, picture, black, with_originals, original: None, frames: 0 }

@@ -1,87 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How close values are to those of a whole computation, and how close they have to be.
 
+use foveate_network::sight::{Distance, largest};
 use foveate_network::{Executor, Network};
 use std::borrow::Cow;
-
-/// Sums over values and over those of a whole computation.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Distance {
-    pub(crate) largest: f64,
-    /// Sum of the squared differences.
-    difference: f64,
-    /// Sum of the squares of the right values, of those that were found, and of the products of both.
-    right: f64,
-    found: f64,
-    product: f64,
-    /// Range of the right values.
-    lowest: f64,
-    highest: f64,
-    values: u64,
-}
-
-impl Default for Distance {
-    fn default() -> Self {
-        let [largest, difference, right, found, product] = [0.0; 5];
-        let (lowest, highest) = (f64::INFINITY, f64::NEG_INFINITY);
-        Self { largest, difference, right, found, product, lowest, highest, values: 0 }
-    }
-}
-
-impl Distance {
-    /// Of some values, and whether any has other bits.
-    pub(crate) fn of(right: &[f32], found: &[f32]) -> (Self, bool) {
-        let (mut sum, mut differs) = (Self::default(), false);
-        sum.values = right.len() as u64;
-        for (right, found) in right.iter().zip(found) {
-            differs |= right.to_bits() != found.to_bits();
-            let (right, found) = (f64::from(*right), f64::from(*found));
-            let difference = (right - found).abs();
-            sum.largest = sum.largest.max(difference);
-            sum.difference += difference * difference;
-            sum.right += right * right;
-            sum.found += found * found;
-            sum.product += right * found;
-            sum.lowest = sum.lowest.min(right);
-            sum.highest = sum.highest.max(right);
-        }
-        (sum, differs)
-    }
-
-    pub(crate) fn add(&mut self, other: Self) {
-        self.largest = self.largest.max(other.largest);
-        self.difference += other.difference;
-        self.right += other.right;
-        self.found += other.found;
-        self.product += other.product;
-        self.lowest = self.lowest.min(other.lowest);
-        self.highest = self.highest.max(other.highest);
-        self.values += other.values;
-    }
-
-    /// Root of the mean squared difference, as a share of that of the values; 0 if there is no difference.
-    pub(crate) fn relative(&self) -> f64 {
-        if self.difference == 0.0 { 0.0 } else { (self.difference / self.right).sqrt() }
-    }
-
-    /// Cosine of the angle between all values as vectors; 1 if there is no difference.
-    pub(crate) fn cosine(&self) -> f64 {
-        if self.difference == 0.0 { 1.0 } else { self.product / (self.right * self.found).sqrt() }
-    }
-
-    /// Peak signal-to-noise ratio in decibels, with the range of the right values as the peak; nothing if there is no difference.
-    pub(crate) fn psnr(&self) -> Option<f64> {
-        #[allow(clippy::cast_precision_loss, reason = "a mean")]
-        let mean = self.difference / self.values.max(1) as f64;
-        psnr((self.highest - self.lowest).powi(2), mean)
-    }
-}
-
-/// Peak signal-to-noise ratio in decibels from the squares of the peak and of the error, both as means or both as sums over the same values;
-/// nothing if there is no error.
-pub(crate) fn psnr(peak: f64, error: f64) -> Option<f64> {
-    (error != 0.0).then(|| 10.0 * (peak / error).log10())
-}
 
 /// How much the outputs of a whole computation vary from frame to frame of a clip. That clips differ from each other is no variation.
 #[derive(Clone, Debug, Default)]
@@ -152,7 +74,7 @@ impl Closeness {
             agrees &= largest(&right) == largest(&found);
             sums.extend(right.iter().map(|&value| f64::from(value)));
         }
-        let variation = Variation::of(sums, distance.right);
+        let variation = Variation::of(sums, distance.right());
         Self { distance, variation, agreeing: agrees.into(), frames: 1 }
     }
 
@@ -172,10 +94,10 @@ impl Closeness {
     /// is no difference. A network that is never run again has about 1.
     pub(crate) fn of_variation(&self) -> f64 {
         let varies = self.variation.around_means();
-        if self.distance.difference == 0.0 {
+        if self.distance.difference() == 0.0 {
             0.0
         } else {
-            (self.distance.difference / varies).sqrt()
+            (self.distance.difference() / varies).sqrt()
         }
     }
 
@@ -222,17 +144,6 @@ impl std::fmt::Display for Goal {
     }
 }
 
-/// The place of the largest value, the first of equal ones.
-pub(crate) fn largest(values: &[f32]) -> usize {
-    let mut best = 0;
-    for (at, value) in values.iter().enumerate() {
-        if *value > values[best] {
-            best = at;
-        }
-    }
-    best
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -252,25 +163,7 @@ mod tests {
     }
 
     #[test]
-    fn measures_are_those_of_the_books() {
-        let (mut sum, differs) = Distance::of(&[3.0, 0.0], &[3.0, 4.0]);
-        assert!(differs);
-        assert_eq!((sum.largest, sum.relative()), (4.0, 4.0 / 3.0));
-        assert_eq!(sum.cosine(), 9.0 / 15.0);
-        assert!((sum.psnr().unwrap() - 10.0 * (9.0f64 / 8.0).log10()).abs() < 1e-12);
-        // More values as one vector, and a wider range.
-        sum.add(Distance::of(&[-1.0], &[-1.0]).0);
-        assert_eq!(sum.cosine(), 10.0 / (10.0f64 * 26.0).sqrt());
-        assert!((sum.psnr().unwrap() - 10.0 * (16.0f64 * 3.0 / 16.0).log10()).abs() < 1e-12);
-    }
-
-    #[test]
-    fn equal_values_are_as_close_as_can_be_and_what_is_no_number_is_not() {
-        for values in [&[0.0, 0.0][..], &[1.0, -2.0]] {
-            let (same, differs) = Distance::of(values, values);
-            assert!(!differs);
-            assert_eq!((same.relative(), same.cosine(), same.psnr()), (0.0, 1.0, None));
-        }
+    fn what_is_no_number_is_not_close() {
         let (odd, _) = Distance::of(&[1.0, 2.0], &[1.0, f32::NAN]);
         let closeness = Closeness { distance: odd, frames: 1, ..Closeness::default() };
         let goals =
@@ -287,7 +180,7 @@ mod tests {
             let (distance, _) = Distance::of(&right, &found);
             let sums = right.map(f64::from).to_vec();
             Closeness {
-                variation: Variation::of(sums, distance.right),
+                variation: Variation::of(sums, distance.right()),
                 distance,
                 agreeing: 1,
                 frames: 1,

@@ -9,10 +9,9 @@ use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_footage::FootageError;
 use foveate_footage::boxes::BoxError;
-use foveate_network::NetworkError;
+use foveate_network::sight::SightError;
 use foveate_pictures::chart::ChartError;
 use foveate_pictures::page::PageError;
-use foveate_pictures::page::number::things;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
@@ -20,9 +19,9 @@ use thiserror::Error;
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum InferenceError {
-    /// The network cannot be read.
+    /// The network cannot be read, or cannot be shown the frames.
     #[error(transparent)]
-    Network(#[from] NetworkError),
+    Sight(#[from] SightError),
     /// A file that was named cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Read {
@@ -73,20 +72,6 @@ pub enum InferenceError {
         name: String,
         /// Why.
         source: io::Error,
-    },
-    /// The mapping has another number of channels than the network.
-    #[error(
-        "{what} has {}, but the network's input has {}; give one value, or one per channel",
-        things(*found, "value"),
-        things(*channels, "channel")
-    )]
-    Channels {
-        /// The option.
-        what: &'static str,
-        /// How many values it has.
-        found: usize,
-        /// Channels of the input.
-        channels: usize,
     },
     /// A layer cannot be mapped onto the accelerator.
     #[error("node `{node}` on the accelerator: {source}")]

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What the tables say of a clip, a layer, a frame and what tuning tried: every column once, for the files and for the page.
 
+use crate::Found;
 use crate::Layer;
 use crate::frame::Frame;
-use crate::sight::{DetectionRow, Found};
+use crate::sight::DetectionRow;
 use crate::summary::{Clip, Tried};
 use Value::{Count, Error, Flag, Holds, Limit, Milliseconds, Psnr, Real, Shape, Share, Words};
 use foveate_files::tables::{Cell, Cells, Table};

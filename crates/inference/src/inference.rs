@@ -16,8 +16,7 @@ use crate::run::{Beside, Ended, Files, Run, Told};
 use crate::sight::Judge;
 use crate::summary::{Summary, mode_name};
 use crate::tune::{Tuned, tune};
-use crate::witness::{Viewing, Witness};
-use crate::{Goal, InferenceError};
+use crate::{Goal, InferenceError, Viewing, Witness};
 use foveate_accelerator::Accelerator;
 use foveate_design::{Config, Design};
 use foveate_footage::{Hooks, InputOptions, Source};
@@ -117,7 +116,7 @@ impl Inference {
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
         let Self { design, witness, viewing, path, mut clips } = self;
-        let network = &witness.network;
+        let network = witness.network();
         let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
         let accelerator = options.accelerator.as_ref();
         let costs =

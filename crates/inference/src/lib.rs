@@ -16,11 +16,9 @@ mod details;
 mod error;
 mod facts;
 mod frame;
-mod framing;
 mod inference;
 mod macs;
 mod page;
-mod picture;
 mod player;
 mod positions;
 mod recording;
@@ -32,21 +30,21 @@ mod sums;
 mod tally;
 mod traffic;
 mod tune;
-mod witness;
 
+pub use camera::frames_of;
 pub use choices::{parse_goal, parse_mode, read_accelerator};
 pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};
 pub use error::InferenceError;
-pub use framing::{Framing, parse_framing};
+// What its interface speaks of.
+pub use foveate_network::sight::{
+    Agreement, ClassKept, Detection, DetectionsKept, Detector, Found, Framing, Head, Looking,
+    Mapping, Output, SightError, Testimony, Viewing, Witness, parse_detector, parse_framing,
+    parse_mean, parse_scale,
+};
 pub use inference::{Computed, Inference, Options};
 pub use macs::Macs;
-pub use picture::Mapping;
 pub use recording::{Record, Recorded};
-pub use sight::{
-    ClassKept, Detection, DetectionsKept, Detector, Found, Head, Output, Sight, Truth,
-    parse_detector,
-};
+pub use sight::{Sight, Truth};
 pub use summary::{Clip, Error, Layer, Outputs, Summary, Tried, Tuning};
 pub use traffic::FrameTraffic;
-pub use witness::{Agreement, Looking, Testimony, Viewing, Witness};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A whole computation of every frame, which says how far another one is from it.
 
-use crate::closeness::{Closeness, Distance};
+use crate::closeness::Closeness;
+use foveate_network::sight::Distance;
 use foveate_network::{Executor, Mask, Mode, Network};
 use std::time::Instant;
 

@@ -5,11 +5,12 @@ use crate::compare::{copy, moved};
 use crate::element::{Element, typed};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::moment::Moment;
 use crate::network::Network;
 use crate::operator::Job;
 use crate::tensor::Tensor;
 use crate::values::{Number, Values};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// What is computed for a frame after the first. The first is always computed whole.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,7 +121,7 @@ impl<'a> Executor<'a> {
             (input.height(), input.width()),
             "a bit per position"
         );
-        let start = Instant::now();
+        let start = Moment::now();
         self.accept(picture, changed);
         // In the pool, where an operator need not wait until a thread has taken over its work.
         rayon::scope(|_| (0..self.work.len()).for_each(|node| self.run(node, changed)));
@@ -222,7 +223,7 @@ impl<'a> Executor<'a> {
         let kept = &mut rest[0];
         let computing = &mut self.computing[node];
         let mut compute = |output: &mut Values| {
-            let start = Instant::now();
+            let start = Moment::now();
             if !at.is_empty() {
                 place.operator.compute(Job { inputs: &inputs, form, output, at: &at });
             }

@@ -4,6 +4,8 @@
 //! A [`Network`] is read from an ONNX file. An [`Executor`] runs it frame by frame and keeps every tensor. From the positions of the picture that
 //! may have changed it derives, layer by layer, those of every tensor (a [`Mask`]), and computes these alone. In the exact [`Mode`]s the result
 //! is bit for bit that of a whole computation: every value is summed in one fixed order, whoever computes it.
+//!
+//! [`sight`] shows it frames, and reads what it says of them.
 
 mod compare;
 mod element;
@@ -13,10 +15,12 @@ mod form;
 mod kernel;
 mod layout;
 mod mask;
+mod moment;
 mod network;
 pub mod onnx;
 mod operator;
 mod read;
+pub mod sight;
 mod tensor;
 mod values;
 

@@ -19,7 +19,7 @@ macro_rules! web {
 }
 
 /// The modules of the page, each behind those that it imports.
-const MODULES: [&str; 14] = web![
+const MODULES: [&str; 20] = web![
     "engine.js",
     "elements.js",
     "toml.js",
@@ -33,13 +33,22 @@ const MODULES: [&str; 14] = web![
     "reasons.js",
     "recording.js",
     "hardware.js",
+    "class_names.js",
+    "boxes.js",
+    "network_thread.js",
+    "network_controls.js",
+    "network_figures.js",
+    "network.js",
     "main.js",
 ];
+
+/// The modules of the thread in which a network runs, in the same way.
+const WORKER: [&str; 2] = web!["engine.js", "network_worker.js"];
 
 /// The page as one file. With `frames` it begins with the frames that are served at that address, relative to its own.
 #[must_use]
 pub fn camera_page(frames: Option<&str>) -> String {
-    let script: String = MODULES.iter().map(|module| as_part(module)).collect();
+    let script = as_one(&MODULES);
     let style = include_str!("../web/style.css")
         .replace("/*LIGHT*/", &variables(&LIGHT))
         .replace("/*DARK*/", &variables(&DARK));
@@ -50,7 +59,13 @@ pub fn camera_page(frames: Option<&str>) -> String {
         .replace("/*STYLE*/", &style)
         .replace("/*HARDWARE*/", include_str!("../web/hardware.json"))
         .replace("/*SCRIPT*/", &script)
+        .replace("/*WORKER*/", &as_one(&WORKER))
         .replace("/*WASM*/", &packed(include_bytes!("../web/foveate.wasm")))
+}
+
+/// Modules as one script.
+fn as_one(modules: &[&str]) -> String {
+    modules.iter().map(|module| as_part(module)).collect()
 }
 
 /// A module as a part of one script: it imports nothing, because what it would import stands above it.
@@ -70,7 +85,7 @@ fn policy(script: &str, style: &str) -> String {
     let hash = |text: &str| format!("'sha256-{}'", BASE64.encode(Sha256::digest(text)));
     format!(
         "default-src 'none'; script-src {} 'wasm-unsafe-eval'; style-src {}; img-src data: blob:; \
-         media-src blob:; connect-src 'self'; base-uri 'none'; form-action 'none'",
+         media-src blob:; worker-src blob:; connect-src 'self'; base-uri 'none'; form-action 'none'",
         hash(script),
         hash(style)
     )
@@ -90,6 +105,7 @@ mod tests {
             "/*STYLE*/",
             "/*WASM*/",
             "/*SCRIPT*/",
+            "/*WORKER*/",
             "/*HARDWARE*/",
             "\nimport ",
             "\nexport ",
@@ -100,7 +116,7 @@ mod tests {
             assert!(!page.contains(loaded), "{loaded}");
         }
         // What would end it early.
-        assert_eq!(page.matches("</script").count(), 3);
+        assert_eq!(page.matches("</script").count(), 4);
         assert_eq!(page.matches("</style").count(), 1);
     }
 
@@ -110,17 +126,25 @@ mod tests {
         let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
         let modules: Vec<_> =
             files.filter(|path| path.extension().is_some_and(|own| own == "js")).collect();
-        assert_eq!(modules.len(), MODULES.len(), "{modules:?}");
+        // Both have the engine.
+        assert_eq!(modules.len(), MODULES.len() + WORKER.len() - 1, "{modules:?}");
         for path in modules {
             let text = std::fs::read_to_string(&path).unwrap();
-            assert!(MODULES.contains(&text.as_str()), "{}", path.display());
+            let is_part = [&MODULES[..], &WORKER].concat().contains(&text.as_str());
+            assert!(is_part, "{}", path.display());
         }
     }
 
     #[test]
     fn a_module_stands_behind_what_it_imports() {
+        for modules in [&MODULES[..], &WORKER] {
+            stands_behind(modules);
+        }
+    }
+
+    fn stands_behind(modules: &[&str]) {
         let mut known = String::new();
-        for module in MODULES {
+        for module in modules {
             for import in module.lines().filter(|line| line.starts_with("import ")) {
                 let names = import.split(['{', '}']).nth(1).unwrap().split(',');
                 for name in names.map(str::trim) {

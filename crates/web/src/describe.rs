@@ -10,7 +10,7 @@ use foveate_design::{Config, PRESETS};
 use foveate_scenes::Scene;
 use serde_json::{Value, json};
 
-use crate::limits::{MAX_CAMERAS, MAX_PIXELS, MAX_RECORDING};
+use crate::limits::{MAX_CAMERAS, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
 
 /// All of it.
 pub(crate) fn describe() -> Result<Value, ConfigError> {
@@ -29,7 +29,7 @@ pub(crate) fn describe() -> Result<Value, ConfigError> {
         "scenes": scenes.collect::<Vec<_>>(),
         "keys": keys.collect::<Vec<_>>(),
         "features": features.collect::<Vec<_>>(),
-        "limits": { "cameras": MAX_CAMERAS, "pixels": MAX_PIXELS, "recording_bytes": MAX_RECORDING },
+        "limits": { "cameras": MAX_CAMERAS, "pixels": MAX_PIXELS, "network_bytes": MAX_NETWORK_FILE, "recording_bytes": MAX_RECORDING },
     }))
 }
 

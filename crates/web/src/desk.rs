@@ -90,7 +90,8 @@ impl Desk {
     }
 }
 
-fn check_size(width: u32, height: u32) -> Result<(), WebError> {
+/// Refuses a frame without pixels, or with too many.
+pub(crate) fn check_size(width: u32, height: u32) -> Result<(), WebError> {
     let pixels = u64::from(width) * u64::from(height);
     if (1..=u64::from(MAX_PIXELS)).contains(&pixels) {
         return Ok(());

@@ -4,6 +4,7 @@
 use foveate_camera::ConfigError;
 use foveate_engine::EngineError;
 use foveate_model::ModelError;
+use foveate_network::sight::SightError;
 use foveate_scenes::SceneError;
 use thiserror::Error;
 
@@ -23,6 +24,52 @@ pub enum WebError {
     /// There is no such scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
+    /// The network cannot be read, shown frames, or understood.
+    #[error(transparent)]
+    Sight(#[from] SightError),
+    /// A file of a network that is too large.
+    #[error("the file has {given} bytes; a page takes networks of at most {most}")]
+    NetworkFile {
+        /// Its bytes.
+        given: usize,
+        /// The most.
+        most: usize,
+    },
+    /// A network whose tensors take too much memory.
+    #[error(
+        "the network keeps {} MB of tensors for a frame; a page has {} MB for them: take a smaller network, or a smaller input as in letterbox=320x320",
+        needed / 1_000_000,
+        most / 1_000_000
+    )]
+    NetworkMemory {
+        /// Bytes that it needs.
+        needed: u64,
+        /// The most.
+        most: u64,
+    },
+    /// Pixels that no camera has.
+    #[error("pixels of {bits} bits are refused; a camera has 1 to 16")]
+    Bits {
+        /// Bits that were asked for.
+        bits: u32,
+    },
+    /// A setting of a network that cannot be read.
+    #[error("{what}: {problem}")]
+    Wish {
+        /// The setting.
+        what: &'static str,
+        /// What would be right.
+        problem: String,
+    },
+    /// A pixel that is larger than the bits of the frames hold.
+    #[error("a pixel is larger than {bits} bits hold; give pixels as the camera has them")]
+    PixelBits {
+        /// Bits of a pixel.
+        bits: u32,
+    },
+    /// There is no network yet.
+    #[error("there is no network; give the file of one first")]
+    NoNetwork,
     /// Bytes that are no text.
     #[error("the {what} is not UTF-8 text, from byte {at} on; give it as UTF-8")]
     Text {

@@ -11,16 +11,20 @@
 
 use std::cell::RefCell;
 
-use crate::limits::MAX_PIXELS;
-use crate::{Desk, LiveCamera, Sent, WebError};
+use foveate_frame::Plane;
 
-/// The most bytes that can be put in: a frame in colour.
-const MAX_INPUT: usize = 4 * MAX_PIXELS as usize;
+use crate::limits::{MAX_NETWORK_FILE, MAX_PIXELS};
+use crate::{Desk, LiveCamera, NetworkDesk, Sent, WebError};
+
+/// The most bytes that can be put in: a network, which is more than a frame in colour.
+const MAX_INPUT: usize = MAX_NETWORK_FILE;
+const _: () = assert!(MAX_INPUT >= 4 * MAX_PIXELS as usize);
 
 /// A page's desk and what lies between it and the page.
 #[derive(Debug, Default)]
 struct Counter {
     desk: Desk,
+    network: NetworkDesk,
     input: Vec<u8>,
     answer: Vec<u8>,
     /// Where the answer lies, and how long it is.
@@ -76,6 +80,19 @@ impl Counter {
         });
         self.told(found)
     }
+
+    /// Answers with pixels of a camera.
+    fn plane(&mut self, handle: u32, of: impl FnOnce(&LiveCamera) -> Plane<'_>) -> i32 {
+        let found = self.desk.camera(handle).map(|camera| match of(camera) {
+            Plane::Bytes(pixels) => place(pixels),
+            Plane::Words(pixels) => place(pixels),
+        });
+        let found = found.map(|place| {
+            self.place = place;
+            0
+        });
+        self.told(found)
+    }
 }
 
 /// A time as JavaScript has it; none where it is negative or no number.
@@ -95,7 +112,7 @@ fn at_the_counter<R>(call: impl FnOnce(&mut Counter) -> R) -> R {
     COUNTER.with_borrow_mut(call)
 }
 
-/// Makes the buffer for input `length` bytes long, and says where it is; 0 where that is more than a frame in colour.
+/// Makes the buffer for input `length` bytes long, and says where it is; 0 where that is more than the largest network.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_input(length: usize) -> usize {
     at_the_counter(|counter| {
@@ -168,6 +185,18 @@ pub extern "C" fn foveate_seen(handle: u32) -> i32 {
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_screen(handle: u32) -> i32 {
     at_the_counter(|counter| counter.show(handle, |camera| Ok(camera.screen())))
+}
+
+/// Answers with what the camera saw as it has it: pixels of P bits, a byte each up to 8 bits, else two, the lower first.
+#[unsafe(no_mangle)]
+pub extern "C" fn foveate_pixels(handle: u32) -> i32 {
+    at_the_counter(|counter| counter.plane(handle, LiveCamera::pixels))
+}
+
+/// Answers with what the receiver sees, in the same way.
+#[unsafe(no_mangle)]
+pub extern "C" fn foveate_rendered(handle: u32) -> i32 {
+    at_the_counter(|counter| counter.plane(handle, |camera| camera.engine().rendered()))
 }
 
 /// Answers with a byte per region: what was decided.
@@ -260,5 +289,40 @@ pub extern "C" fn foveate_scene(width: u32, height: u32, region_size: u32, numbe
             0
         });
         counter.told(frame)
+    })
+}
+
+/// Takes over what was put in as the file of a network.
+#[unsafe(no_mangle)]
+pub extern "C" fn foveate_network_file() -> i32 {
+    at_the_counter(|counter| {
+        let taken = counter.network.take(std::mem::take(&mut counter.input)).map(|()| 0);
+        counter.told(taken)
+    })
+}
+
+/// Makes the network of the file for frames of that size and depth, as wished by the JSON that was put in; answers with what it is, as JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn foveate_network_open(width: u32, height: u32, bits: u32) -> i32 {
+    at_the_counter(|counter| {
+        let Counter { network, input, .. } = &mut *counter;
+        let told = network.open(input, (width, height), bits).map(|told| {
+            counter.say(told.to_string());
+            0
+        });
+        counter.told(told)
+    })
+}
+
+/// Shows the network the frame that was put in and, behind it, what the receiver sees, both as [`foveate_pixels`] has them; answers with what
+/// it says of them, as JSON.
+#[unsafe(no_mangle)]
+pub extern "C" fn foveate_network_look() -> i32 {
+    at_the_counter(|counter| {
+        let looked = counter.network.look(&counter.input).map(|looked| {
+            counter.say(serde_json::json!(looked).to_string());
+            0
+        });
+        counter.told(looked)
     })
 }

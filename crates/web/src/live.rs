@@ -3,7 +3,7 @@
 
 use foveate_design::{Action, Design};
 use foveate_engine::{Before, Engine, EventTable, Moment};
-use foveate_frame::{Frame, luma_of_rgba};
+use foveate_frame::{Frame, Plane, luma_of_rgba};
 use foveate_model::explain::{self, Explanation};
 use foveate_model::{FunctionalCamera, Remembered};
 use serde::Serialize;
@@ -236,6 +236,12 @@ impl LiveCamera {
             trs: count(&outcome.trs),
             recording: self.recording.as_ref().map(Recording::recorded),
         }
+    }
+
+    /// What the camera saw of the last frame: pixels of P bits, none before the first.
+    #[must_use]
+    pub fn pixels(&self) -> Plane<'_> {
+        self.pixels.plane()
     }
 
     /// What the camera saw of the last frame, as 8-bit grey.

@@ -3,7 +3,9 @@
 //! refuses it where that is not given.
 
 use clap::Args;
-use foveate_inference::{Detector, Framing, Mapping, Viewing, parse_detector, parse_framing};
+use foveate_inference::{
+    Detector, Framing, Mapping, Viewing, parse_detector, parse_framing, parse_mean, parse_scale,
+};
 
 /// How a network is shown frames, and how its outputs are read.
 #[derive(Args, Debug)]
@@ -12,11 +14,11 @@ pub(crate) struct ViewingArgs {
     /// rest grey; stretch, each side for itself. Networks that take any size need one, as in letterbox=416x416
     #[arg(long, value_name = "WAY", default_value = "same", value_parser = parse_framing, requires = "network")]
     pub(crate) framing: Framing,
-    /// Subtract this from pixels of 0 to 1: one value, or one per channel
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = finite, requires = "network")]
+    /// Subtract this from pixels of 0 to 1: one value, or one per channel, each a number or a quotient
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "0", allow_negative_numbers = true, value_parser = parse_mean, requires = "network")]
     pub(crate) mean: Vec<f32>,
     /// Then divide by this: one value, or one per channel; 1/255 makes pixels of 0 to 255
-    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "1", allow_negative_numbers = true, value_parser = positive, requires = "network")]
+    #[arg(long, value_name = "VALUES", value_delimiter = ',', default_value = "1", allow_negative_numbers = true, value_parser = parse_scale, requires = "network")]
     pub(crate) scale: Vec<f32>,
     /// Compare detections, in a format of outputs: yolox, yolov5 (and v7), yolov8 (and 11), ssd, yunet or
     /// fastestdet, and which of them count, as in yolox,score=0.3,overlap=0.45,classes=0+2,height=80: a score of at least 0.3, of those
@@ -30,24 +32,4 @@ impl ViewingArgs {
         let mapping = Mapping { mean: self.mean.clone(), scale: self.scale.clone() };
         Viewing { framing: self.framing, mapping, detector: self.detect.clone() }
     }
-}
-
-fn finite(text: &str) -> Result<f32, String> {
-    text.parse()
-        .ok()
-        .filter(|value: &f32| value.is_finite())
-        .ok_or_else(|| "expected a number".to_owned())
-}
-
-/// A number, or a quotient of two.
-fn positive(text: &str) -> Result<f32, String> {
-    let value = match text.split_once('/') {
-        None => finite(text).ok(),
-        Some((over, under)) => {
-            finite(over).ok().zip(finite(under).ok()).map(|(over, under)| over / under)
-        }
-    };
-    value
-        .filter(|&value| value > 0.0 && value.is_finite())
-        .ok_or_else(|| "expected a number above 0, or a quotient such as 1/255".to_owned())
 }

@@ -9,7 +9,7 @@ use std::path::Path;
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
-use foveate_inference::{Agreement, Testimony, Viewing, Witness};
+use foveate_inference::{Agreement, InferenceError, Testimony, Viewing, Witness, frames_of};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -98,7 +98,8 @@ impl<'a> Jury<'a> {
         halves: &'a Halves,
         task: &CameraConfig,
     ) -> Result<Self, ExploreError> {
-        let witness = Witness::read(goal.path, footage.size, goal.viewing)?;
+        let witness =
+            Witness::read(goal.path, footage.size, goal.viewing).map_err(InferenceError::from)?;
         let camera = task.validate()?;
         let clips = halves.frames.len() as u64;
         let most = (goal.frames / clips).max(1);
@@ -106,7 +107,7 @@ impl<'a> Jury<'a> {
         for (clip, &(half, all)) in halves.frames.iter().enumerate() {
             // The first frame of a clip is one that every camera sends whole.
             let wanted = [spread(1..half, most), spread(half..all, most)];
-            let mut looking = witness.look_at(&camera);
+            let mut looking = witness.look_at(frames_of(&camera));
             let mut source = footage.open(&footage.subjects[clip])?;
             let mut found = [Vec::new(), Vec::new()];
             for number in 0..all {
@@ -191,7 +192,7 @@ impl<'a> Jury<'a> {
             samples.iter().flatten().map(|sample| sample.best.clone()).collect();
         let mut looked = 0;
         for (clip, own) in samples.iter().enumerate() {
-            let mut looking = self.witness.look_at(camera);
+            let mut looking = self.witness.look_at(frames_of(camera));
             let mut receiver = Receiver::new(self.footage, clip, camera)?;
             for sample in own {
                 let Some(screen) = receiver.screen(sample.number, asked)? else { break };

@@ -12,10 +12,11 @@ use std::sync::{Mutex, PoisonError};
 
 use super::error::BoxError;
 use super::format::{Format, coco, mot, table, yolo};
+use super::labelled::Labelled;
 use super::name::endings;
-use super::rect::{Labelled, Rect};
 use super::view::View;
 use crate::{Crop, Origin, SourceFrame};
+use foveate_frame::Rect;
 
 /// A frame, as boxes are found for it.
 #[derive(Clone, Copy, Debug)]

@@ -9,7 +9,7 @@
 
 use std::ops::Range;
 
-use crate::boxes::Rect;
+use foveate_frame::Rect;
 
 /// The regions of a frame: squares from the upper left, cut at the right and below.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

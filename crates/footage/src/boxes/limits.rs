@@ -9,8 +9,6 @@ use crate::boxes::BoxError;
 
 /// The most boxes of a file, or of a file of a YOLO folder.
 pub const MAX_BOXES: usize = 4_000_000;
-/// The largest coordinate and side, in pixels.
-pub const MAX_COORDINATE: f64 = 1e7;
 /// The largest file.
 const MAX_FILE: u64 = 1 << 30;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! From a frame as the file describes it to the frame that a camera sees: cropped, then scaled.
 
-use crate::boxes::Rect;
 use crate::{Crop, Origin, SourceFrame};
+use foveate_frame::Rect;
 
 /// Boxes of which less than this share lies in the frame are not counted.
 const LEAST_INSIDE: f64 = 0.25;

@@ -5,7 +5,8 @@
 use std::fmt::Write as _;
 
 use crate::support::{at, file, frame, image};
-use foveate_footage::boxes::{Boxes, Grid, Labelled, Place, Rect};
+use foveate_footage::boxes::{Boxes, Grid, Labelled, Place};
+use foveate_frame::Rect;
 use proptest::collection::vec;
 use proptest::prelude::*;
 

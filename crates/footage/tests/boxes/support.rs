@@ -4,7 +4,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use foveate_footage::boxes::{BoxError, Boxes, Found, Labelled, Place, Rect};
+use foveate_footage::boxes::{BoxError, Boxes, Found, Labelled, Place};
+use foveate_frame::Rect;
 
 /// A file in a folder.
 pub(crate) fn file(folder: &Path, name: &str, text: impl AsRef<[u8]>) -> PathBuf {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Frames as the receiver sees them, with what the network finds in them and in whole frames.
 
-use crate::sight::{Detection, Shot, Shots};
+use crate::Detection;
+use crate::sight::{Shot, Shots};
 use askama::Template;
 use foveate_pictures::page::PageError;
 

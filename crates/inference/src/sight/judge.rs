@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The network on whole frames, beside the one behind the camera.
 
-use super::agreement::{Pairs, SAME_OBJECT, Sums};
-use super::detection::Detection;
-use super::findings::Findings;
 use super::precision::Curve;
 use super::shots::Shots;
 use super::summary::{Received, Sight, Truth, psnr};
-use crate::camera::{Original, Seen};
-use crate::witness::{Looking, Witness};
+use crate::camera::{Original, Seen, frames_of};
 use foveate_design::Camera;
 use foveate_frame::Plane;
 use foveate_network::Executor;
+use foveate_network::sight::{
+    Detection, Findings, Found, Looking, Pairs, SAME_OBJECT, Sums, Witness,
+};
 
 /// The network on whole frames, and how much of what it says is said behind the camera, too.
 pub(crate) struct Judge<'a> {
@@ -34,7 +33,7 @@ pub(crate) struct SightFrame {
     pub(crate) sent_bytes: f64,
     /// Nothing where both pictures are equal.
     pub(crate) picture_psnr: Option<f64>,
-    pub(crate) found: Option<super::Found>,
+    pub(crate) found: Option<Found>,
 }
 
 /// What was found in the counted frames.
@@ -62,7 +61,7 @@ impl<'a> Judge<'a> {
     pub(crate) fn new(witness: &'a Witness, camera: &Camera, with_truth: bool) -> Self {
         Self {
             witness,
-            looking: witness.look_at(camera),
+            looking: witness.look_at(frames_of(camera)),
             sums: Sums::default(),
             received: Received::new(camera),
             truth: with_truth.then(Default::default),

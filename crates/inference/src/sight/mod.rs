@@ -2,22 +2,11 @@
 //! What a network loses behind the camera: the same network on the frames as they were before the camera, and how much of what it says there it says
 //! of what the receiver sees.
 
-mod agreement;
-mod detection;
-mod detector;
-mod findings;
-mod head;
 mod judge;
 mod precision;
 mod shots;
 mod summary;
 
-pub use agreement::{ClassKept, DetectionsKept, Found};
-pub(crate) use agreement::{Pairs, Sums};
-pub use detection::Detection;
-pub use detector::{Detector, parse_detector};
-pub(crate) use findings::{Findings, Reader};
-pub use head::{Head, Output};
 pub(crate) use judge::{Detected, DetectionRow, Judge, SightFrame};
 pub(crate) use shots::{Shot, Shots};
 pub use summary::{Sight, Truth};

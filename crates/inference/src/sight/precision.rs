@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Average precision against ground truth.
 
-use super::detection::{Detection, matched};
-use foveate_footage::boxes::Rect;
+use foveate_frame::Rect;
+use foveate_network::sight::{Detection, matched};
 
 /// Steps of recall at which precision is read off, 0 to 1 in hundredths, as of COCO.
 const STEPS: u32 = 100;
@@ -70,8 +70,11 @@ impl Curve {
 
 #[cfg(test)]
 mod tests {
-    use super::super::detection::tests::detection;
     use super::*;
+
+    fn detection(class: usize, score: f32, corners: [f64; 4]) -> Detection {
+        Detection { class, score, rect: rect(corners) }
+    }
 
     fn rect(corners: [f64; 4]) -> Rect {
         Rect::of_corners(corners).unwrap()

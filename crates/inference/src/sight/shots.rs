@@ -3,12 +3,12 @@
 
 use std::io::Cursor;
 
-use super::agreement::{Found, Pairs};
 use crate::camera::Seen;
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use foveate_design::Camera;
 use foveate_frame::convert_depth;
+use foveate_network::sight::{Found, Pairs};
 use image::{ImageFormat, ImageResult, Luma};
 
 /// Frames that are kept.

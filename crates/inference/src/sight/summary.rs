@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a network loses behind the camera, and what the camera sends for it.
 
-use super::agreement::{ClassKept, DetectionsKept};
-use crate::closeness;
 use foveate_design::Camera;
+use foveate_network::sight::{self, ClassKept, DetectionsKept};
 use serde::Serialize;
 
 /// The network on what the receiver sees beside the network on whole frames, over the counted frames.
@@ -100,5 +99,5 @@ impl Received {
 
 /// Peak signal-to-noise ratio in decibels; nothing without a difference.
 pub(super) fn psnr(squared_error: f64, pixels: f64, max: f64) -> Option<f64> {
-    closeness::psnr(max * max * pixels, squared_error)
+    sight::psnr(max * max * pixels, squared_error)
 }

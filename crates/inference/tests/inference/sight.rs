@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::common::{Run, number, rows};
 use foveate_inference::{
     Agreement, Computed, Detector, Framing, InferenceError, Sight, Summary, Viewing, Witness,
-    parse_detector, parse_framing,
+    frames_of, parse_detector, parse_framing,
 };
 use foveate_network::Mode;
 use foveate_network::onnx::{
@@ -155,7 +155,7 @@ fn a_witness_says_what_a_run_says() {
     let camera = config.validate().unwrap();
     let bright: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 16 { 250 } else { 10 }).collect();
     let half: Vec<u8> = (0..64 * 48).map(|at| if at % 64 < 8 { 250 } else { 10 }).collect();
-    let mut looking = witness.look_at(&camera);
+    let mut looking = witness.look_at(frames_of(&camera));
     let [whole, other] =
         [&bright, &half].map(|pixels| looking.look(foveate_frame::Plane::Bytes(pixels)));
     let same = witness.compare(&whole, &whole);

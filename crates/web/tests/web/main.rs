@@ -6,5 +6,6 @@ mod calls;
 mod cameras;
 mod committed;
 mod explanations;
+mod networks;
 mod recordings;
 mod refusals;

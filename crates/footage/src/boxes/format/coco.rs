@@ -13,7 +13,8 @@ use serde::{Deserialize, Deserializer};
 
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::name::key;
-use crate::boxes::{BoxError, Labelled, Rect};
+use crate::boxes::{BoxError, Labelled};
+use foveate_frame::Rect;
 
 #[derive(Deserialize)]
 struct Document {

@@ -12,7 +12,8 @@ use csv::{ReaderBuilder, StringRecord, Trim};
 
 use super::field::{in_line, numbers, unreadable, whole};
 use crate::boxes::limits::{self, MAX_BOXES};
-use crate::boxes::{BoxError, Labelled, Rect};
+use crate::boxes::{BoxError, Labelled};
+use foveate_frame::Rect;
 
 const COLUMNS: [&str; 9] =
     ["frame", "track", "left", "top", "width", "height", "counted", "class", "visibility"];

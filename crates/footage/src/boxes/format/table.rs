@@ -10,7 +10,8 @@ use csv::{ReaderBuilder, Trim};
 use super::field::{in_line, numbers, unreadable};
 use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::name::key;
-use crate::boxes::{BoxError, Labelled, Rect};
+use crate::boxes::{BoxError, Labelled};
+use foveate_frame::Rect;
 
 pub(crate) const COLUMNS: [&str; 5] = ["file", "x0", "y0", "x1", "y1"];
 

@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 
 use super::field::{numbers, whole};
 use crate::boxes::limits::{self, MAX_BOXES};
-use crate::boxes::{BoxError, Labelled, Rect};
+use crate::boxes::{BoxError, Labelled};
+use foveate_frame::Rect;
 
 /// Longest line, of which a few dozen letters are used.
 const MAX_LINE: u64 = 4096;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Classes of objects: by size as COCO has them, by speed, and by contrast.
 
-use foveate_footage::boxes::Rect;
+use foveate_frame::Rect;
 
 /// Group and name of every class. The first holds every object, the others those of one kind.
 pub(super) const CLASSES: [(&str, &str); 13] = [

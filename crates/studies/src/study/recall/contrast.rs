@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How far an object stands out: the mean of the pixels in its box against the mean of a ring around it.
 
-use foveate_footage::boxes::Rect;
 use foveate_frame::Raster;
+use foveate_frame::Rect;
 
 /// Sums of all pixels above and to the left of every corner, so that any mean takes four of them.
 pub(super) struct Sums {

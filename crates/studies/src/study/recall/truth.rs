@@ -5,8 +5,9 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use foveate_footage::boxes::{BoxError, Boxes, Place, Rect, View};
+use foveate_footage::boxes::{BoxError, Boxes, Place, View};
 use foveate_footage::{Crop, Kind, Source, SourceFrame};
+use foveate_frame::Rect;
 
 use super::class::classes_of;
 use super::contrast::Sums;

@@ -3,23 +3,26 @@
 
 use super::detection::Detection;
 use super::detector::Detector;
+use super::framing::Lens;
 use super::head::Output;
-use crate::framing::Lens;
-use foveate_footage::boxes::Rect;
-use foveate_network::{Executor, Network};
+use super::usual::{Usual, usual};
+use crate::executor::Executor;
+use crate::network::Network;
+use foveate_frame::Rect;
 
 /// What a network says of a frame.
 #[derive(Clone, Debug)]
-pub(crate) struct Findings {
-    pub(crate) outputs: Vec<Output>,
+pub struct Findings {
+    /// Its outputs.
+    pub outputs: Vec<Output>,
     /// What is found with at least the score that average precision needs, the surest first, in pixels of the frame; nothing without a detector.
-    pub(crate) detections: Option<Vec<Detection>>,
+    pub detections: Option<Vec<Detection>>,
 }
 
 /// Reads outputs.
 #[derive(Clone, Debug)]
-pub(crate) struct Reader {
-    pub(crate) detector: Option<Detector>,
+pub(super) struct Reader {
+    pub(super) detector: Option<Detector>,
     input: (usize, usize),
     frame: (u32, u32),
     /// Pixels of the frame per pixel of the input.
@@ -27,26 +30,39 @@ pub(crate) struct Reader {
 }
 
 impl Reader {
-    /// For the outputs of a network, to which a lens may lead.
+    /// For the outputs of a network, to which a lens may lead; without a detector.
+    pub(super) fn new(network: &Network, frame: (u32, u32), lens: Option<&Lens>) -> Self {
+        let input = (network.input().width(), network.input().height());
+        Self { detector: None, input, frame, scale: lens.map_or((1.0, 1.0), Lens::scale) }
+    }
+
+    /// The same with another detector, or none.
     ///
     /// # Errors
     /// When the outputs have another format than the detector's.
-    pub(crate) fn new(
+    pub(super) fn with(
+        self,
         network: &Network,
-        frame: (u32, u32),
-        lens: Option<&Lens>,
         detector: Option<Detector>,
     ) -> Result<Self, String> {
-        let input = (network.input().width(), network.input().height());
         if let Some(detector) = &detector {
-            detector.head.check(&outputs(network, |_| Vec::new()), input)?;
+            detector.head.check(&shapes(network), self.input)?;
         }
-        let scale = lens.map_or((1.0, 1.0), Lens::scale);
-        Ok(Self { detector, input, frame, scale })
+        Ok(Self { detector, ..self })
+    }
+
+    /// How many classes the detector tells apart, if there is one.
+    pub(super) fn classes(&self, network: &Network) -> Option<usize> {
+        self.detector.as_ref().map(|detector| detector.head.classes(&shapes(network)))
+    }
+
+    /// What the network probably wants.
+    pub(super) fn usual(&self, network: &Network) -> Usual {
+        usual(&shapes(network), self.input)
     }
 
     /// What the executor has found.
-    pub(crate) fn read(&self, network: &Network, executor: &Executor<'_>) -> Findings {
+    pub(super) fn read(&self, network: &Network, executor: &Executor<'_>) -> Findings {
         let outputs = outputs(network, |value| executor.value(value).reals().into_owned());
         let placed = |one: Detection| Detection { rect: self.place(&one.rect), ..one };
         let detections = self
@@ -61,6 +77,11 @@ impl Reader {
         let ((x, y), Rect { x0, y0, x1, y1 }) = (self.scale, *rect);
         Rect { x0: x0 * x, y0: y0 * y, x1: x1 * x, y1: y1 * y }.within(self.frame)
     }
+}
+
+/// The outputs of a network without values.
+fn shapes(network: &Network) -> Vec<Output> {
+    outputs(network, |_| Vec::new())
 }
 
 fn outputs(network: &Network, values: impl Fn(usize) -> Vec<f32>) -> Vec<Output> {

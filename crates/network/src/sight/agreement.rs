@@ -3,20 +3,22 @@
 
 use super::detection::{Detection, matched};
 use super::detector::Detector;
+use super::distance::{Distance, largest};
 use super::findings::Findings;
-use crate::closeness::{Distance, largest};
 use serde::Serialize;
 
 /// Detections are the same object if they overlap by at least this share.
-pub(crate) const SAME_OBJECT: f64 = 0.5;
+pub const SAME_OBJECT: f64 = 0.5;
 /// Areas in pixels of the frame at which objects become medium and large, as of COCO.
 const AREAS: [f64; 2] = [32.0 * 32.0, 96.0 * 96.0];
 
 /// Sums over frames.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sums {
-    pub(crate) frames: u64,
-    pub(crate) distance: Distance,
+pub struct Sums {
+    /// Frames.
+    pub frames: u64,
+    /// How far the outputs are from those of whole frames.
+    pub distance: Distance,
     classes: ClassSums,
     /// Places of outputs that have a class each, and those with the same.
     places: (u64, u64),
@@ -103,14 +105,17 @@ fn share(part: u64, all: u64) -> f64 {
 
 /// The detections of a frame that count, and which of them are the same.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Pairs {
-    pub(crate) whole: Vec<(Detection, bool)>,
-    pub(crate) seen: Vec<(Detection, bool)>,
+pub struct Pairs {
+    /// Those of the whole frame, and whether the receiver sees them, too.
+    pub whole: Vec<(Detection, bool)>,
+    /// Those in what the receiver sees, and whether the whole frame has them, too.
+    pub seen: Vec<(Detection, bool)>,
 }
 
 impl Pairs {
     /// The same object has the same class. Both must count by their scores and heights.
-    pub(crate) fn of(detector: &Detector, whole: &[Detection], seen: &[Detection]) -> Self {
+    #[must_use]
+    pub fn of(detector: &Detector, whole: &[Detection], seen: &[Detection]) -> Self {
         let counting = |all: &[Detection]| -> Vec<Detection> {
             all.iter().filter(|one| detector.counts(one)).cloned().collect()
         };
@@ -138,7 +143,8 @@ impl Pairs {
     }
 
     /// All sizes together.
-    pub(crate) fn found(&self) -> Found {
+    #[must_use]
+    pub fn found(&self) -> Found {
         let mut all = Found::default();
         self.sizes().into_iter().for_each(|found| all.add(found));
         all
@@ -147,7 +153,8 @@ impl Pairs {
 
 impl Sums {
     /// Of one frame.
-    pub(crate) fn of(whole: &Findings, seen: &Findings, pairs: Option<&Pairs>) -> Self {
+    #[must_use]
+    pub fn of(whole: &Findings, seen: &Findings, pairs: Option<&Pairs>) -> Self {
         let mut sums = Self { frames: 1, ..Self::default() };
         for (right, found) in whole.outputs.iter().zip(&seen.outputs) {
             sums.distance.add(Distance::of(&right.values, &found.values).0);
@@ -170,7 +177,8 @@ impl Sums {
         sums
     }
 
-    pub(crate) fn add(&mut self, other: &Self) {
+    /// Adds those of other frames.
+    pub fn add(&mut self, other: &Self) {
         self.frames += other.frames;
         self.distance.add(other.distance);
         self.classes.frames += other.classes.frames;
@@ -186,12 +194,15 @@ impl Sums {
     }
 
     /// Share of places with the same class.
-    pub(crate) fn places(&self) -> Option<f64> {
+    #[must_use]
+    pub fn places(&self) -> Option<f64> {
         (self.places.0 > 0).then(|| share(self.places.1, self.places.0))
     }
 
+    /// How often the class is the same, and by how much, if outputs are one.
+    #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "means")]
-    pub(crate) fn classes(&self) -> Option<ClassKept> {
+    pub fn classes(&self) -> Option<ClassKept> {
         let ClassSums { frames, same, whole_margin, seen_margin } = self.classes;
         (frames > 0).then(|| ClassKept {
             same_share: share(same, frames),
@@ -201,7 +212,8 @@ impl Sums {
     }
 
     /// All detections.
-    pub(crate) fn found(&self) -> Option<Found> {
+    #[must_use]
+    pub fn found(&self) -> Option<Found> {
         self.detections.map(|sizes| {
             let mut all = Found::default();
             sizes.into_iter().for_each(|found| all.add(found));
@@ -209,7 +221,9 @@ impl Sums {
         })
     }
 
-    pub(crate) fn detections(&self, detector: &Detector) -> Option<DetectionsKept> {
+    /// Detections by size, if they are read, which `detector` does.
+    #[must_use]
+    pub fn detections(&self, detector: &Detector) -> Option<DetectionsKept> {
         let (all, [small, medium, large]) = (self.found()?, self.detections?);
         let (kept_share, precision) = (all.kept_share(), all.precision());
         let detector = detector.to_string();
@@ -218,7 +232,8 @@ impl Sums {
 
     /// The agreement in one number, 0 to 1. Of detections the smaller of the share that is kept and the share that is right; else the share of
     /// frames, or of places, with the same class; else what the relative RMS error leaves of 1.
-    pub(crate) fn agreement(&self) -> f64 {
+    #[must_use]
+    pub fn agreement(&self) -> f64 {
         if let Some(found) = self.found() {
             return found.kept_share().min(found.precision());
         }
@@ -232,7 +247,8 @@ impl Sums {
     }
 
     /// How many things agree or do not: detections, frames, places. None where it is an error that counts.
-    pub(crate) fn counted(&self) -> Option<u64> {
+    #[must_use]
+    pub fn counted(&self) -> Option<u64> {
         if let Some(found) = self.found() {
             return Some(found.whole.min(found.seen));
         }

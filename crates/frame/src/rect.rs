@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Rectangles of real coordinates: pixel x covers x to x + 1.
 
-use super::limits::MAX_COORDINATE;
+/// The largest coordinate and side, in pixels.
+pub const MAX_COORDINATE: f64 = 1e7;
 
 /// A rectangle; `x1` and `y1` are where it ends, so that its width is `x1 - x0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -14,15 +15,6 @@ pub struct Rect {
     pub x1: f64,
     /// Lower side.
     pub y1: f64,
-}
-
-/// A box, and the track of its object if the file has tracks.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Labelled {
-    /// Where it is, in pixels of the frame before it is cropped and scaled.
-    pub rect: Rect,
-    /// The number of the object, the same in all frames.
-    pub track: Option<u64>,
 }
 
 impl Rect {
@@ -98,12 +90,14 @@ impl Rect {
     }
 
     /// The rectangle at another scale.
-    pub(crate) fn scaled(&self, x: f64, y: f64) -> Self {
+    #[must_use]
+    pub fn scaled(&self, x: f64, y: f64) -> Self {
         Self { x0: self.x0 * x, y0: self.y0 * y, x1: self.x1 * x, y1: self.y1 * y }
     }
 
     /// The rectangle at another place.
-    pub(crate) fn moved(&self, x: f64, y: f64) -> Self {
+    #[must_use]
+    pub fn moved(&self, x: f64, y: f64) -> Self {
         Self { x0: self.x0 + x, y0: self.y0 + y, x1: self.x1 + x, y1: self.y1 + y }
     }
 }

@@ -4,7 +4,7 @@
 use std::fmt;
 
 use super::detection::Detection;
-use foveate_footage::boxes::{MAX_COORDINATE, Rect};
+use foveate_frame::{MAX_COORDINATE, Rect};
 
 /// Pixels between the cells of the three grids that many detectors have.
 const STRIDES: [usize; 3] = [8, 16, 32];
@@ -106,6 +106,21 @@ impl Head {
             self.expects(),
             found.join(", ")
         ))
+    }
+
+    /// How many classes outputs tell apart that have this format.
+    #[must_use]
+    pub fn classes(self, outputs: &[Output]) -> usize {
+        let values = |axis: usize, others: usize| {
+            outputs[0].shape.get(axis).map_or(0, |values| values.saturating_sub(others))
+        };
+        match self {
+            Self::Yolox | Self::Yolov5 => values(2, 5),
+            Self::Yolov8 => values(1, 4),
+            Self::FastestDet => values(1, 5),
+            Self::Yunet => 1,
+            Self::Ssd => scores_and_boxes(outputs).map_or(0, |(scores, _)| scores.shape[2] - 1),
+        }
     }
 
     /// What is found with a score of at least `least`: the likeliest class of every cell, in pixels of the input. The outputs have been checked.
@@ -289,12 +304,14 @@ mod tests {
         values[11..14].copy_from_slice(&[0.5, 0.9, 0.2]);
         let outputs = [output("out", &[1, 3, 7], values)];
         assert_eq!(only(Head::Yolov5, &outputs, (64, 64)), (0, 0.45, [16., 8., 24., 12.]));
+        assert_eq!(Head::Yolov5.classes(&outputs), 2);
         let mut values = vec![0.0; 6 * 3];
         for (value, number) in row.into_iter().chain([0.2, 0.6]).enumerate() {
             values[value * 3 + 2] = number;
         }
         let outputs = [output("out", &[1, 6, 3], values)];
         assert_eq!(only(Head::Yolov8, &outputs, (64, 64)), (1, 0.6, [16., 8., 24., 12.]));
+        assert_eq!(Head::Yolov8.classes(&outputs), 2);
     }
 
     #[test]
@@ -304,6 +321,8 @@ mod tests {
             output("scores", &[1, 2, 3], vec![0.9, 0.05, 0.05, 0.1, 0.1, 0.8]),
         ];
         assert_eq!(only(Head::Ssd, &outputs, (320, 240)), (1, 0.8, [80., 120., 240., 240.]));
+        // The background is no class.
+        assert_eq!(Head::Ssd.classes(&outputs), 2);
     }
 
     #[test]

@@ -2,10 +2,10 @@
 //! How a frame of one size becomes the input of a network of another.
 
 use std::fmt;
-use std::path::Path;
 
-use crate::InferenceError;
-use foveate_network::{FrameSize, Network};
+use crate::error::NetworkError;
+use crate::network::Network;
+use crate::read::FrameSize;
 
 /// Grey of the rows and columns that a letterbox adds, as a share of white: 114 of 255, as detectors are trained with.
 const PADDING: f32 = 114.0 / 255.0;
@@ -68,7 +68,7 @@ impl serde::Serialize for Framing {
 
 impl Framing {
     /// The size that is asked for; `None` is the network's own.
-    pub(crate) fn size(self, frame: (u32, u32)) -> Option<(u32, u32)> {
+    pub(super) fn size(self, frame: (u32, u32)) -> Option<(u32, u32)> {
         match self {
             Self::Same => Some(frame),
             Self::Letterbox(size) | Self::Stretch(size) => size,
@@ -76,7 +76,7 @@ impl Framing {
     }
 
     /// The lens from frames of a size to an input of another; none where they are the same.
-    pub(crate) fn lens(self, frame: (u32, u32), input: (u32, u32)) -> Option<Lens> {
+    pub(super) fn lens(self, frame: (u32, u32), input: (u32, u32)) -> Option<Lens> {
         let shown = match self {
             Self::Same => return None,
             Self::Stretch(_) => input,
@@ -85,20 +85,20 @@ impl Framing {
         Some(Lens::new(frame, shown, input))
     }
 
-    /// Reads a network for frames of this size, with the lens to it.
+    /// Reads a network for frames of this size, with the lens to it. `read` takes the size that its input must have; without one it is the network's own.
     ///
     /// # Errors
     /// When the network cannot be read, or its input has no size and none is asked for.
-    pub(crate) fn read(
+    pub(super) fn read(
         self,
-        path: &Path,
+        read: impl FnOnce(Option<FrameSize>) -> Result<Network, NetworkError>,
         frame: (u32, u32),
-    ) -> Result<(Network, Option<Lens>), InferenceError> {
+    ) -> Result<(Network, Option<Lens>), NetworkError> {
         let pixels = |(width, height): (u32, u32)| FrameSize {
             width: width as usize,
             height: height as usize,
         };
-        let network = Network::read(path, self.size(frame).map(pixels))?;
+        let network = read(self.size(frame).map(pixels))?;
         let side = |side: usize| u32::try_from(side).expect("an input is smaller than 2^28 values");
         let input = (side(network.input().width()), side(network.input().height()));
         let lens = self.lens(frame, input);
@@ -125,7 +125,7 @@ struct Tap {
 
 /// Where each pixel of an input comes from, by bilinear interpolation between the centers of pixels.
 #[derive(Clone, Debug)]
-pub(crate) struct Lens {
+pub(super) struct Lens {
     columns: Vec<Tap>,
     rows: Vec<Tap>,
     /// Width of the frame and of the input.
@@ -149,18 +149,18 @@ impl Lens {
     }
 
     /// Grey beside the frame, as a share of white.
-    pub(crate) fn padding() -> f32 {
+    pub(super) fn padding() -> f32 {
         PADDING
     }
 
     /// Pixels of the frame per pixel of the input: of a row, and of a column.
-    pub(crate) fn scale(&self) -> (f64, f64) {
+    pub(super) fn scale(&self) -> (f64, f64) {
         self.scale
     }
 
     /// Gives every pixel of the input that comes from a region for which `is` holds: its number, its place, and its grey. `is` takes the column
     /// and the row of a region with this side.
-    pub(crate) fn project(
+    pub(super) fn project(
         &self,
         frame: &[u16],
         side: usize,

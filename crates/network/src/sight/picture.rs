@@ -1,45 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A frame as the input of a network, and where it has changed.
 
-use crate::InferenceError;
-use crate::framing::Lens;
-use foveate_design::Camera;
+use super::framing::Lens;
+use super::mapping::Mapping;
+use crate::form::Form;
+use crate::mask::Mask;
 use foveate_frame::Plane;
-use foveate_network::{Form, Mask};
-use serde::Serialize;
 
-/// How pixels become inputs: `(pixel / largest pixel - mean) / scale`, in every channel.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Mapping {
-    /// One value, or one per channel.
-    pub mean: Vec<f32>,
-    /// One value, or one per channel.
-    pub scale: Vec<f32>,
-}
-
-impl Mapping {
-    /// Refuses a mapping for other channels.
-    pub(crate) fn check(&self, channels: usize) -> Result<(), InferenceError> {
-        for (what, values) in [("--mean", &self.mean), ("--scale", &self.scale)] {
-            if values.len() != 1 && values.len() != channels {
-                return Err(InferenceError::Channels { what, found: values.len(), channels });
-            }
-        }
-        Ok(())
-    }
-
-    /// What a share of white becomes in a channel.
-    fn value(&self, channel: usize, share: f64) -> f32 {
-        let of = |values: &[f32]| f64::from(values[if values.len() == 1 { 0 } else { channel }]);
-        #[allow(clippy::cast_possible_truncation, reason = "inputs are 32 bits wide")]
-        let value = ((share - of(&self.mean)) / of(&self.scale)) as f32;
-        value
-    }
+/// Frames of one size and depth, in square regions that change as a whole.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Frames {
+    /// Pixels of a row, at least 1.
+    pub width: u32,
+    /// Rows, at least 1.
+    pub height: u32,
+    /// The largest value of a pixel, at least 1.
+    pub pixel_max: u32,
+    /// Pixels of a region's side, at least 1. Those at the right and at the bottom may reach beyond the frame.
+    pub region: u32,
 }
 
 /// The picture that the network sees, and the frame that it was made of.
 #[derive(Clone, Debug)]
-pub(crate) struct Picture {
+pub struct Picture {
     /// Width of the frame, and side of a region.
     width: usize,
     side: usize,
@@ -49,11 +32,12 @@ pub(crate) struct Picture {
     /// Regions in which it differs from the one before.
     fresh: Vec<bool>,
     inputs: Inputs,
-    pub(crate) values: Vec<f32>,
+    /// The input of the network.
+    pub values: Vec<f32>,
     /// Where the input differs from the one before, as far as whole regions say.
-    pub(crate) changed: Mask,
+    pub changed: Mask,
     /// How many regions that are.
-    pub(crate) changed_regions: usize,
+    pub changed_regions: usize,
 }
 
 /// How pixels of the frame become values.
@@ -66,20 +50,20 @@ enum Inputs {
 }
 
 impl Picture {
-    /// A black picture for a camera and the input of a network.
-    pub(crate) fn new(
-        camera: &Camera,
+    /// A black picture of such frames for the input of a network.
+    pub(super) fn new(
+        frames: Frames,
         input: &Form,
         mapping: &Mapping,
         lens: Option<&Lens>,
     ) -> Self {
-        let (channels, max) = (input.shape()[1], f64::from(camera.pixel_max()));
+        let (channels, max) = (input.shape()[1], f64::from(frames.pixel_max));
         let places = input.places();
         let inputs = match lens {
             None => {
                 let table = |channel| {
                     let value = |pixel: u32| mapping.value(channel, f64::from(pixel) / max);
-                    (0..=camera.pixel_max()).map(value).collect()
+                    (0..=frames.pixel_max).map(value).collect()
                 };
                 Inputs::Each((0..channels).map(table).collect())
             }
@@ -92,13 +76,14 @@ impl Picture {
         };
         // Beside a frame in a letterbox there is grey.
         let outside = lens.map_or(0.0, |_| f64::from(Lens::padding()));
-        let (width, height) = (camera.width() as usize, camera.height() as usize);
+        let (width, height) = (frames.width as usize, frames.height as usize);
+        let across = |side: u32| side.div_ceil(frames.region) as usize;
         let mut picture = Self {
             width,
-            side: camera.region_size() as usize,
-            columns: camera.columns() as usize,
+            side: frames.region as usize,
+            columns: across(frames.width),
             frame: vec![0; width * height],
-            fresh: vec![true; camera.regions() as usize],
+            fresh: vec![true; across(frames.width) * across(frames.height)],
             values: (0..channels)
                 .flat_map(|channel| vec![mapping.value(channel, outside); places])
                 .collect(),
@@ -112,7 +97,10 @@ impl Picture {
     }
 
     /// Takes over a frame.
-    pub(crate) fn show(&mut self, frame: Plane<'_>) {
+    ///
+    /// # Panics
+    /// If it has another size, or a pixel is larger than one of these frames can be.
+    pub fn show(&mut self, frame: Plane<'_>) {
         match frame {
             Plane::Bytes(pixels) => self.update(pixels),
             Plane::Words(pixels) => self.update(pixels),
@@ -122,7 +110,8 @@ impl Picture {
     }
 
     /// The frame that was shown last.
-    pub(crate) fn frame(&self) -> &[u16] {
+    #[must_use]
+    pub fn frame(&self) -> &[u16] {
         &self.frame
     }
 
@@ -184,8 +173,7 @@ impl Picture {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::Framing;
-    use foveate_design::CameraConfig;
+    use crate::sight::Framing;
 
     /// What is not marked as changed has the values from before, and all have those of a picture that never saw another frame.
     #[test]
@@ -195,13 +183,11 @@ mod tests {
         for framing in
             [Framing::Same, Framing::Letterbox(Some((9, 20))), Framing::Stretch(Some((33, 7)))]
         {
-            let mut config = CameraConfig::default();
-            (config.frame.width, config.frame.height) = (Some(27), Some(18));
-            let camera = config.validate().unwrap();
+            let frames = Frames { width: 27, height: 18, pixel_max: 255, region: 8 };
             let (width, height) = framing.size((27, 18)).unwrap();
             let input = Form::features(vec![1, 3, height as usize, width as usize]);
             let lens = framing.lens((27, 18), (width, height));
-            let new = || Picture::new(&camera, &input, &mapping, lens.as_ref());
+            let new = || Picture::new(frames, &input, &mapping, lens.as_ref());
             let (mut picture, mut pixels) = (new(), vec![0_u8; 27 * 18]);
             for _ in 0..20 {
                 for _ in 0..chance.usize(0..4) {

@@ -7,7 +7,7 @@ use super::detection::{Detection, suppressed};
 use super::head::{Head, Output};
 
 /// Detections that are surer than this are used for average precision, whatever else counts.
-pub(crate) const LEAST_SCORE: f32 = 0.01;
+pub(super) const LEAST_SCORE: f32 = 0.01;
 
 /// A format of detections, and which of them count.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,7 +32,7 @@ impl Detector {
     }
 
     /// What a network finds with at least the score that average precision needs, the surest first, in pixels of the input.
-    pub(crate) fn read(&self, outputs: &[Output], input: (usize, usize)) -> Vec<Detection> {
+    pub(super) fn read(&self, outputs: &[Output], input: (usize, usize)) -> Vec<Detection> {
         let least = self.score.min(LEAST_SCORE);
         let mut found = self.head.decode(outputs, input, least);
         found.retain(|one| self.classes.is_empty() || self.classes.contains(&one.class));
@@ -40,7 +40,7 @@ impl Detector {
     }
 
     /// Whether a detection, in pixels of the frame, counts.
-    pub(crate) fn counts(&self, one: &Detection) -> bool {
+    pub(super) fn counts(&self, one: &Detection) -> bool {
         one.score >= self.score && one.rect.height() >= self.height
     }
 }

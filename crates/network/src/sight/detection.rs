@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Objects that a network finds, and which of two lists of them are the same.
 
-use foveate_footage::boxes::Rect;
+use foveate_frame::Rect;
 
 /// An object that a network finds.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,7 +15,7 @@ pub struct Detection {
 }
 
 /// Area that two rectangles share, as a share of what they cover together.
-pub(crate) fn overlap(one: &Rect, other: &Rect) -> f64 {
+pub(super) fn overlap(one: &Rect, other: &Rect) -> f64 {
     let width = one.x1.min(other.x1) - one.x0.max(other.x0);
     let height = one.y1.min(other.y1) - one.y0.max(other.y0);
     if width <= 0.0 || height <= 0.0 {
@@ -26,7 +26,7 @@ pub(crate) fn overlap(one: &Rect, other: &Rect) -> f64 {
 }
 
 /// Of detections of one class that overlap by more than `most` the surest, the surest first.
-pub(crate) fn suppressed(mut found: Vec<Detection>, most: f64) -> Vec<Detection> {
+pub(super) fn suppressed(mut found: Vec<Detection>, most: f64) -> Vec<Detection> {
     found.sort_by(|one, other| other.score.total_cmp(&one.score));
     let mut kept: Vec<Detection> = Vec::new();
     for one in found {
@@ -41,7 +41,8 @@ pub(crate) fn suppressed(mut found: Vec<Detection>, most: f64) -> Vec<Detection>
 
 /// For every one of `found`, the surest first, which of `right` it is: that which it overlaps most, by at least `least`, of those that are not
 /// taken. `same` says which may be the same at all.
-pub(crate) fn matched<T>(
+#[must_use]
+pub fn matched<T>(
     found: &[Detection],
     right: &[T],
     least: f64,

@@ -2,20 +2,28 @@
 //! A network that says whether two pictures show the same, for whoever looks for a camera that it cannot tell from whole frames.
 
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use crate::framing::Lens;
-use crate::picture::Picture;
-use crate::sight::{Detector, Findings, Found, Pairs, Reader, Sums};
-use crate::{Framing, InferenceError, Mapping};
-use foveate_design::Camera;
+use super::agreement::{Found, Pairs, Sums};
+use super::detector::Detector;
+use super::error::SightError;
+use super::findings::{Findings, Reader};
+use super::framing::{Framing, Lens};
+use super::mapping::Mapping;
+use super::picture::{Frames, Picture};
+use super::usual::Usual;
+use crate::error::NetworkError;
+use crate::executor::{Executor, Mode};
+use crate::mask::Mask;
+use crate::moment::Moment;
+use crate::network::Network;
+use crate::read::FrameSize;
 use foveate_frame::Plane;
-use foveate_network::{Executor, Mask, Mode, Network};
 
 /// A network, and how frames of one size are shown to it.
 #[derive(Debug)]
 pub struct Witness {
-    pub(crate) network: Network,
+    network: Network,
     lens: Option<Lens>,
     mapping: Mapping,
     reader: Reader,
@@ -54,43 +62,97 @@ impl Witness {
     ///
     /// # Errors
     /// When it cannot be read, takes frames of another size, or its outputs are not those of the detector.
-    pub fn read(path: &Path, frame: (u32, u32), viewing: &Viewing) -> Result<Self, InferenceError> {
-        let (network, lens) = viewing.framing.read(path, frame)?;
-        viewing.mapping.check(network.input().shape()[1])?;
-        let reader = Reader::new(&network, frame, lens.as_ref(), viewing.detector.clone())
-            .map_err(|problem| InferenceError::Choice { problem })?;
-        Ok(Self { network, lens, mapping: viewing.mapping.clone(), reader })
+    pub fn read(path: &Path, frame: (u32, u32), viewing: &Viewing) -> Result<Self, SightError> {
+        Self::with(|size| Network::read(path, size), frame, viewing)
     }
 
-    /// Looks at frames of the size and depth of a camera.
+    /// The same with what the file `path` holds.
+    ///
+    /// # Errors
+    /// As [`Witness::read`].
+    pub fn parse(
+        bytes: &[u8],
+        path: &Path,
+        frame: (u32, u32),
+        viewing: &Viewing,
+    ) -> Result<Self, SightError> {
+        Self::with(|size| Network::parse(bytes, path, size), frame, viewing)
+    }
+
+    fn with(
+        read: impl FnOnce(Option<FrameSize>) -> Result<Network, NetworkError>,
+        frame: (u32, u32),
+        viewing: &Viewing,
+    ) -> Result<Self, SightError> {
+        let (network, lens) = viewing.framing.read(read, frame)?;
+        let reader = Reader::new(&network, frame, lens.as_ref());
+        let mapping = viewing.mapping.clone();
+        Self { network, lens, mapping, reader }
+            .viewed(viewing.mapping.clone(), viewing.detector.clone())
+    }
+
+    /// The same with another mapping and another detector, or none.
+    ///
+    /// # Errors
+    /// When the mapping is for other channels, or the outputs are not those of the detector.
+    pub fn viewed(self, mapping: Mapping, detector: Option<Detector>) -> Result<Self, SightError> {
+        mapping.check(self.network.input().shape()[1])?;
+        let reader = self.reader.with(&self.network, detector);
+        let reader = reader.map_err(|problem| SightError::Detector { problem })?;
+        Ok(Self { mapping, reader, ..self })
+    }
+
+    /// How many classes the detector tells apart, if there is one.
     #[must_use]
-    pub fn look_at(&self, camera: &Camera) -> Looking<'_> {
+    pub fn classes(&self) -> Option<usize> {
+        self.reader.classes(&self.network)
+    }
+
+    /// What the network probably wants.
+    #[must_use]
+    pub fn usual(&self) -> Usual {
+        self.reader.usual(&self.network)
+    }
+
+    /// The network.
+    #[must_use]
+    pub fn network(&self) -> &Network {
+        &self.network
+    }
+
+    /// Looks at frames of the size that it was read for.
+    #[must_use]
+    pub fn look_at(&self, frames: Frames) -> Looking<'_> {
         let input = self.network.input();
         Looking {
             witness: self,
-            picture: self.picture(camera),
+            picture: self.picture(frames),
             executor: Executor::new(&self.network, Mode::Dense),
             full: Mask::full(input.height(), input.width()),
         }
     }
 
-    /// A black picture for a camera.
-    pub(crate) fn picture(&self, camera: &Camera) -> Picture {
-        Picture::new(camera, self.network.input(), &self.mapping, self.lens.as_ref())
+    /// A black picture of such frames.
+    #[must_use]
+    pub fn picture(&self, frames: Frames) -> Picture {
+        Picture::new(frames, self.network.input(), &self.mapping, self.lens.as_ref())
     }
 
     /// How detections are read, if they are.
-    pub(crate) fn detector(&self) -> Option<&Detector> {
+    #[must_use]
+    pub fn detector(&self) -> Option<&Detector> {
         self.reader.detector.as_ref()
     }
 
     /// What an executor of the network says.
-    pub(crate) fn findings(&self, executor: &Executor<'_>) -> Findings {
+    #[must_use]
+    pub fn findings(&self, executor: &Executor<'_>) -> Findings {
         self.reader.read(&self.network, executor)
     }
 
     /// Which detections are the same, if they are read.
-    pub(crate) fn pairs(&self, whole: &Findings, other: &Findings) -> Option<Pairs> {
+    #[must_use]
+    pub fn pairs(&self, whole: &Findings, other: &Findings) -> Option<Pairs> {
         let both = whole.detections.as_ref().zip(other.detections.as_ref());
         let (detector, (whole, other)) = self.detector().zip(both)?;
         Some(Pairs::of(detector, whole, other))
@@ -112,15 +174,16 @@ impl Looking<'_> {
     }
 
     /// Runs the network on a frame, and says how long that took.
-    pub(crate) fn run(&mut self, frame: Plane<'_>) -> Duration {
+    pub fn run(&mut self, frame: Plane<'_>) -> Duration {
         self.picture.show(frame);
-        let start = Instant::now();
+        let start = Moment::now();
         self.executor.step(&self.picture.values, &self.full);
         start.elapsed()
     }
 
     /// What it says of the frame before.
-    pub(crate) fn findings(&self) -> Findings {
+    #[must_use]
+    pub fn findings(&self) -> Findings {
         self.witness.findings(&self.executor)
     }
 }

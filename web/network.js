@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// A network that looks at the page's frames: at each as the camera sees it, and as the receiver sees it. It runs in a thread of its own and takes the
+// newest frame whenever it is free, so that the pictures never wait for it.
+
+import { Boxes } from "./boxes.js";
+import { className } from "./class_names.js";
+import { at, copy, plain, say } from "./elements.js";
+import { NetworkControls } from "./network_controls.js";
+import { NetworkFigures } from "./network_figures.js";
+import { NetworkThread } from "./network_thread.js";
+
+/** Nothing is wished of mean, scale and detections: they are guessed. */
+const GUESSED = { framing: "letterbox", mean: null, scale: null, detect: null };
+
+export class NetworkView {
+  #module; #camera; #source; #told;
+  #thread = null; #file = null; #facts = null; #wishes = { ...GUESSED };
+  /** What was asked before the last change of network, settings or camera does not count. */
+  #ticket = 0;
+  /** `is` says whether the camera still has the frame that is shown. */
+  #shown = { id: 0, number: 0, is: false }; #looked = null; #looking = false; #opened = "";
+  #boxes = new Boxes(); #figures = new NetworkFigures(); #controls;
+
+  /** `module` is the compiled engine. `camera` gives the camera of now, `source` its source as a command has it. `told` is called when a wish has changed. */
+  constructor(module, { camera, source, told }) {
+    this.#module = module;
+    this.#camera = camera;
+    this.#source = source;
+    this.#told = told;
+    this.#controls = new NetworkControls(wishes => this.#wish(wishes));
+    at("open-network").onclick = () => at("network-file").click();
+    at("network-file").onchange = event => { if (event.target.files.length) this.open(event.target.files[0]); event.target.value = ""; };
+    at("close-network").onclick = () => this.close();
+    at("copy-command").onclick = () => copy(at("network-command").textContent, "the command", "copied-command");
+  }
+
+  /** How the network is shown frames, where that differs from the start. */
+  get wishes() {
+    return Object.fromEntries(Object.entries(this.#wishes).filter(([key, value]) => value !== GUESSED[key]));
+  }
+
+  /** Takes wishes for the network that is opened next, or for the one that is open. */
+  set wishes(wishes) {
+    const made = { ...GUESSED, ...wishes };
+    if (JSON.stringify(made) === JSON.stringify(this.#wishes)) return;
+    this.#wishes = made;
+    if (this.#thread) this.#make();
+  }
+
+  /** Opens a file. The network before it is gone, and what was wished of it, too. */
+  async open(file) {
+    if (this.#file) this.#wishes = { ...GUESSED };
+    this.close();
+    this.#file = file.name;
+    const ticket = ++this.#ticket;
+    this.#refused();
+    say("network-status", `reading ${file.name}`);
+    const thread = this.#thread = new NetworkThread(at("network-worker").textContent);
+    at("close-network").hidden = false;
+    at("network-hint").hidden = true;
+    try {
+      const bytes = await file.arrayBuffer();
+      await thread.ask("begin", { module: this.#module, file: bytes }, [bytes]);
+    } catch (error) {
+      if (ticket === this.#ticket) this.#fail(error.message);
+      return;
+    }
+    if (ticket === this.#ticket) await this.#make();
+  }
+
+  /** Ends the network. */
+  close() {
+    this.#ticket++;
+    this.#thread?.end();
+    this.#thread = this.#facts = null;
+    this.#looking = false;
+    this.#opened = "";
+    this.#nothing();
+    this.#refused();
+    at("network-open").hidden = at("close-network").hidden = true;
+    at("network-hint").hidden = false;
+    say("network-status", "");
+  }
+
+  /** Makes the network of the file for the camera of now. */
+  async #make() {
+    const { width, height, bits } = this.#camera().facts, ticket = ++this.#ticket, thread = this.#thread;
+    this.#opened = `${width}x${height}x${bits}`;
+    this.#facts = null;
+    this.#nothing();
+    this.#refused();
+    try {
+      const { facts } = await thread.ask("open", { wishes: { name: this.#file, ...this.#wishes }, width, height, bits });
+      if (ticket !== this.#ticket) return;
+      this.#facts = facts;
+    } catch (error) {
+      if (ticket === this.#ticket) this.#fail(error.message);
+    }
+    if (ticket !== this.#ticket) return;
+    this.#show();
+    this.#told();
+    this.#look();
+  }
+
+  #wish(wishes) {
+    Object.assign(this.#wishes, wishes);
+    this.#make();
+  }
+
+  /** The camera is another one, or begins anew. */
+  restart() {
+    this.#shown.is = false;
+    if (!this.#thread) return;
+    const { width, height, bits } = this.#camera().facts;
+    if (this.#opened && this.#opened !== `${width}x${height}x${bits}`) this.#make();
+    else if (this.#facts) {
+      this.#ticket++;
+      this.#nothing();
+      this.#command();
+    }
+  }
+
+  /** Another frame is shown, which the camera calls by this number. */
+  seen(number) {
+    this.#shown = { id: this.#shown.id + 1, number, is: true };
+    if (!this.#facts) return;
+    this.#look();
+    this.#mark();
+  }
+
+  /** Looks at the frame of now, if the network is free and has not seen it yet. */
+  async #look() {
+    const { id, number, is } = this.#shown, ticket = this.#ticket;
+    if (!this.#facts || this.#looking || !is || this.#looked?.id === id) return;
+    const camera = this.#camera(), { length } = camera.pixels;
+    const planes = new Uint8Array(2 * length);
+    planes.set(camera.pixels);
+    planes.set(camera.rendered, length);
+    this.#looking = true;
+    const thread = this.#thread;
+    try {
+      const { looked, ms } = await thread.ask("look", { planes: planes.buffer }, [planes.buffer]);
+      if (thread !== this.#thread) return;
+      this.#looking = false;
+      if (ticket === this.#ticket) this.#found({ id, number, ...looked }, ms);
+    } catch (error) {
+      if (thread !== this.#thread) return;
+      this.#looking = false;
+      if (ticket === this.#ticket) {
+        this.#facts = null;
+        this.#fail(error.message);
+        return;
+      }
+    }
+    this.#look();
+  }
+
+  #found(looked, ms) {
+    this.#looked = looked;
+    this.#figures.add(looked, ms, performance.now());
+    if (this.#facts.head) this.#boxes.show(looked, this.#camera().facts, number => className(this.#facts, number));
+    this.#mark();
+  }
+
+  /** Says of which frame the boxes are. */
+  #mark() {
+    const looked = this.#looked;
+    if (!looked) return;
+    const before = this.#shown.id - looked.id;
+    this.#boxes.older(before > 0);
+    this.#figures.show(looked, before);
+  }
+
+  /** Nothing was looked at yet. */
+  #nothing() {
+    this.#looked = null;
+    this.#boxes.clear();
+    this.#figures.reset();
+  }
+
+  #show() {
+    at("network-open").hidden = false;
+    this.#controls.show(this.#facts, this.#wishes);
+    this.#command();
+    if (!this.#facts) return;
+    const { input, macs, head } = this.#facts;
+    const kind = head ? `detections of ${head}` : "no detector: its outputs are compared";
+    say("network-status", `${this.#file}: ${input.width}x${input.height} pixels, ${(macs / 1e6).toFixed(0)} million multiplications, ${kind}`);
+  }
+
+  /** The command that does the same with the copied TOML. */
+  #command() {
+    const { options } = this.#facts ?? {};
+    at("network-command").hidden = at("copy-command").disabled = !options;
+    if (!options) return;
+    const word = text => /^[\w.:/=,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
+    say("network-command", `foveate infer ${word(this.#file)} ${this.#source().map(word).join(" ")} -o out --config camera.toml ${options}`);
+  }
+
+  #fail(message) {
+    say("network-status", "");
+    this.#refused(message);
+  }
+
+  #refused(message) {
+    at("network-refused").hidden = !message;
+    at("network-refused").textContent = message ? plain(message) : "";
+  }
+
+  /** For whoever checks them. */
+  get looked() { return this.#looked; }
+  get facts() { return this.#facts; }
+  get shown() { return this.#shown; }
+  get sums() { return this.#figures.sums; }
+}

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// How a network is shown frames and read: the options of `foveate infer`. What the engine guesses is shown, and can be changed.
+
+import { at, make } from "./elements.js";
+
+/** Usual ranges of pixels, with their mean and scale. */
+const RANGES = [["0 to 1", "0", "1"], ["0 to 255", "0", "1/255"], ["-1 to 1", "0.5", "0.5"], ["(x - 127) / 128", "127/255", "128/255"],
+  ["as of torchvision", "0.485,0.456,0.406", "0.229,0.224,0.225"]];
+const HEADS = ["yolox", "yolov5", "yolov8", "ssd", "yunet", "fastestdet"];
+const option = (value, textContent) => make("option", { value, textContent });
+
+export class NetworkControls {
+  #wish; #facts = null;
+
+  /** `wish` is called with what of {framing, mean, scale, detect} is wished otherwise. */
+  constructor(wish) {
+    this.#wish = wish;
+    at("range").append(...RANGES.map(([name], place) => option(place, name)), option("", "other"));
+    at("range").onchange = ({ target: { value } }) => {
+      if (value === "") return at("mean").focus();
+      const [, mean, scale] = RANGES[value];
+      return wish({ mean, scale });
+    };
+    for (const key of ["mean", "scale"]) at(key).onchange = ({ target: { value } }) => wish({ [key]: value.replaceAll(" ", "") || null });
+    at("framing").onchange = at("framing-size").onchange = () => {
+      const size = at("framing-size").value.trim();
+      wish({ framing: at("framing").value + (size && `=${size}`) });
+    };
+    at("detect").onchange = ({ target: { value } }) => wish({ detect: value === "likely" ? null : value === "none" ? "" : value });
+    at("score").onchange = at("overlap").onchange = () => wish({ detect: `${this.#facts.head},score=${at("score").value},overlap=${at("overlap").value}` });
+  }
+
+  /** Shows what is so, or, where the network was refused, what is wished. */
+  show(facts, wishes) {
+    this.#facts = facts;
+    const { mean, scale, head, likely, fits } = facts ?? { ...wishes, fits: HEADS };
+    const wished = wishes.detect === null ? "likely" : wishes.detect === "" ? "none" : wishes.detect.split(",")[0];
+    const known = fits.includes(wished) || ["likely", "none"].includes(wished) ? fits : [wished, ...fits];
+    at("detect").replaceChildren(option("likely", facts ? `likely: ${likely ?? "none"}` : "likely"), option("none", "none"), ...known.map(name => option(name, name)));
+    at("detect").value = wished;
+    const place = RANGES.findIndex(([, ...own]) => own[0] === mean && own[1] === scale);
+    at("range").value = place < 0 ? "" : place;
+    at("mean").value = mean ?? "";
+    at("scale").value = scale ?? "";
+    const [way, size] = wishes.framing.split("=");
+    at("framing").value = way;
+    at("framing-size").value = size ?? "";
+    for (const key of ["score", "overlap"]) {
+      at(key).disabled = !head;
+      at(key).value = head ? Number(facts[key].toFixed(3)) : "";
+    }
+  }
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What a network said of the frames that it looked at: of the last one, and counted since the beginning.
+
+import { at, make, percent, say } from "./elements.js";
+
+/** Looks of which the means are shown. */
+const RECENT = 20;
+
+export class NetworkFigures {
+  #sums; #recent; #shown = 0;
+
+  constructor() { this.reset(); }
+
+  /** Begins anew. */
+  reset() {
+    this.#sums = { frames: 0, whole: 0, kept: 0, seen: 0, added: 0, same: 0, agreement: 0 };
+    this.#recent = [];
+    at("network-figures").replaceChildren();
+    say("network-now", "");
+  }
+
+  /** Adds what was said of a frame and of what the receiver sees, which took so many ms. */
+  add({ found, classes, agreement }, ms, now) {
+    const sums = this.#sums;
+    sums.frames++;
+    for (const [key, count] of Object.entries(found ?? {})) sums[key] += count;
+    sums.same += classes?.same_share ?? 0;
+    sums.agreement += agreement;
+    this.#recent = [...this.#recent.slice(1 - RECENT), { ms, now }];
+  }
+
+  /** Shows the last frame, `before` frames before the one of the pictures. */
+  show(looked, before) {
+    const age = before === 0 ? "the frame shown" : `${before} frame${before === 1 ? "" : "s"} before the one shown`;
+    say("network-now", `Frame ${looked.number}, ${age}: ${words(looked)}.`);
+    at("network-now").classList.toggle("quiet", before > 0);
+    if (this.#shown === this.#recent.at(-1)?.now) return;
+    this.#shown = this.#recent.at(-1)?.now;
+    at("network-figures").replaceChildren(...[...this.#counts(looked), ...this.#speed()].map(([name, value]) =>
+      make("div", {}, make("dt", { textContent: name }), make("dd", { textContent: value }))));
+  }
+
+  #counts({ found, classes }) {
+    const { frames, whole, kept, added, same, agreement } = this.#sums;
+    const share = (part, all) => all ? `${part} (${percent(part / all)})` : part;
+    if (found) return [["found in whole frames", whole], ["of these kept", share(kept, whole)], ["added", added], ["frames looked at", frames]];
+    if (classes) return [["same class", share(Math.round(same), frames)], ["frames looked at", frames]];
+    return [["agreement", percent(agreement / frames)], ["frames looked at", frames]];
+  }
+
+  #speed() {
+    const recent = this.#recent, mean = recent.reduce((sum, { ms }) => sum + ms, 0) / recent.length;
+    const seconds = (recent.at(-1).now - recent[0].now) / 1000;
+    return [["of them a second", seconds > 0 ? ((recent.length - 1) / seconds).toFixed(1) : "–"], ["ms a picture", (mean / 2).toFixed(1)]];
+  }
+
+  /** The sums, for whoever checks them. */
+  get sums() { return { ...this.#sums }; }
+}
+
+/** What was said of a frame. */
+function words({ found, classes, class: both, same_places, agreement, relative_rms }) {
+  if (found) return `${found.whole} found, ${found.kept} kept, ${found.whole - found.kept} lost, ${found.added} added`;
+  const margin = value => value?.toPrecision(3) ?? "no number";
+  if (classes) return `class ${both[0]}, by ${margin(classes.whole_margin)}; to the receiver class ${both[1]}, class ${both[0]} ${classes.seen_margin < 0 ? "behind" : "ahead"} by ${margin(classes.seen_margin && Math.abs(classes.seen_margin))}`;
+  if (same_places !== null) return `the same class at ${percent(same_places)} of the places`;
+  return `outputs agree by ${percent(agreement)}, relative RMS error ${relative_rms?.toPrecision(3) ?? "not a number"}`;
+}

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// A thread of its own for the network of the page: an engine that has nothing else to do. The page asks {id, kind, ...}, one question at a
+// time, and gets {id, ...} with what came of it, or {id, refused, fault} with a message; after a fault it answers no more.
+
+import { Engine } from "./engine.js";
+
+let engine;
+const KINDS = {
+  begin: async ({ module, file }) => {
+    engine = await Engine.load(module);
+    engine.takeNetwork(new Uint8Array(file));
+  },
+  open: ({ wishes, width, height, bits }) => ({ facts: engine.openNetwork(wishes, width, height, bits) }),
+  look: ({ planes }) => {
+    const start = performance.now(), looked = engine.look(new Uint8Array(planes));
+    return { looked, ms: performance.now() - start };
+  },
+};
+
+self.onmessage = async ({ data: { id, kind, ...asked } }) => {
+  try {
+    self.postMessage({ id, ...await KINDS[kind](asked) });
+  } catch (error) {
+    self.postMessage({ id, refused: error.message, fault: error.fault ?? false });
+  }
+};
