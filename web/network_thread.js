@@ -13,7 +13,7 @@ export class NetworkThread {
     this.#worker.onmessage = ({ data: { id, refused, fault, ...answer } }) => {
       const { done, refuse } = this.#waiting.get(id);
       this.#waiting.delete(id);
-      if (refused) refuse(new Error(fault ? FAULT : refused)); else done(answer);
+      if (refused !== undefined) refuse(new Error(fault ? FAULT : refused)); else done(answer);
     };
     this.#worker.onerror = event => {
       event.preventDefault();

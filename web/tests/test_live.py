@@ -5,6 +5,7 @@ import os
 import subprocess
 from pathlib import Path
 
+import onnx
 import pytest
 from waiting import until
 
@@ -57,3 +58,13 @@ def test_a_clip_has_its_own_times_and_an_end(served):
     until(page, "foveate.sums.frames === 1")
     page.wait_for_timeout(1200)
     assert 2 <= page.evaluate("foveate.sums.frames") <= 5
+
+
+def test_a_network_runs_on_the_page_that_is_served(served):
+    page, _ = served(reduced_motion="reduce")
+    until(page, "foveate.sums.frames === 1")
+    (folder := Path(page.folder)).mkdir(exist_ok=True)
+    (folder / "squares.onnx").write_bytes(onnx.squares())
+    page.set_input_files("#network-file", folder / "squares.onnx")
+    until(page, "foveate.network.looked?.whole.length > 0", timeout=20)
+    assert page.locator("#network-refused").is_hidden()

@@ -18,7 +18,8 @@ pytest_plugins = ["pages"]
 
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 DATA = os.environ.get("FOVEATE_DATA")
-SIZE = "160x120"
+# Of another shape than the networks, so that letterbox and stretch differ.
+SIZE = "176x112"
 EXACT = "foveate.network.looked?.id === foveate.network.shown.id"
 LOOKED = "foveate.network.looked"
 
@@ -195,7 +196,7 @@ def test_boxes_are_of_the_frame_shown_or_marked_as_older(street):
     first = max(found["whole"], key=lambda own: own["both"] is False)
     shown = page.locator("#input .box.lost").first.bounding_box()
     picture = page.locator("#input canvas").bounding_box()
-    share = picture["width"] / 160
+    share = picture["width"] / 176
     assert any(abs(shown["x"] - picture["x"] - own["rect"][0] * share) < 2 and abs(shown["width"] - (own["rect"][2] - own["rect"][0]) * share) < 4
                for own in found["whole"] if not own["both"]), first
     # While the next frame is looked at, the boxes of the last one are marked.
@@ -232,7 +233,7 @@ def test_counts_are_shown_and_begin_anew(street):
     assert page.evaluate("foveate.network.sums.frames") < 4
     # Another size is another network.
     page.select_option("#size", "320x240")
-    until(page, "foveate.network.looked?.whole.some(own => own.rect[2] > 160)")
+    until(page, "foveate.network.looked?.whole.some(own => own.rect[2] > 176)")
     page.click("#close-network")
     assert page.locator(".box").count() == 0 and page.locator("#network-open").is_hidden()
 
@@ -327,15 +328,31 @@ def test_a_size_is_given_to_a_network_that_takes_any(street):
     assert "expected a number above 0" in refused(page, "scale")
 
 
-def test_an_engine_that_stops_is_told(street):
+FAULT = "(() => { throw Object.assign(new Error('so'), { fault: true }); })("
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "message"),
+    [
+        ("engine.takeNetwork(", "engine.notThere(", "notThere"),
+        ("engine.look(", FAULT, "most likely it takes more memory than a page has"),
+        ("let engine;", "throw new Error('so');", "thread does not start"),
+    ],
+    ids=["error", "fault", "start"],
+)
+def test_a_thread_that_fails_is_told(street, before, after, message):
     page = street()
-    worker = "document.getElementById('network-worker').textContent"
-    page.evaluate(f"{worker} = {worker}.replace('engine.takeNetwork(', 'engine.notThere(')")
+    page.evaluate(
+        """([before, after]) => {
+            const own = document.getElementById("network-worker");
+            own.textContent = own.textContent.replace(before, after);
+        }""",
+        [before, after],
+    )
     give(page, "squares.onnx", onnx.squares())
-    refused(page, "notThere")
-    page.evaluate(f"{worker} = 'throw new Error(1)'")
-    give(page, "squares.onnx", onnx.squares())
-    refused(page, "thread does not start")
+    refused(page, message)
+    page.evaluate("document.getElementById('step').click()")
+    until(page, "foveate.sums.frames === 2")
 
 
 # --- For everybody

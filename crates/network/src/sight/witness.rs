@@ -197,7 +197,7 @@ impl<'a> std::iter::Sum<&'a Agreement> for Agreement {
 }
 
 impl Agreement {
-    /// The agreement in one number, 0 to 1, as [`Sight::agreement`](crate::Sight::agreement).
+    /// The agreement in one number, 0 to 1, as that of [`Sums`].
     #[must_use]
     pub fn share(&self) -> f64 {
         self.0.agreement()
