@@ -182,6 +182,7 @@ export class NetworkView {
     at("network-open").hidden = false;
     this.#controls.show(this.#facts, this.#wishes);
     this.#command();
+    at("network-keys").hidden = !this.#facts?.head;
     if (!this.#facts) return;
     const { input, macs, head } = this.#facts;
     const kind = head ? `detections of ${head}` : "no detector: its outputs are compared";
@@ -190,6 +191,7 @@ export class NetworkView {
 
   /** The command that does the same with the copied TOML. */
   #command() {
+    say("copied-command", "");
     const { options } = this.#facts ?? {};
     at("network-command").hidden = at("copy-command").disabled = !options;
     if (!options) return;

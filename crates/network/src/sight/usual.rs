@@ -41,8 +41,10 @@ impl Usual {
 fn is_likely(head: Head, outputs: &[Output], input: (usize, usize)) -> bool {
     match (head, &outputs[0].shape[..]) {
         (Head::Yolov5, [_, cells, values]) | (Head::Yolov8, [_, values, cells]) => values < cells,
-        // A grid as fine as the picture says what every pixel is.
-        (Head::FastestDet, [_, _, rows, columns]) => rows * 8 <= input.1 && columns * 8 <= input.0,
+        // A grid as fine as the picture says what every pixel is, and a single cell what the whole is.
+        (Head::FastestDet, [_, _, rows, columns]) => {
+            rows.min(columns) > &1 && rows * 8 <= input.1 && columns * 8 <= input.0
+        }
         _ => true,
     }
 }
@@ -88,6 +90,8 @@ mod tests {
     fn what_is_probably_no_detector_is_not_taken_for_one() {
         let classes = of(&[("logits", &[1, 1000])], (224, 224));
         assert_eq!((classes.head, classes.fits.len(), classes.scale), (None, 0, "1"));
+        let classes = of(&[("softmax", &[1, 1000, 1, 1])], (224, 224));
+        assert_eq!((classes.head, classes.fits), (None, vec![Head::FastestDet]));
         // A segmentation fits the axes of FastestDet, which somebody may choose.
         let places = of(&[("out", &[1, 21, 513, 513])], (513, 513));
         assert_eq!((places.head, places.fits), (None, vec![Head::FastestDet]));
