@@ -75,7 +75,8 @@ pub(crate) struct NetworkArgs {
     /// What the design is to be cheapest in: bytes that leave the camera, or area
     #[arg(long, value_enum, value_name = "WHAT", default_value = "bytes", requires = "network")]
     pub(crate) cheapest: CheapestIn,
-    /// The network looks at this many frames of each half, spread evenly over all clips
+    /// The network looks at this many frames, spread evenly over all clips, of the first two thirds of the first halves, by which it
+    /// searches; of the rest of them, which is to confirm what was found; and of the second halves
     #[arg(long, value_name = "FRAMES", default_value_t = 48, value_parser = at_least_one(), requires = "network")]
     pub(crate) look_at: u32,
     #[command(flatten)]

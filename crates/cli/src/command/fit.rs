@@ -164,8 +164,12 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
 /// What a network says of the design.
 fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
     let (fitted, held_out) = design.bytes_per_frame;
-    let halves = [("fitted", network.fitted, fitted), ("held out", network.held_out, held_out)];
-    let half = |(name, agreed, bytes): (&str, Agreed, f64)| {
+    let parts = [
+        ("fitted", network.fitted, Some(fitted)),
+        ("confirmed later in this half", network.confirmed, None),
+        ("held out", network.held_out, Some(held_out)),
+    ];
+    let part = |(name, agreed, bytes): (&str, Agreed, Option<f64>)| {
         let found = agreed.detections.map_or_else(String::new, |found| {
             format!(
                 ": {:.1} % of {} detections kept, {:.1} % of {} right",
@@ -175,15 +179,14 @@ fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
                 found.seen
             )
         });
-        format!(
-            "{} ({name}, {} frames): agreement {:.1} %{found}; {bytes:.0} bytes per frame, {:.1} % of a whole one",
-            network.network,
-            agreed.frames,
-            100.0 * agreed.share,
-            100.0 * bytes / network.bytes_per_whole_frame
-        )
+        let bytes = bytes.map_or_else(String::new, |bytes| {
+            let share = 100.0 * bytes / network.bytes_per_whole_frame;
+            format!("; {bytes:.0} bytes per frame, {share:.1} % of a whole one")
+        });
+        let (model, frames, share) = (&network.network, agreed.frames, 100.0 * agreed.share);
+        format!("{model} ({name}, {frames} frames): agreement {share:.1} %{found}{bytes}")
     };
-    halves.map(half).into()
+    parts.map(part).into()
 }
 
 /// How many RPUs or lanes there are.

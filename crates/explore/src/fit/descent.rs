@@ -4,7 +4,8 @@
 //! It begins at the task, whatever its irrelevant regions show, and at a camera that sends nearly all. Cameras that differ from the best one so far in
 //! one thing are examined, the cheapest first, until one agrees enough; that is the best one then. It ends when none is cheaper.
 //!
-//! The cheapest of many cameras that agree enough on some frames is one that had luck with them. So enough is what can be expected on others, too.
+//! The cheapest of many cameras that agree enough on some frames is one that had luck with them. So enough is what can be expected on others, too; and a
+//! camera that agrees enough must be confirmed by later frames, which are asked about no other.
 
 use std::collections::BTreeMap;
 
@@ -18,7 +19,7 @@ use super::agreed::Agreed;
 use super::build::cheapest_rough;
 use super::constraints::Held;
 use super::looks::Search;
-use super::network::{Cheapest, Half, Jury};
+use super::network::{Cheapest, Jury, Part};
 use super::target::scaled_by;
 use crate::ExploreError;
 
@@ -67,9 +68,9 @@ impl<'s, 'a> Descent<'s, 'a> {
         }
         let (_, chosen) = best.unwrap_or((f64::INFINITY, all));
         let camera = chosen.validate()?;
-        let agreed = self.ask(&camera, None)?;
+        let expected = self.ask(&camera, None)?.expected.min(self.confirm(&camera, None)?.expected);
         if self.search.get(camera.config()).is_none() {
-            self.look(camera.config(), agreed)?;
+            self.look(camera.config(), expected)?;
         }
         Ok(self.asked)
     }
@@ -84,15 +85,25 @@ impl<'s, 'a> Descent<'s, 'a> {
         priced.retain(|(cost, _)| *cost < most);
         priced.sort_by(|one, other| one.0.total_cmp(&other.0));
         for (cost, camera) in priced {
-            let least = self.jury.goal.min_agreement;
-            let (config, agreed) = (camera.config(), self.ask(&camera, Some(least))?);
-            let agrees = agreed.expected >= least;
+            let Some(expected) = self.expected(&camera)? else { continue };
+            let config = camera.config();
             // To know what else a camera shows takes longer than to ask.
-            if agrees && (!self.search.limits_figures() || self.look(config, agreed)?) {
+            if !self.search.limits_figures() || self.look(config, expected)? {
                 return Ok(Some((cost, config.clone())));
             }
         }
         Ok(None)
+    }
+
+    /// The agreement to expect of other frames, if that is enough by those that are searched and by those that confirm.
+    fn expected(&mut self, camera: &Camera) -> Result<Option<f64>, ExploreError> {
+        let least = self.jury.goal.min_agreement;
+        let searched = self.ask(camera, Some(least))?.expected;
+        if searched < least {
+            return Ok(None);
+        }
+        let confirmed = self.confirm(camera, Some(least))?.expected;
+        Ok((confirmed >= least).then(|| searched.min(confirmed)))
     }
 
     /// What each camera costs. Those that are none, or that no organization takes, are left out.
@@ -114,28 +125,47 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok(costs.into_iter().zip(cameras).collect())
     }
 
-    /// What the network says of a camera, in full if there is no `least` that is to be reached.
+    /// What the network says of a camera on the frames that are searched, in full if there is no `least` that is to be reached.
     fn ask(&mut self, camera: &Camera, least: Option<f64>) -> Result<Agreed, ExploreError> {
-        let key = camera.config().to_toml();
-        let known = self.asked.0.get(&key).filter(|agreed| least.is_some() || !agreed.at_most);
-        if let Some(agreed) = known {
-            return Ok(*agreed);
-        }
-        let agreed = self.jury.ask(camera, Half::First, least, self.asked.count())?;
-        self.asked.0.insert(key, agreed);
-        Ok(agreed)
+        let asked = self.asked.count();
+        let ask = || self.jury.ask(camera, Part::Search, least, asked);
+        known_or(&mut self.asked.searched, camera, least, ask)
     }
 
-    /// Measures a camera in full; says whether all limits hold.
-    fn look(&mut self, config: &CameraConfig, agreed: Agreed) -> Result<bool, ExploreError> {
+    /// What it says of it on later frames.
+    fn confirm(&mut self, camera: &Camera, least: Option<f64>) -> Result<Agreed, ExploreError> {
+        let asked = self.asked.count();
+        let ask = || self.jury.ask(camera, Part::Confirmation, least, asked);
+        known_or(&mut self.asked.confirmed, camera, least, ask)
+    }
+
+    /// Measures a camera in full; says whether all limits hold, with the agreement that is expected.
+    fn look(&mut self, config: &CameraConfig, expected: f64) -> Result<bool, ExploreError> {
         let mut holds = false;
         for mut look in self.search.look(std::slice::from_ref(config))? {
-            look.held.push(Held::expected_agreement(agreed.expected, self.jury.goal.min_agreement));
+            look.held.push(Held::expected_agreement(expected, self.jury.goal.min_agreement));
             holds = look.holds();
             self.search.replace(look);
         }
         Ok(holds)
     }
+}
+
+/// What is known of a camera, or what `ask` says; in full if there is no `least` that is to be reached.
+fn known_or(
+    known: &mut BTreeMap<String, Agreed>,
+    camera: &Camera,
+    least: Option<f64>,
+    ask: impl FnOnce() -> Result<Agreed, ExploreError>,
+) -> Result<Agreed, ExploreError> {
+    let key = camera.config().to_toml();
+    let enough = |agreed: &&Agreed| least.is_some() || !agreed.at_most;
+    if let Some(agreed) = known.get(&key).filter(enough) {
+        return Ok(*agreed);
+    }
+    let agreed = ask()?;
+    known.insert(key, agreed);
+    Ok(agreed)
 }
 
 /// A camera that sends much more than the task's: if the network tells this one from whole frames, it tells all others.
@@ -210,21 +240,44 @@ fn level_at(level: u32, bits: u32) -> Option<u32> {
 
 /// What the network said of cameras, by their configurations.
 #[derive(Debug, Default)]
-pub(super) struct Asked(BTreeMap<String, Agreed>);
+pub(super) struct Asked {
+    /// On the frames that are searched.
+    searched: BTreeMap<String, Agreed>,
+    /// On later frames, of those that agreed enough before.
+    confirmed: BTreeMap<String, Agreed>,
+}
 
 impl Asked {
     /// Of how many.
     pub(super) fn count(&self) -> usize {
-        self.0.len()
+        self.searched.len()
     }
 
-    /// What it said of one that was asked in full.
-    pub(super) fn of(&self, config: &CameraConfig) -> Agreed {
-        self.0[&config.to_toml()]
+    /// What it said of one that was asked in full; on later frames, if it was asked there.
+    pub(super) fn of(&self, config: &CameraConfig) -> (Agreed, Option<Agreed>) {
+        let text = config.to_toml();
+        (self.searched[&text], self.confirmed.get(&text).copied())
+    }
+
+    /// Why this camera was chosen, as far as the network has a say; `least` is the agreement that was to be reached.
+    pub(super) fn reasons(&self, chosen: &CameraConfig, least: f64) -> Vec<String> {
+        self.not_confirmed(least).into_iter().chain(self.steps(chosen)).collect()
+    }
+
+    /// How many cameras later frames did not confirm.
+    fn not_confirmed(&self, least: f64) -> Option<String> {
+        let failed = |agreed: &&Agreed| agreed.at_most || agreed.expected < least;
+        let count = self.confirmed.values().filter(failed).count();
+        let all = self.confirmed.len();
+        (count > 0).then(|| {
+            format!(
+                "later frames did not confirm {count} of {all} cameras that agreed enough before"
+            )
+        })
     }
 
     /// What one change of the chosen camera would do that is cheaper or not, in the order of the keys.
-    pub(super) fn steps(&self, chosen: &CameraConfig) -> Vec<String> {
+    fn steps(&self, chosen: &CameraConfig) -> Vec<String> {
         let own = settings(&chosen.to_toml());
         let step = |(text, agreed): (&String, &Agreed)| {
             let other = settings(text);
@@ -238,7 +291,7 @@ impl Asked {
             let elsewhere = elsewhere.unwrap_or_default();
             Some(format!("{setting}: agreement {bound}{share:.1} %{elsewhere}"))
         };
-        self.0.iter().filter_map(step).collect()
+        self.searched.iter().filter_map(step).collect()
     }
 }
 

@@ -15,10 +15,14 @@ pub(super) struct Halves {
 }
 
 /// A frame to start with, and one that can change, in each half.
-const LEAST: u64 = 4;
+pub(super) const LEAST: u64 = 4;
 
-/// Counts the frames of every clip; what a container says may be wrong.
-pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves, ExploreError> {
+/// Counts the frames of every clip, of which each needs `least`; what a container says may be wrong.
+pub(super) fn halves(
+    footage: &Footage<'_>,
+    least: u64,
+    hooks: &dyn Hooks,
+) -> Result<Halves, ExploreError> {
     let mut found = Halves::default();
     let mut read = 0;
     for (clip, subject) in footage.subjects.iter().enumerate() {
@@ -34,9 +38,9 @@ pub(super) fn halves(footage: &Footage<'_>, hooks: &dyn Hooks) -> Result<Halves,
                 return Err(ExploreError::Cancelled);
             }
         }
-        if frames < LEAST {
+        if frames < least {
             let clip = subject.name.clone();
-            return Err(ExploreError::Short { clip, frames, least: LEAST });
+            return Err(ExploreError::Short { clip, frames, least });
         }
         if let Some(boxes) = footage.boxes.get(clip).filter(|_| !has_boxes) {
             return Err(boxes.none_fit(&subject.name).into());

@@ -42,7 +42,7 @@ use build::build;
 use descent::{Asked, Descent};
 use held_out::{Halves, halves};
 use looks::Search;
-use network::Jury;
+use network::{Jury, Part};
 
 pub use agreed::Agreed;
 pub use constraints::{Constraints, Held};
@@ -91,7 +91,8 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let (lengths, boxes, (task, target)) = {
         let footage = Footage::new(request.inputs, request.input, &request.task.camera, hooks)?;
         let footage = footage.with_boxes(request.boxes)?;
-        let lengths = halves(&footage, hooks)?;
+        let least = if request.network.is_some() { Part::LEAST } else { held_out::LEAST };
+        let lengths = halves(&footage, least, hooks)?;
         let aimed = target::aim(request, &footage, &lengths)?;
         (lengths, footage.boxes, aimed)
     };
@@ -110,7 +111,8 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     let built = build(&search, request, memory, hooks)?;
     let chosen = built.chosen();
     let camera = &chosen.look.config;
-    let steps = (asked.count(), asked.steps(camera));
+    let least = request.network.map_or(0.0, |goal| goal.min_agreement);
+    let steps = (asked.count(), asked.reasons(camera, least));
     let second = search.second_half(&chosen.look)?;
     let network = jury.map(|jury| jury.report(camera, asked.of(camera))).transpose()?;
     Ok(report::fit(request, &search, steps, &built, target, (second, network), &lengths))

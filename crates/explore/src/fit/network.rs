@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A network that is not to tell what the receiver sees from whole frames.
 //!
-//! What it says of whole frames is found once, of some frames of every half, spread evenly. A camera is dropped as soon as it cannot reach the wanted
-//! agreement any more, even if it agreed on all other frames.
+//! What it says of whole frames is found once, of some frames of every part of the clips, spread evenly. A camera is dropped as soon as it cannot reach
+//! the wanted agreement any more, even if it agreed on all other frames.
 
 use std::ops::Range;
 use std::path::Path;
@@ -32,7 +32,8 @@ pub struct NetworkGoal<'a> {
     pub min_agreement: f64,
     /// What the design is to be cheapest in.
     pub cheapest: Cheapest,
-    /// The most frames of each half of all clips that the network looks at.
+    /// The most frames of each part of all clips that the network looks at: those that cameras are searched by, those that
+    /// confirm one, and the second halves.
     pub frames: u64,
 }
 
@@ -57,19 +58,41 @@ pub struct FittedNetwork {
     pub min_agreement: f64,
     /// What the design was to be cheapest in.
     pub cheapest: Cheapest,
-    /// On the first half, on which it was fitted.
+    /// On the frames that cameras were searched by: the first two thirds of the first half.
     pub fitted: Agreed,
+    /// On the rest of the first half. It took no part in the search, and confirmed its result.
+    pub confirmed: Agreed,
     /// On the second half, which influenced no choice.
     pub held_out: Agreed,
     /// Bytes of a whole frame.
     pub bytes_per_whole_frame: f64,
 }
 
-/// A half of every clip.
+/// A part of every clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Half {
-    First,
-    Second,
+pub(super) enum Part {
+    /// The first two thirds of the first half: cameras are searched by it.
+    Search,
+    /// The rest of the first half, which comes later and takes no part in the search: it confirms what was found.
+    Confirmation,
+    /// The second half.
+    HeldOut,
+}
+
+impl Part {
+    /// The fewest frames of a clip of which each part has one.
+    pub(super) const LEAST: u64 = 6;
+
+    /// Its frames, of a clip of `all` frames of which `half` are the first half. The first frame of a clip is one that every
+    /// camera sends whole: it belongs to no part.
+    fn frames(self, (half, all): (u64, u64)) -> Range<u64> {
+        let searched = (2 * half).div_ceil(3);
+        match self {
+            Self::Search => 1..searched,
+            Self::Confirmation => searched..half,
+            Self::HeldOut => half..all,
+        }
+    }
 }
 
 /// A frame that the network looks at, and what it says of it.
@@ -86,8 +109,8 @@ pub(super) struct Jury<'a> {
     pub(super) goal: NetworkGoal<'a>,
     footage: &'a Footage<'a>,
     halves: &'a Halves,
-    /// Of every clip, by halves.
-    samples: [Vec<Vec<Sample>>; 2],
+    /// Of every clip, by parts.
+    samples: [Vec<Vec<Sample>>; 3],
 }
 
 impl<'a> Jury<'a> {
@@ -103,14 +126,14 @@ impl<'a> Jury<'a> {
         let camera = task.validate()?;
         let clips = halves.frames.len() as u64;
         let most = (goal.frames / clips).max(1);
-        let mut samples = [Vec::new(), Vec::new()];
-        for (clip, &(half, all)) in halves.frames.iter().enumerate() {
-            // The first frame of a clip is one that every camera sends whole.
-            let wanted = [spread(1..half, most), spread(half..all, most)];
+        let mut samples = [const { Vec::new() }; 3];
+        for (clip, &frames) in halves.frames.iter().enumerate() {
+            let wanted = [Part::Search, Part::Confirmation, Part::HeldOut]
+                .map(|part| spread(part.frames(frames), most));
             let mut looking = witness.look_at(frames_of(&camera));
             let mut source = footage.open(&footage.subjects[clip])?;
-            let mut found = [Vec::new(), Vec::new()];
-            for number in 0..all {
+            let mut found = [const { Vec::new() }; 3];
+            for number in 0..frames.1 {
                 footage.go_on(Progress::Asking { cameras: 0 })?;
                 let Some(current) = source.next_frame()? else { break };
                 for (found, wanted) in found.iter_mut().zip(&wanted) {
@@ -122,9 +145,7 @@ impl<'a> Jury<'a> {
                 }
                 source.give_back(current);
             }
-            let [first, second] = found;
-            samples[0].push(first);
-            samples[1].push(second);
+            samples.iter_mut().zip(found).for_each(|(part, found)| part.push(found));
         }
         Ok(Self { witness, goal, footage, halves, samples })
     }
@@ -159,11 +180,11 @@ impl<'a> Jury<'a> {
         Ok(cameras.iter().zip(&values).map(bytes).collect())
     }
 
-    /// What the network says of the camera that was chosen, on both halves; what it said of it on the first half is known.
+    /// What the network says of the camera that was chosen; what it said of it to search is known, and perhaps what it said to confirm it.
     pub(super) fn report(
         &self,
         chosen: &CameraConfig,
-        fitted: Agreed,
+        (fitted, confirmed): (Agreed, Option<Agreed>),
     ) -> Result<FittedNetwork, ExploreError> {
         let camera = chosen.validate()?;
         let of_pixels = f64::from(camera.width()) * f64::from(camera.height());
@@ -173,20 +194,24 @@ impl<'a> Jury<'a> {
             min_agreement: self.goal.min_agreement,
             cheapest: self.goal.cheapest,
             fitted,
-            held_out: self.ask(&camera, Half::Second, None, 0)?,
+            confirmed: match confirmed {
+                Some(confirmed) => confirmed,
+                None => self.ask(&camera, Part::Confirmation, None, 0)?,
+            },
+            held_out: self.ask(&camera, Part::HeldOut, None, 0)?,
             bytes_per_whole_frame: of_pixels * f64::from(self.footage.bits()) / 8.0,
         })
     }
 
-    /// The agreement on a half; `asked` cameras were looked at before. With `least` it looks no further than to know that it is missed.
+    /// The agreement on a part; `asked` cameras were looked at before. With `least` it looks no further than to know that it is missed.
     pub(super) fn ask(
         &self,
         camera: &Camera,
-        half: Half,
+        part: Part,
         least: Option<f64>,
         asked: usize,
     ) -> Result<Agreed, ExploreError> {
-        let samples = &self.samples[half as usize];
+        let samples = &self.samples[part as usize];
         // What can be at best: frames that were not looked at agree as well as they can.
         let mut frames: Vec<Agreement> =
             samples.iter().flatten().map(|sample| sample.best.clone()).collect();
@@ -218,6 +243,24 @@ fn spread(range: Range<u64>, most: u64) -> Vec<u64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Every frame but the first is in one part, those that confirm come after those that cameras are searched by, and no part is empty.
+    #[test]
+    fn parts_follow_each_other() {
+        for all in Part::LEAST..200 {
+            let [searched, confirmed, held_out] = [Part::Search, Part::Confirmation, Part::HeldOut]
+                .map(|part| part.frames((all / 2, all)));
+            let ends = (searched.start, held_out.end);
+            assert_eq!(
+                (ends, searched.end, confirmed.end),
+                ((1, all), confirmed.start, held_out.start)
+            );
+            assert!(!searched.is_empty() && !confirmed.is_empty() && !held_out.is_empty(), "{all}");
+        }
+        assert_eq!(Part::Confirmation.frames((90, 180)), 60..90);
+        let one_fewer = Part::LEAST - 1;
+        assert!(Part::Confirmation.frames((one_fewer / 2, one_fewer)).is_empty());
+    }
 
     #[test]
     fn frames_are_spread_evenly() {

@@ -105,7 +105,7 @@ pub(super) fn fit(
     let config = chosen.design.config();
     let bytes = |figures: &Figures| bytes_per_frame(&chosen.design, figures);
     Fit {
-        format_version: 2,
+        format_version: 3,
         frames: frames(halves),
         task: Config { camera: search.task().clone(), ..Config::default() }.to_toml(),
         target,
