@@ -250,6 +250,9 @@ fn the_area_of_a_raster_core_is_no_rpus() {
         ("\ncore ", true),
         ("RPU", false),
         ("paper", false),
+        // Of cores on AXI.
+        ("AXI", false),
+        ("\nregisters ", false),
     ] {
         assert_eq!(text.contains(part), is_there, "{part}: {text}");
     }
