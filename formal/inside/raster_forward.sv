@@ -27,7 +27,8 @@ always @* begin
     assume(store_i == f_store);
     assume(store_place_i == f_place);
     assume(decision_i == f_done[F_DECIDED-1]);
-    assume(decision_i || !active_i);
+    assume(decision_i || !active_i && !summary_i);
+    assume(!active_i || !summary_i);
     assume(region_i == f_region);
     assume(last_region_i == (f_region == COLUMNS * ROWS - 1));
 end
@@ -64,7 +65,9 @@ reg f_kept;     // ... of the frame that is watched
 wire [5:0] f_at = f_word / SEGMENT * ROW_WORDS + (f_ours % COLUMNS) * SEGMENT + f_word % SEGMENT;
 reg [1:0] f_state = 2'd0;
 localparam F_NONE = 2'd0, F_WAITS = 2'd1, F_HELD = 2'd2, F_OVER = 2'd3;
-wire f_watched = active_i && f_pick && f_state == F_NONE && region_i == f_ours;
+wire f_enters = active_i || BLOCKS > 0 && summary_i;  // as many means as words leave of a region, if any do
+reg f_means;                                     // means of the region that is watched leave
+wire f_watched = f_enters && f_pick && f_state == F_NONE && region_i == f_ours;
 reg [2:0] f_rows;      // rows of regions of which words are stored, from that of the region on
 wire f_next_row = store_i && f_stored == 6'd0;
 wire f_stale = f_rows + f_next_row > BANKS;
@@ -98,8 +101,8 @@ reg [FRAME_BITS-1:0] f_frame = 0, f_our_frame;  // number of the frame that is d
 reg f_lost_ours = 1'b0, f_ended = 1'b0;         // lost at the edge before; lost in the middle, after this word
 reg [3:0] f_end_word;
 always @(posedge clk_i) begin
-    f_waiting <= f_waiting + active_i - f_begins;
-    f_entered <= {f_entered[0], active_i};
+    f_waiting <= f_waiting + f_enters - f_begins;
+    f_entered <= {f_entered[0], f_enters};
     f_since <= f_begins ? 2'd1 : 2'd2;
     f_held <= f_begins ? !lost : f_held && !f_held_lost && !f_last;
     f_next <= f_begins ? 4'd0 : f_next + fetch;
@@ -111,6 +114,7 @@ always @(posedge clk_i) begin
     end
     if (f_watched) begin
         f_our_frame <= f_frame;
+        f_means <= summary_i;
         f_state <= F_WAITS;
         f_ahead <= f_waiting - f_begins;
         f_kept <= f_latest;
@@ -153,11 +157,31 @@ always @* if (started && !rst_i) begin
         assert(region_o == f_ours);
         assert(position_o == f_port_word * LANES);
         // In frames of one row the word of the next frame may be stored before the decision, and f_latest is that.
-        if (ROWS > 1 && f_port_word == f_word) assert(pixel_o[0] == f_kept);
+        if (ROWS > 1 && f_port_word == f_word && !f_means) assert(pixel_o[0] == f_kept);
+        if (BLOCKS > 0) assert(summary_o == f_means);
         assert(first_o == (f_port_word == 4'd0));
         assert(abort_o == (f_ended && f_port_word == f_end_word));
         assert(last_o == (abort_o || f_port_word == F_N - 1));
         assert(frame_o == f_our_frame);
     end
     if (f_lost_ours) assert(lost_valid_o && lost_region_o == f_ours && lost_frame_o == f_our_frame);
+end
+
+// ---- References of `last-sent`: every word of an active region becomes one, where it is in the frame, and no mean does
+reg f_wrote = 1'b0, f_wrote_ours;                // a word was fetched at the edge before
+reg [3:0] f_wrote_word;
+wire [PLACE_BITS-1:0] f_frame_place = f_ours / COLUMNS * F_ROW + (f_ours % COLUMNS) * SEGMENT
+                                      + f_wrote_word / SEGMENT * ROW_WORDS + f_wrote_word % SEGMENT;
+always @(posedge clk_i) begin
+    f_wrote <= fetch && !rst_i;
+    f_wrote_ours <= f_state == F_HELD;
+    f_wrote_word <= f_next;
+end
+always @* if (started && !rst_i && LAST_SENT) begin
+    if (!f_wrote) assert(!reference_write_o);
+    if (f_wrote && f_wrote_ours) begin
+        assert(reference_write_o == !f_means);
+        if (!f_means) assert(reference_place_o == f_frame_place);
+        if (!f_means && f_wrote_word == f_word) assert(reference_word_o[0] == f_kept);
+    end
 end

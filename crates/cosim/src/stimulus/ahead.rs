@@ -22,6 +22,9 @@ pub(super) enum ThresholdAim {
     /// Levels of the design; by turns no score is enough and every one is, and never have enough pixels changed: a region is
     /// irrelevant, is held, and is irrelevant again.
     Held,
+    /// In the first of three frames every region is active. In the others regions are relevant as the design says, but never have
+    /// enough pixels changed. A pixel has changed that is off by two, and a mean differs that is off by one.
+    Drifting,
     /// All change at every clock; minima are exact where a decision is made. For hardware that takes thresholds at every
     /// clock.
     Restless,
@@ -108,6 +111,13 @@ impl Aimer {
     pub(super) fn held(&self, turn: u32) -> Thresholds {
         let mut thresholds = Thresholds::of(&self.design);
         self.ranges.aim_at_held(turn, &mut thresholds);
+        thresholds
+    }
+
+    /// Minima that every region meets, every third turn; else those of the design for scores, and too few pixels have changed.
+    pub(super) fn drifting(&self, turn: u32) -> Thresholds {
+        let mut thresholds = Thresholds::of(&self.design);
+        self.ranges.aim_at_drift(turn, &mut thresholds);
         thresholds
     }
 

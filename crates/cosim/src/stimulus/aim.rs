@@ -139,6 +139,19 @@ impl Ranges {
         thresholds.temporal_min_count = self.temporal_min_count;
     }
 
+    /// Minima that all regions meet, every third turn; else more changes than a region has pixels. The levels are those that a pixel
+    /// meets which is off by two, and a mean which is off by one.
+    pub(crate) fn aim_at_drift(&self, turn: u32, thresholds: &mut Thresholds) {
+        if turn.is_multiple_of(3) {
+            thresholds.min_score = [0; FeatureKind::COUNT];
+            thresholds.temporal_min_count = 0;
+        } else {
+            thresholds.temporal_min_count = self.temporal_min_count;
+        }
+        thresholds.temporal_level = 1.min(self.temporal_level);
+        thresholds.summary_level = 0;
+    }
+
     /// The summary level for means whose widest difference is this one: on it, so that they stay, or below it. Without one
     /// the largest there is, or any: what is sent then is sent for another reason.
     pub(crate) fn aim_summary_level(

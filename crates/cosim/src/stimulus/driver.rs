@@ -268,6 +268,7 @@ impl<'a> Driver<'a> {
             ThresholdAim::Design => self.thresholds = self.configured,
             ThresholdAim::Least => self.thresholds = Aimer::least(),
             ThresholdAim::Held => self.thresholds = self.aimer.held(turn),
+            ThresholdAim::Drifting => self.thresholds = self.aimer.drifting(turn),
             ThresholdAim::Restless => {}
             ThresholdAim::Exact | ThresholdAim::Largest => self.aim_at(frame, largest),
         }
@@ -417,7 +418,8 @@ impl<'a> Driver<'a> {
             ThresholdAim::Exact
             | ThresholdAim::Largest
             | ThresholdAim::Least
-            | ThresholdAim::Held => self.scout.is_none() && !self.is_under_way,
+            | ThresholdAim::Held
+            | ThresholdAim::Drifting => self.scout.is_none() && !self.is_under_way,
         }
     }
 }

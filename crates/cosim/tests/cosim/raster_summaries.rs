@@ -57,6 +57,12 @@ fn designs() -> Vec<Design> {
             "denoise.filter='none'",
             "render.payload='raw'",
         ],
+        &[
+            "frame={width=32,height=24}",
+            "denoise.filter='none'",
+            "temporal.reference='last-sent'",
+            "periphery.level=1",
+        ],
     ]
     .map(design)
     .to_vec()

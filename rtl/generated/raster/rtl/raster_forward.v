@@ -184,12 +184,14 @@ module raster_forward #(
             wire unused_raw = |raw_i;
         end
         if (LAST_SENT) begin : g_sent
+            // What is fetched while means leave is no pixel that was sent: the walk through them leaves the region, too.
+            wire means = BLOCKS > 0 && held_extra[EXTRA_BITS-1];
             reg fetched_q;
             reg [PLACE_BITS-1:0] sent_place_q, next_place_q;
             wire [PLACE_BITS-1:0] place = fetch_first ? held_extra[LOW_BITS+:PLACE_BITS] : next_place_q;
             localparam JUMP = ROW_WORDS - SEGMENT + 1;
             always @(posedge clk_i) begin
-                fetched_q <= fetch && !rst_i;
+                fetched_q <= fetch && !means && !rst_i;
                 if (fetch) begin
                     sent_place_q <= place;
                     next_place_q <= place + (fetch_segment_end ? JUMP[PLACE_BITS-1:0] : {{(PLACE_BITS - 1) {1'b0}}, 1'b1});

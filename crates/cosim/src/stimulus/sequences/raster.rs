@@ -59,8 +59,9 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     sequences
 }
 
-/// Means that meet the level or miss it by one, some that are lost, and some that are shown on while their region is held.
-fn means() -> [Sequence; 5] {
+/// Means that meet the level or miss it by one, some that are lost, some that are shown on while their region is held, and some that
+/// leave beside regions that stay relevant and drift away from what was last sent.
+fn means() -> [Sequence; 6] {
     let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
     let configured = ThresholdAim::Design;
     [
@@ -72,6 +73,14 @@ fn means() -> [Sequence; 5] {
         aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
         mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
         aimed(ThresholdAim::Held, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
+        Sequence {
+            mixed: false,
+            ..aimed(
+                ThresholdAim::Drifting,
+                "means beside pixels",
+                &[Step, Fade, Fade, Step, Fade, Fade, HotCorner, Fade, Fade],
+            )
+        },
     ]
 }
 

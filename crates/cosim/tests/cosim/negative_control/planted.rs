@@ -95,6 +95,8 @@ pub(crate) enum Planted {
     RasterMeansDeep,
     /// Raster: one mean of 3x3 pixels, with a second pass.
     RasterMeansOne,
+    /// Raster: means of four blocks beside regions that keep the pixels last sent.
+    RasterMeansSent,
     /// Frames found again: an array of RPUs, deep, with a second pass.
     SyncPipelined,
     /// Frames found again: a serial array that takes the frame row by row.
@@ -269,6 +271,11 @@ impl Planted {
                  [[spatial]]\nfeature = \"mad\"\nmin_score = 4\n[temporal]\nmin_count = 2\n[render]\n\
                  irrelevant = \"mean\"\n[hardware]\norganization = \"raster\"\n"
             }
+            Self::RasterMeansSent => {
+                "[frame]\nwidth = 16\nheight = 15\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
+                 [temporal]\nreference = \"last-sent\"\n[render]\nirrelevant = \"mean\"\n\
+                 [hardware]\norganization = \"raster\"\n"
+            }
             Self::SyncPipelined => {
                 "[region]\nsize = 3\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
                  [hardware]\npipelining = \"deep\"\nsync = true\n"
@@ -327,6 +334,7 @@ impl Planted {
                 | Self::RasterMeans
                 | Self::RasterMeansDeep
                 | Self::RasterMeansOne
+                | Self::RasterMeansSent
                 | Self::SyncRaster
         )
     }

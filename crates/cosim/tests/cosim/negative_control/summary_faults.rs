@@ -4,7 +4,7 @@
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
     Means, MeansDeep, MeansOne, MeansPixel, MeansSecond, RasterMeans, RasterMeansDeep,
-    RasterMeansOne,
+    RasterMeansOne, RasterMeansSent,
 };
 
 /// Every fault, by module.
@@ -120,6 +120,7 @@ pub(crate) const RASTER: &[Fault] = &[
 
     fault("index", RasterMeans, "raster_readout", "{means_q, fetched_means_q} <= {fetched_means_q, means}", "{means_q, fetched_means_q} <= {means, means}"),
 
+    fault("operator", RasterMeansSent, "raster_forward", "fetch && !means && !rst_i", "fetch && !rst_i"),
     fault("operator", RasterMeans, "raster_forward", ".enter_i(active_i || (BLOCKS > 0 && summary_i))", ".enter_i(active_i)"),
     fault("index", RasterMeansDeep, "raster_forward", "summary_o ? {LANES{shown}} : pixel", "pixel"),
     fault("index", RasterMeans, "raster_forward", "stepped_q ? mean : kept_q", "mean"),
