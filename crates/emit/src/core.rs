@@ -5,7 +5,7 @@
 use crate::axi;
 use crate::organization::emitter;
 use crate::text::text_of;
-use crate::top::AXI_TOP;
+use crate::top::{self, AXI_TOP, CLOCK};
 use crate::{Prefix, SourceFile, Top, banner, synth, verilog};
 use askama::Template;
 use foveate_design::{Array, Design};
@@ -17,6 +17,8 @@ struct FuseSoc<'a> {
     version: &'static str,
     name: String,
     before: String,
+    /// The module that synthesis takes.
+    whole: String,
     has_rpu: bool,
     on_axi: bool,
     columns: u32,
@@ -43,7 +45,10 @@ struct Replay {
 struct Vivado {
     banner: String,
     before: String,
+    /// The module that is synthesized unless something else is asked for.
+    whole: &'static str,
     has_rpu: bool,
+    on_axi: bool,
 }
 
 /// Clocks of a frame, of all lanes, from which a bench is slower in Icarus than Verilator takes to compile it.
@@ -65,11 +70,15 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         files.extend(new);
     }
     let paths: Vec<_> = files.iter().map(|file| file.path.as_str()).collect();
-    let vivado =
-        Vivado { banner: banner(design), before: prefix.name(""), has_rpu: Top::has_rpu(design) };
+    let vivado = Vivado {
+        banner: banner(design),
+        before: prefix.name(""),
+        whole: top::whole(design),
+        has_rpu: Top::has_rpu(design),
+        on_axi: design.is_on_axi(),
+    };
     let beside = [
         ("foveate_rcm.core".to_owned(), text_of(&fusesoc(design, prefix, paths))),
-        ("constraints/ooc.xdc".to_owned(), include_str!("../constraints/ooc.xdc").to_owned()),
         ("vivado_ooc.tcl".to_owned(), text_of(&vivado)),
         ("design.toml".to_owned(), design_toml(design)),
         ("tb/replay.sh".to_owned(), text_of(&replay(design, prefix))),
@@ -79,6 +88,7 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
     files.extend(axi::package_ip(design, prefix));
     files.extend(lists);
     files.extend(synth::files(design, prefix));
+    files.extend(constraints(design));
     files.extend(beside.map(|(path, contents)| SourceFile { path, contents }));
     files
 }
@@ -99,6 +109,16 @@ fn replay(design: &Design, prefix: &Prefix) -> Replay {
     }
 }
 
+/// The clocks of the core and of the array in it, where that has a clock of its own name.
+fn constraints(design: &Design) -> Vec<SourceFile> {
+    let of = |path: &str, clock: &str| SourceFile {
+        path: format!("constraints/{path}"),
+        contents: include_str!("../constraints/ooc.xdc").replace(CLOCK, clock),
+    };
+    let array = design.is_on_axi().then(|| of("rcm_ooc.xdc", CLOCK));
+    [of("ooc.xdc", top::clock(design))].into_iter().chain(array).collect()
+}
+
 fn file_list(files: &[SourceFile]) -> String {
     files.iter().map(|file| format!("{}\n", file.path)).collect()
 }
@@ -114,6 +134,7 @@ fn fusesoc<'a>(design: &Design, prefix: &Prefix, files: Vec<&'a str>) -> FuseSoc
         // No two designs have the same, and neither have two prefixes of one.
         name: prefix.name(&design.fingerprint()),
         before: prefix.name(""),
+        whole: prefix.name(top::whole(design)),
         has_rpu: Top::has_rpu(design),
         on_axi: design.is_on_axi(),
         columns: design.columns(),

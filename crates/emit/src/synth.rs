@@ -5,7 +5,7 @@
 //! module around it has a register of the device for each bit.
 
 use crate::text::text_of;
-use crate::top::{self, AXI_CLOCK, AXI_TOP};
+use crate::top::{self, AXI_CLOCK, AXI_TOP, CLOCK};
 use crate::wrapped::WrappedPort;
 use crate::{Prefix, SourceFile, Top, axi, banner};
 use askama::Template;
@@ -123,7 +123,8 @@ struct Script {
 #[template(path = "synth.tcl")]
 struct Tcl {
     banner: String,
-    before: String,
+    /// The module that is placed.
+    top: String,
     script: &'static str,
     before_reading: &'static str,
     before_synthesis: &'static str,
@@ -179,7 +180,7 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         };
         let tcl = Tcl {
             banner: banner(design),
-            before: before(),
+            top: prefix.name(top::whole(design)),
             script: family.script,
             before_reading: family.before_reading,
             before_synthesis: family.before_synthesis,
@@ -198,7 +199,7 @@ pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
     let arrays = Top::all_of(design).iter().map(|top| {
         let ports = top.ports(design);
         let wrapped = ports.iter().filter(|port| port.role != PortRole::Clock);
-        (top.module(), "clk_i", wrapped.map(WrappedPort::of).collect())
+        (top.module(), CLOCK, wrapped.map(WrappedPort::of).collect())
     });
     let on_bus = axi::wrapped_ports(design).map(|ports| (AXI_TOP, AXI_CLOCK, ports));
     for (module, clock, ports) in arrays.chain(on_bus) {

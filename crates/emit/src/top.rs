@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The modules that may be on top of a design: its unit, its array, and that on a bus.
 
-use foveate_design::{Array, Design, Hardware, Interface, Port};
+use foveate_design::{Array, Bus, Design, Hardware, Interface, Port};
 
 /// The module on top of a core on a bus, with the array inside.
 pub const AXI_TOP: &str = "rcm_axi";
 /// The port of its clock.
 pub const AXI_CLOCK: &str = "aclk";
+/// That of the other modules on top.
+pub(crate) const CLOCK: &str = "clk_i";
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
@@ -77,6 +79,22 @@ impl Top {
     #[must_use]
     pub fn ports(self, design: &Design) -> Vec<Port> {
         self.interface(design).ports()
+    }
+}
+
+/// The module that somebody puts into a chip: the array, or that on a bus.
+pub(crate) fn whole(design: &Design) -> &'static str {
+    match design.bus() {
+        Bus::Ports => Top::Rcm.module(),
+        Bus::Axi => AXI_TOP,
+    }
+}
+
+/// The port of its clock.
+pub(crate) fn clock(design: &Design) -> &'static str {
+    match design.bus() {
+        Bus::Ports => CLOCK,
+        Bus::Axi => AXI_CLOCK,
     }
 }
 

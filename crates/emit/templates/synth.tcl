@@ -5,11 +5,11 @@
 yosys -import
 source edalize_yosys_procs.tcl
 {= before_reading =}read_files
-hierarchy -top {= before =}rcm
+hierarchy -top {= top =}
 procs
 {= before_synthesis =}setattr -mod -unset keep_hierarchy *
-{= devices[0].synthesis =} -top {= before =}rcm
-read_verilog {= before =}rcm_ports.v {= script =}_registers.v
-hierarchy -check -top {= before =}rcm_ports
+{= devices[0].synthesis =} -top {= top =}
+read_verilog {= top =}_ports.v {= script =}_registers.v
+hierarchy -check -top {= top =}_ports
 flatten
 write_json $name.json

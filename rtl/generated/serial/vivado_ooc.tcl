@@ -12,13 +12,14 @@ if {$which ni {rpu rcm}} {
     error "the top is rpu or rcm, not '$which'"
 }
 set top $which
+set clock constraints/ooc.xdc
 
 set list [open $top.f]
 foreach file [split [string trim [read $list]] "\n"] {
     read_verilog $file
 }
 close $list
-read_xdc -mode out_of_context constraints/ooc.xdc
+read_xdc -mode out_of_context $clock
 
 # The hierarchy of the array is kept: flattening hundreds of equal units takes hours.
 synth_design -top $top -part xcvu9p-flga2104-2L-e -mode out_of_context -flatten_hierarchy none

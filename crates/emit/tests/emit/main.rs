@@ -7,6 +7,7 @@ mod common;
 mod ecp5;
 mod elaborated;
 mod emission;
+mod flows;
 mod limits;
 mod lint;
 mod one_chip;

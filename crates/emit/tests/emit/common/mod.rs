@@ -3,6 +3,7 @@
 
 use foveate_design::{Config, Design};
 use std::collections::BTreeSet;
+use std::process::{Command, Stdio};
 
 /// Of a list that takes a tool long, those in which two values meet that have not met before: so that each value still meets every other that it meets in
 /// the whole list. All, with `FOVEATE_WHOLE` set, as `scripts/release.sh` sets it.
@@ -39,6 +40,18 @@ fn pairs(toml: &str) -> BTreeSet<(String, String)> {
     let lines: Vec<&str> = toml.lines().filter(counts).collect();
     let met = lines.iter().flat_map(|one| lines.iter().map(move |other| (*one, *other)));
     met.map(|(one, other)| (one.to_owned(), other.to_owned())).collect()
+}
+
+/// Whether there is a Tcl interpreter; says so if not, and panics where tools must be there.
+#[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
+pub(crate) fn has_tclsh() -> bool {
+    if Command::new("tclsh").stdin(Stdio::null()).output().is_ok() {
+        return true;
+    }
+    let is_strict = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
+    assert!(!is_strict, "FOVEATE_REQUIRE_TOOLS is 1, and tclsh is missing (Debian: tcl)");
+    eprintln!("skipped: tclsh is missing");
+    false
 }
 
 pub(crate) fn design(toml: &str) -> Design {
