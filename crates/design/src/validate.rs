@@ -41,18 +41,23 @@ impl Config {
 impl HardwareConfig {
     /// Refuses the keys that only the raster organization has.
     pub(crate) fn refuse_raster_keys(&self) -> Result<(), ConfigError> {
+        let alone = "only the raster organization has it; leave the key out";
+        // Whoever asks for a bus wants a core on it, and need not know which organization that is.
+        let bus = "only the raster organization has it, with the same results; use organization \
+                   = \"raster\", or leave the key out";
         let given = [
-            ("hardware.pixels_per_clock", self.pixels_per_clock.map(|pixels| pixels.to_string())),
-            ("hardware.store", self.store.map(|store| format!("\"{store}\""))),
-            ("hardware.forward", self.forward.map(|forward| forward.to_string())),
-            ("hardware.interface", self.bus_beside_ports().map(|bus| format!("\"{bus}\""))),
+            (
+                "hardware.pixels_per_clock",
+                self.pixels_per_clock.map(|pixels| pixels.to_string()),
+                alone,
+            ),
+            ("hardware.store", self.store.map(|store| format!("\"{store}\"")), alone),
+            ("hardware.forward", self.forward.map(|forward| forward.to_string()), alone),
+            ("hardware.interface", self.bus_beside_ports().map(|bus| format!("\"{bus}\"")), bus),
         ];
-        match given.into_iter().find_map(|(key, value)| Some((key, value?))) {
+        match given.into_iter().find_map(|(key, value, remedy)| Some((key, value?, remedy))) {
             None => Ok(()),
-            Some((key, value)) => {
-                let remedy = "only the raster organization has it; leave the key out";
-                Err(self.clash(key, value, remedy))
-            }
+            Some((key, value, remedy)) => Err(self.clash(key, value, remedy)),
         }
     }
 

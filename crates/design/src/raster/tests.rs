@@ -218,6 +218,14 @@ fn keys_are_filled_in_and_only_here() {
                 )
             );
         }
+        assert_eq!(
+            refusal(&[other[0], "hardware.interface=axi"]),
+            format!(
+                "`hardware.interface` = \"axi\" cannot be combined with organization = \
+                 \"{organization}\"; only the raster organization has it, with the same results; \
+                 use organization = \"raster\", or leave the key out"
+            )
+        );
     }
 }
 
