@@ -37,7 +37,8 @@ step_benches() {
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted netlists without_forwarding every_feature one_lane
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-boards --test boards -- faults
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-emit --test emit
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate --test cli -- area::
+    FOVEATE_WHOLE=1 cargo test --locked --package foveate --test cli -- area:: --include-ignored
+    cargo test --locked --package foveate-explore --test explore -- core_on_axi --ignored
 }
 step_netlists() {
     local array=(--level rcm --rounds 1)

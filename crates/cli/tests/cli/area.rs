@@ -23,6 +23,11 @@ const DESIGN: [&str; 6] = [
 /// Cells by type.
 type Cells = BTreeMap<String, u64>;
 
+/// Whether everything is synthesized: it takes minutes.
+fn is_whole() -> bool {
+    std::env::var_os("FOVEATE_WHOLE").is_some()
+}
+
 /// Runs the words in the folder of a core, and returns what they print.
 fn run(core: &Path, mut command: Command) -> String {
     let output = command.current_dir(core).output().unwrap();
@@ -102,7 +107,9 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
     assert_eq!(whole, figures(&synthesized(&core, "rcm_axi")));
     // The array is another number, and less.
     let array = reported(&report["rcm"]);
-    assert_eq!(array, figures(&synthesized(&core, "rcm")));
+    if is_whole() {
+        assert_eq!(array, figures(&synthesized(&core, "rcm")));
+    }
     assert!(array[0] < whole[0] && array[1] < whole[1], "{array:?} of {whole:?}");
     // Each part takes something. Together with the array they take more than the whole, which shares logic, but not by much.
     let parts = report["bus"]["parts"].as_array().unwrap();
@@ -127,6 +134,9 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
         assert!(text.lines().any(|line| line.starts_with(row)), "{row} in\n{text}");
     }
 
+    if !is_whole() {
+        return;
+    }
     // A folder with another core on the bus has another number.
     let path = core.join("rtl/rcm_axi.v");
     let sound = fs::read_to_string(&path).unwrap();
@@ -152,8 +162,9 @@ fn placed(folder: &Path) -> Cells {
     cells
 }
 
-/// The whole core; with `FOVEATE_WHOLE` the array in it, too, which is another one.
+/// The core on AXI, and the array in it, which is another one.
 #[test]
+#[ignore = "a minute of synthesis and routing; scripts/release.sh runs it"]
 fn the_script_of_a_core_on_axi_places_what_the_estimate_counts() {
     if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {
         return;
@@ -165,10 +176,8 @@ fn the_script_of_a_core_on_axi_places_what_the_estimate_counts() {
     );
     // Without a word the script takes the whole core, as does an estimate without a level.
     let whole = same_when_placed(dir.path(), ("", "rcm_axi"), &[&[], &["--level", "axi"]]);
-    if std::env::var_os("FOVEATE_WHOLE").is_some() {
-        let array = same_when_placed(dir.path(), ("rcm", "rcm"), &[&["--level", "rcm"]]);
-        assert!(count(&whole, &["SB_LUT4"]) > count(&array, &["SB_LUT4"]), "{whole:?}, {array:?}");
-    }
+    let array = same_when_placed(dir.path(), ("rcm", "rcm"), &[&["--level", "rcm"]]);
+    assert!(count(&whole, &["SB_LUT4"]) > count(&array, &["SB_LUT4"]), "{whole:?}, {array:?}");
 }
 
 /// The cells that the script of the core in a folder places of the module that it calls by that word; estimates with these options count the same.

@@ -138,13 +138,12 @@ fn what_fit_finds_can_be_generated() {
     }
     let dir = tempfile::tempdir().unwrap();
     let frame =
-        ["--set", "frame={width=32,height=24}", "--frames", "8", "--quiet", "--max-syntheses", "2"];
-    let fit = |more: &[&str]| {
-        run_in(
-            dir.path(),
-            &[&["fit", "scene:street", "-o", "found.toml"], &frame[..], more].concat(),
-        )
+        ["--set", "frame={width=32,height=24}", "--frames", "8", "--quiet", "--max-syntheses"];
+    let fit_with = |syntheses, more: &[&str]| {
+        let fit = ["fit", "scene:street", "-o", "found.toml"];
+        run_in(dir.path(), &[&fit, &frame[..], &[syntheses], more].concat())
     };
+    let fit = |more: &[&str]| fit_with("2", more);
     let found = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz"]);
     assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
     assert!(found.stdout.contains("Cheapest: serial"), "{}", found.stdout);
@@ -165,7 +164,7 @@ fn what_fit_finds_can_be_generated() {
     // An object in the lower left corner, which changes now and then.
     let rows = (1..=8).map(|frame| format!("{frame},1,1,17,8,8,1,1,1\n"));
     fs::write(dir.path().join("gt.txt"), rows.collect::<String>()).unwrap();
-    let lost = fit(&["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);
+    let lost = fit_with("1", &["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);
     assert_eq!(lost.code, 1, "{}", lost.stdout);
     assert!(lost.stdout.contains("NOT objects sent by half "), "{}", lost.stdout);
     let text = lost.stdout.split_whitespace().collect::<Vec<_>>().join(" ");

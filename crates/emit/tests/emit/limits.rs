@@ -6,7 +6,7 @@ mod cases;
 
 use std::collections::BTreeSet;
 
-use crate::common::{design, every_design};
+use crate::common::{design, every_design, is_whole};
 use cases::{Case, all_leaves, cases, with_default};
 use foveate_emit::{Top, verilog};
 use foveate_toolchain::iverilog::{self, IverilogJob};
@@ -87,7 +87,19 @@ fn parameters_out_of_range_are_refused_one_by_one() {
         (!found.is_empty())
             .then(|| format!("{} {:?}: {}", case.module, case.parameters, found.join("; ")))
     };
-    let failures: Vec<String> = cases().par_iter().filter_map(check).collect();
+    // Of those out of range, which the other tools refuse together, Verilator sees a third, and each module's first.
+    let cases = cases();
+    let mut modules = BTreeSet::new();
+    let chosen: Vec<&Case> = cases
+        .iter()
+        .enumerate()
+        .filter(|(number, case)| {
+            let first = case.refused.is_some() && modules.insert(&case.module);
+            case.refused.is_none() || first || number % 3 == 0 || is_whole()
+        })
+        .map(|(_, case)| case)
+        .collect();
+    let failures: Vec<String> = chosen.into_par_iter().filter_map(check).collect();
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 

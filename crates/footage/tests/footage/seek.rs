@@ -41,7 +41,7 @@ fn a_late_start_changes_nothing_but_where_it_starts() {
         ["-c:v", "libx264", "-preset", "ultrafast", "-pix_fmt", "yuv420p", "-bf", "3", "-g", "20"];
     let with = |more: &[&'static str]| [&h264[..], more].concat();
     let sound = ["-f", "lavfi", "-i", "sine=duration=9", "-c:a", "aac", "-af", "asetpts=PTS+1/TB"];
-    for (name, arguments, sought) in [
+    for (turn, (name, arguments, sought)) in [
         ("b.mp4", h264.to_vec(), true),
         ("b.mkv", h264.to_vec(), true),
         ("b.mov", h264.to_vec(), true),
@@ -55,11 +55,16 @@ fn a_late_start_changes_nothing_but_where_it_starts() {
         ("b.avi", vec!["-c:v", "mpeg4", "-bf", "2"], false),
         ("b.ts", h264.to_vec(), false),
         ("2.mp4", vec!["-c:v", "mpeg4", "-bf", "2"], false),
-    ] {
+    ]
+    .into_iter()
+    .enumerate()
+    {
         let path = moving(dir.path(), name, &arguments);
         let whole = all(&path).0;
         assert!(whole.len() >= 195, "{name}");
-        for start in [3_000_000, 5_010_000, 6_480_000, 7_900_000] {
+        // Four of them by turns: each decodes most of the clip.
+        let starts = [[3_000_000, 6_480_000], [5_010_000, 7_900_000]][turn % 2];
+        for start in starts {
             let expected = whole.iter().filter(|frame| frame.time_us >= start);
             let seen = frames(&path, 8, &from(start)).0;
             assert_eq!(seen.len(), expected.clone().count(), "{name} from {start}");

@@ -5,10 +5,15 @@ use foveate_design::{Config, Design};
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 
+/// Whether lists that take long are taken whole: with `FOVEATE_WHOLE` set, as `scripts/release.sh` sets it.
+pub(crate) fn is_whole() -> bool {
+    std::env::var_os("FOVEATE_WHOLE").is_some()
+}
+
 /// Of a list that takes a tool long, those in which two values meet that have not met before: so that each value still meets every other that it meets in
-/// the whole list. All, with `FOVEATE_WHOLE` set, as `scripts/release.sh` sets it.
+/// the whole list. All, where it is taken whole.
 pub(crate) fn meeting(list: Vec<String>) -> Vec<String> {
-    if std::env::var_os("FOVEATE_WHOLE").is_some() {
+    if is_whole() {
         return list;
     }
     let mut met = BTreeSet::new();
