@@ -22,13 +22,13 @@ step_cosim() {
     foveate cosim --full --preset serial scene:street
     foveate cosim --full --preset serial --set hardware.fold=38 --set "hardware.feed='raster'" --rounds 0 scene:street
     # Many vectors of each way to keep references and to show irrelevant regions: one seed can miss what needs two regions side by side.
-    local organization preset
+    local organization preset rounds=(--level rcm --grid 4x3 --rounds 20 --set "frame={width=48,height=36}")
     for organization in pipelined serial raster; do
         for preset in paper steady fovea; do
-            foveate cosim --preset "$preset" --set "hardware.organization='$organization'" --set "frame={width=48,height=36}" --level rcm --grid 4x3 --rounds 20
+            foveate cosim "${rounds[@]}" --preset "$preset" --set "hardware.organization='$organization'"
         done
-        foveate cosim --preset fovea --set "hardware.organization='$organization'" --set "frame={width=48,height=36}" --level rcm --grid 4x3 --rounds 20 \
-            --set periphery.blocks=4 --set periphery.level=1 --set "render.payload='raw'" --set "hardware.pipelining='deep'"
+        foveate cosim "${rounds[@]}" --preset fovea --set "hardware.organization='$organization'" --set "hardware.pipelining='deep'" \
+            --set periphery.blocks=4 --set periphery.level=1 --set "render.payload='raw'"
     done
     # The negative control: only the last regions of the whole array get wrong pixels, which no smaller grid shows.
     foveate generate --preset paper --output "$log/miswired" --force

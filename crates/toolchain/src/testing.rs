@@ -30,6 +30,13 @@ pub fn require_tools(tools: &[Tool]) -> bool {
     false
 }
 
+/// Whether tests take lists whole that take long, and not a part of them: with the environment variable `FOVEATE_WHOLE` set, as
+/// `scripts/release.sh` sets it.
+#[must_use]
+pub fn takes_whole_lists() -> bool {
+    std::env::var_os("FOVEATE_WHOLE").is_some()
+}
+
 /// The folder of real images and video that the environment variable `FOVEATE_DATA` names. Without
 /// one, says on the terminal that the test is skipped.
 ///

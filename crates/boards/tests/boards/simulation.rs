@@ -10,7 +10,7 @@ use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 use foveate_packets::{Command, Found, Layout, Packet, Region, Register, Row, Splitter};
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use std::path::Path;
 
 /// All regions of a frame can leave at this rate of pixels.
@@ -288,7 +288,7 @@ fn faults_between_sensor_and_line_are_found() {
     }
     let project = project("hm01b0-4", &[]);
     // Each is a program of its own: all are planted by scripts/release.sh, a third in every run.
-    let step = if std::env::var_os("FOVEATE_WHOLE").is_some() { 1 } else { 3 };
+    let step = if takes_whole_lists() { 1 } else { 3 };
     let faults = [
         ("board", ".LEFT(2)", ".LEFT(1)"),
         ("board", ".TOP(2)", ".TOP(3)"),

@@ -7,7 +7,7 @@ use std::path::Path;
 use std::process::Command;
 
 use crate::common::{run_in, succeed_in};
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
@@ -22,11 +22,6 @@ const DESIGN: [&str; 6] = [
 
 /// Cells by type.
 type Cells = BTreeMap<String, u64>;
-
-/// Whether everything is synthesized: it takes minutes.
-fn is_whole() -> bool {
-    std::env::var_os("FOVEATE_WHOLE").is_some()
-}
 
 /// Runs the words in the folder of a core, and returns what they print.
 fn run(core: &Path, mut command: Command) -> String {
@@ -107,7 +102,7 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
     assert_eq!(whole, figures(&synthesized(&core, "rcm_axi")));
     // The array is another number, and less.
     let array = reported(&report["rcm"]);
-    if is_whole() {
+    if takes_whole_lists() {
         assert_eq!(array, figures(&synthesized(&core, "rcm")));
     }
     assert!(array[0] < whole[0] && array[1] < whole[1], "{array:?} of {whole:?}");
@@ -134,7 +129,7 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
         assert!(text.lines().any(|line| line.starts_with(row)), "{row} in\n{text}");
     }
 
-    if !is_whole() {
+    if !takes_whole_lists() {
         return;
     }
     // A folder with another core on the bus has another number.

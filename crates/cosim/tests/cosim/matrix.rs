@@ -5,13 +5,14 @@
 use std::collections::BTreeSet;
 
 use crate::common::{
-    agrees, design, directed, feature, half, in_parallel, in_turn, name, simulators, whole,
+    agrees, design, directed, feature, half, in_parallel, in_turn, name, simulators,
 };
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
     CameraConfig, Combine, Config, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
     Pipelining, Reference, Thresholds,
 };
+use foveate_toolchain::testing::takes_whole_lists;
 
 /// From this many pixels per region on, the time to build with Verilator is won back.
 const COMPILED_FROM: u32 = 16 * 16;
@@ -160,7 +161,7 @@ fn in_half_of_a_matrix_every_two_values_meet() {
         digits
     };
     let taken: Vec<_> = half((0..160).collect(), &axes).into_iter().map(digits).collect();
-    assert_eq!(taken.len(), if whole() { 160 } else { 80 });
+    assert_eq!(taken.len(), if takes_whole_lists() { 160 } else { 80 });
     for first in 0..axes.len() {
         for second in 0..first {
             let pairs: BTreeSet<_> =

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The synthesized netlist does what the model does, and one with a fault does not.
 
-use crate::common::{design, directed, in_parallel, whole};
+use crate::common::{design, directed, in_parallel};
 use foveate_cosim::{CosimReport, Job, Level, Netlist, Simulator};
 use foveate_design::Config;
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Cache, Tool, Toolchain};
 use std::path::Path;
 use std::process::Command;
@@ -88,7 +88,7 @@ fn netlists_agree_with_the_model() {
         (RASTER, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
         (RASTER_DEEP, Level::Rcm { columns: 4, rows: 3 }, (4, 3)),
     ];
-    jobs.extend(others.into_iter().filter(|_| whole()));
+    jobs.extend(others.into_iter().filter(|_| takes_whole_lists()));
     let failures = in_parallel(&jobs, |&(toml, level, regions)| {
         let job = job(toml, level, regions, &output.path().join(level.to_string()));
         let report = run(&job);

@@ -5,14 +5,13 @@
 use std::collections::VecDeque;
 
 use crate::common::vectors::{clocks, field, value};
-use crate::common::{
-    agrees, design, directed, feature, in_parallel, in_turn, name, simulators, whole,
-};
+use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, name, simulators};
 use foveate_cosim::{Level, Recording, Simulator};
 use foveate_design::{
     CameraConfig, Config, Design, FeatureKind, Filter, Neighborhood, Organization, Payload,
     Pipelining, PortRole, RasterTiming, Store, Thresholds,
 };
+use foveate_toolchain::testing::takes_whole_lists;
 
 /// Regions of 4x4 pixels with these features.
 fn config(kinds: &[FeatureKind]) -> Config {
@@ -238,7 +237,7 @@ fn check_all(store: Store, forward: bool) {
         matrix(store, forward).into_iter().enumerate().collect();
     // Of each set of features one, plain and deep by turns: the other where pixels are forwarded.
     let turns = if forward { [1, 2] } else { [0, 3] };
-    designs.retain(|(number, _)| whole() || turns.contains(&(number % 4)));
+    designs.retain(|(number, _)| takes_whole_lists() || turns.contains(&(number % 4)));
     let failures = in_parallel(&designs, |(number, design)| {
         // Icarus knows unknown values, and takes seconds for each: every third, plain and deep.
         let simulator = if number % 3 == 0 { Simulator::Iverilog } else { Simulator::Verilator };

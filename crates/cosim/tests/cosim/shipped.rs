@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The benches that come with a core: what their vectors show, and that they fail when any output does.
 
-use crate::common::whole;
 use foveate_cosim::ShippedBench;
 use foveate_design::{Array, Config, Design, FeatureKind, Organization};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
 use std::num::NonZero;
 use std::path::Path;
@@ -41,7 +40,7 @@ fn designs() -> Vec<String> {
     for (x, size) in [2, 3, 8, 20, 64].into_iter().enumerate() {
         for (y, bits) in [1, 8, 16].into_iter().enumerate() {
             for (z, variant) in variants.into_iter().enumerate() {
-                if !whole() && (x + y + z) % 2 == 1 {
+                if !takes_whole_lists() && (x + y + z) % 2 == 1 {
                     continue;
                 }
                 // Of a pixel of one bit the default thresholds ask too much.
@@ -234,7 +233,7 @@ fn large_folds_show_everything() {
         "hardware.fold = 784",
         "region.size = 48\nhardware.fold = 25\nregion.neighborhood = 'shared'",
     ];
-    folds.extend(others.into_iter().filter(|_| whole()));
+    folds.extend(others.into_iter().filter(|_| takes_whole_lists()));
     for toml in folds {
         let design = design(&format!("hardware.organization = 'serial'\n{toml}\n"));
         for &top in Top::all_of(&design) {

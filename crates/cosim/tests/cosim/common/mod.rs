@@ -6,7 +6,7 @@ pub(crate) mod vectors;
 
 use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator, Stimulus};
 use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
-use foveate_toolchain::testing::require_tools;
+use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Cache, Toolchain};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -49,7 +49,7 @@ pub(crate) fn half<T>(list: Vec<T>, axes: &[usize]) -> Vec<T> {
             *rest /= axis;
             Some(digit)
         });
-        whole() || digits.sum::<usize>() % 2 == 0
+        takes_whole_lists() || digits.sum::<usize>() % 2 == 0
     };
     list.into_iter()
         .enumerate()
@@ -111,18 +111,14 @@ pub(crate) fn agrees(
     }
 }
 
-/// Whether lists that take long are taken whole: with `FOVEATE_WHOLE` set, as `scripts/release.sh` sets it.
-pub(crate) fn whole() -> bool {
-    std::env::var_os("FOVEATE_WHOLE").is_some()
-}
-
 /// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each fourth of the
 /// others; or all.
 pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
-    let taken =
-        numbered.filter(|(number, fault)| seen.insert(module(fault)) || whole() || number % 4 == 0);
+    let taken = numbered.filter(|(number, fault)| {
+        seen.insert(module(fault)) || takes_whole_lists() || number % 4 == 0
+    });
     taken.map(|(_, fault)| fault).collect()
 }
 

@@ -2,18 +2,14 @@
 //! Designs to emit: every choice of the configuration meets every other at least once.
 
 use foveate_design::{Config, Design};
+use foveate_toolchain::testing::takes_whole_lists;
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
-
-/// Whether lists that take long are taken whole: with `FOVEATE_WHOLE` set, as `scripts/release.sh` sets it.
-pub(crate) fn is_whole() -> bool {
-    std::env::var_os("FOVEATE_WHOLE").is_some()
-}
 
 /// Of a list that takes a tool long, those in which two values meet that have not met before: so that each value still meets every other that it meets in
 /// the whole list. All, where it is taken whole.
 pub(crate) fn meeting(list: Vec<String>) -> Vec<String> {
-    if is_whole() {
+    if takes_whole_lists() {
         return list;
     }
     let mut met = BTreeSet::new();
