@@ -194,6 +194,7 @@ class Bench {
         wanting_ = offering_ = false;
         held_ = 0;
         resetting_ = true;
+        answer_stays_b_ = answer_stays_r_ = false;
         for (unsigned long long count = 0; count < clocks; ++count) step();
         if (top_.m_axis_packets_tvalid || top_.s_axi_bvalid || top_.s_axi_rvalid) wrong("aresetn", "something is valid");
         resetting_ = false;

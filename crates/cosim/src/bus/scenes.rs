@@ -20,6 +20,9 @@ const ALL: u32 = super::traffic::ALL;
 const END: u32 = 0xFFC;
 /// Accesses of a storm.
 const STORM: usize = 60;
+/// Resets among accesses, and the clocks after which one comes at the latest: an access is under way, or its answer waits.
+const RESETS: u64 = 40;
+const ACCESSES: u64 = 14;
 
 /// A scene: its name, and what happens.
 pub(super) type Scene<'a> = (&'static str, Traffic<'a>);
@@ -89,6 +92,7 @@ impl<'a> Stage<'a> {
             ("stopped sink", self.stopped_sink()),
             ("control", self.control()),
             ("reset", self.resets()),
+            ("reset of registers", self.resets_of_registers()),
             ("registers", self.register_file()),
         ]
     }
@@ -260,7 +264,8 @@ impl<'a> Stage<'a> {
             let cut = Sent { fate: Fate::Cut, ..taken(self.film.noise()) };
             traffic.torn_frame(cut, lines.min(height));
             traffic.clocks(self.random.up_to(40));
-            self.begin_waiting(&mut traffic);
+            traffic.reset_for(1);
+            self.wait_from_now_on(&mut traffic);
             traffic.frame(taken(self.film.next()));
             traffic.frame(taken(self.film.next()));
             traffic.drain();
@@ -271,13 +276,41 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    fn register_file(&mut self) -> Traffic<'a> {
+    /// Resets of one clock among reads and writes: none is answered afterwards, and no register keeps what was written.
+    fn resets_of_registers(&mut self) -> Traffic<'a> {
         let mut traffic = Traffic::new(self.design);
         traffic.reset();
+        for _ in 0..RESETS {
+            for _ in 0..4 {
+                let (read, written) = (self.any(), self.any());
+                traffic.write_bytes(written.address, self.random.up_to_u32(u32::MAX), ALL);
+                traffic.ask(read.address);
+            }
+            traffic.in_order(self.random.one_in(2));
+            traffic.clocks(self.random.up_to(ACCESSES));
+            traffic.reset_for(1);
+            self.all_as_after_reset(&mut traffic);
+        }
+        traffic
+    }
+
+    /// One of the registers.
+    fn any(&mut self) -> &'a Register {
+        &self.registers[self.random.index(self.registers.len() - 1)]
+    }
+
+    fn all_as_after_reset(&self, traffic: &mut Traffic<'a>) {
         for register in self.registers {
             traffic.read(register.address, Answer::Is(after_reset(register)));
         }
         traffic.join();
+        traffic.interrupt(false);
+    }
+
+    fn register_file(&mut self) -> Traffic<'a> {
+        let mut traffic = Traffic::new(self.design);
+        traffic.reset();
+        self.all_as_after_reset(&mut traffic);
         self.strobes(&mut traffic);
         self.nothing_there(&mut traffic);
         self.interrupts(&mut traffic);
@@ -380,6 +413,10 @@ impl<'a> Stage<'a> {
 
     fn begin_waiting(&mut self, traffic: &mut Traffic<'a>) {
         traffic.reset();
+        self.wait_from_now_on(traffic);
+    }
+
+    fn wait_from_now_on(&mut self, traffic: &mut Traffic<'a>) {
         traffic.stalls(0);
         traffic.gaps(self.pace());
         traffic.write(self.address("control"), self.control_bits(&["enable", "wait"]));

@@ -89,9 +89,14 @@ impl<'a> Traffic<'a> {
 
     /// Resets the core.
     pub(super) fn reset(&mut self) {
+        self.reset_for(4);
+    }
+
+    /// Resets the core for so many clocks.
+    pub(super) fn reset_for(&mut self, clocks: u64) {
         let patience = 8 * self.design.timing().clocks_per_frame() + 100_000;
         self.line(&format!("patience {patience:x}"));
-        self.line("reset 4");
+        self.line(&format!("reset {clocks:x}"));
         self.sessions.push(Session { is_lossless: true, ..Session::default() });
     }
 
@@ -142,6 +147,11 @@ impl<'a> Traffic<'a> {
     pub(super) fn read(&mut self, address: u32, answer: Answer) {
         self.line(&format!("read {address:x}"));
         self.session().answers.push((address, answer));
+    }
+
+    /// Reads a register, and goes on at once; a reset may come before the answer.
+    pub(super) fn ask(&mut self, address: u32) {
+        self.line(&format!("read {address:x}"));
     }
 
     /// Waits for all reads and writes.
