@@ -49,6 +49,7 @@ scripts/web.sh --test
 step "book"
 scripts/book.sh
 step "Python package, the documents with it, workflow on this machine"
+scripts/shared_build.py
 wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(scripts/python.sh)
 export FOVEATE_PACKAGE
