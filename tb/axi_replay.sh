@@ -14,7 +14,7 @@ trap 'rm -rf "$build"' EXIT
 set --{% for file in files %} \
     "$PWD"/'{= file =}'{% endfor %}
 
-verilator --cc --exe --build -j 0 -CFLAGS -O1 --no-timing --top-module {= top =} --prefix V{= top =} --Mdir "$build" \
+verilator --cc --exe --build -j 0 -CFLAGS -Og --no-timing --top-module {= top =} --prefix V{= top =} --Mdir "$build" \
     -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique ${1:+--trace-fst} \
     "$@" "$PWD/axi.cpp" >"$build/log" 2>&1 || { cat "$build/log" && exit 2; }
 "$build/V{= top =}" {= seed =} waves.fst <traffic.txt >heard.txt || exit 2

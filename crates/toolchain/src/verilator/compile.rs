@@ -48,7 +48,7 @@ const COMPILED_HEADER: &str = "foveate_verilated.h.gch";
 /// How much the C++ compiler optimizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Optimize {
-    /// `-O1`: quick to build, for short runs.
+    /// `-Og`: quick to build, for short runs.
     #[default]
     Build,
     /// `-O3`: quick to run, for long runs.
@@ -58,7 +58,7 @@ pub enum Optimize {
 impl Optimize {
     pub(super) const fn flag(self) -> &'static str {
         match self {
-            Self::Build => "-O1",
+            Self::Build => "-Og",
             Self::Run => "-O3",
         }
     }
