@@ -157,7 +157,8 @@ fn what_fit_finds_can_be_generated() {
     }
     succeed_in(dir.path(), &["generate", "--config", "found.toml", "-o", "core"]);
     assert!(Path::new(&dir.path().join("core/rtl/rcm.v")).exists());
-    let none = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz", "--max-lut", "2"]);
+    let limits = ["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz", "--max-lut", "2"];
+    let none = fit_with("1", &limits);
     assert_eq!(none.code, 1, "{}", none.stdout);
     assert!(none.stdout.contains("Binding: without --max-lut"), "{}", none.stdout);
     assert!(none.stderr.contains("no design meets all limits"), "{}", none.stderr);

@@ -363,6 +363,8 @@ impl Planted {
             | Self::SerialSent
             | Self::SerialBlock
             | Self::SerialDeepSent
+            | Self::SerialMeans
+            | Self::SerialMeansMany
             | Self::RasterBanks => Simulator::Verilator,
             _ => Simulator::Iverilog,
         }
