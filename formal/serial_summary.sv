@@ -65,7 +65,8 @@ module properties #(
     // By the contract.
     reg [WIDTH*MEANS-1:0] means, shown;
     reg shows, differs;
-    wire [WIDTH-1:0] now = sum / AREA;
+    localparam [SUM_BITS-1:0] DIVISOR = AREA;  // no wider than the sum, as a divider of 32 bits takes Yosys seconds
+    wire [WIDTH-1:0] now = sum / DIVISOR;
     wire [WIDTH*MEANS-1:0] shown_here = shown >> (WIDTH * block);
     wire [WIDTH-1:0] old = shown_here[WIDTH-1:0];
     wire due = !srs && (!shows || differs);
