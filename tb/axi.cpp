@@ -10,7 +10,7 @@
 //   hold N            takes nothing for N clocks
 //   write A D S       writes a register, with these strobes; goes on at once
 //   read A            reads one; goes on at once
-//   apart V           1: a read does not wait for the writes before it, nor a write for reads
+//   apart V           1: an access does not wait for the answers to those before it; else for all of them
 //   join              waits until all of these are done
 //   interrupt V       says so if interrupt_o is not V
 //   clocks N, idle N  waits N clocks, or until no word has been on the port for N clocks
@@ -93,12 +93,21 @@ struct Access {
     std::uint32_t address, data, strobe;
 };
 
-// A read or a write that is under way.
+// A read or a write that is offered, and those that have been taken and wait for their answers.
 struct Transfer {
     bool busy = false;
     bool address_taken = false, data_taken = false;
     unsigned address_delay = 0, data_delay = 0;
     Access access{};
+    std::deque<Access> taken{};
+    // The next answer is taken only once it is there.
+    bool takes_late = false;
+
+    bool waits() const { return busy || !taken.empty(); }
+    void take() {
+        taken.push_back(access);
+        busy = address_taken = data_taken = false;
+    }
 };
 
 class Bench {
@@ -202,7 +211,7 @@ class Bench {
         return true;
     }
 
-    bool settled() const { return writes_.empty() && reads_.empty() && !write_.busy && !read_.busy; }
+    bool settled() const { return writes_.empty() && reads_.empty() && !write_.waits() && !read_.waits(); }
 
     void wrong(const char* port, const char* text) { std::printf("wrong %llu %s %s\n", clock_, port, text); }
 
@@ -279,11 +288,11 @@ class Bench {
         return false;
     }
 
-    void begin(Transfer& transfer, std::deque<Access>& own, const std::deque<Access>& other, bool other_busy) {
+    void begin(Transfer& transfer, std::deque<Access>& own, const Transfer& other, const std::deque<Access>& others) {
         if (transfer.busy || own.empty()) return;
-        const bool is_next = !other_busy && (other.empty() || own.front().order < other.front().order);
+        const bool is_alone = transfer.taken.empty() && !other.waits();
+        const bool is_next = is_alone && (others.empty() || own.front().order < others.front().order);
         if (!apart_ && !is_next) return;
-        transfer = {};
         transfer.busy = true;
         transfer.address_delay = static_cast<unsigned>(random_.next() % 4);
         transfer.data_delay = static_cast<unsigned>(random_.next() % 4);
@@ -293,8 +302,8 @@ class Bench {
 
     void drive_registers() {
         if (!resetting_) {
-            begin(write_, writes_, reads_, read_.busy);
-            begin(read_, reads_, writes_, write_.busy);
+            begin(write_, writes_, read_, reads_);
+            begin(read_, reads_, write_, writes_);
         }
         top_.s_axi_awvalid = write_.busy && !write_.address_taken && write_.address_delay == 0;
         top_.s_axi_wvalid = write_.busy && !write_.data_taken && write_.data_delay == 0;
@@ -305,14 +314,19 @@ class Bench {
         top_.s_axi_araddr = (top_.s_axi_arvalid ? read_.access.address : random_.word()) & 0xFFF;
         top_.s_axi_awprot = random_.word() & 7;
         top_.s_axi_arprot = random_.word() & 7;
-        top_.s_axi_bready = random_.percent(50);
-        top_.s_axi_rready = random_.percent(50);
+        top_.s_axi_bready = random_.percent(50) && (top_.s_axi_bvalid || !write_.takes_late);
+        top_.s_axi_rready = random_.percent(50) && (top_.s_axi_rvalid || !read_.takes_late);
+    }
+
+    void answered(Transfer& transfer) {
+        if (!transfer.taken.empty()) transfer.taken.pop_front();
+        transfer.takes_late = random_.percent(50);
     }
 
     void see_registers() {
         if (resetting_) return;
-        if (top_.s_axi_bvalid && !(write_.busy && write_.address_taken && write_.data_taken)) wrong("s_axi_b", "nothing was written");
-        if (top_.s_axi_rvalid && !(read_.busy && read_.address_taken)) wrong("s_axi_r", "nothing was asked");
+        if (top_.s_axi_bvalid && write_.taken.empty()) wrong("s_axi_b", "nothing was written");
+        if (top_.s_axi_rvalid && read_.taken.empty()) wrong("s_axi_r", "nothing was asked");
         if (top_.s_axi_bvalid && top_.s_axi_bresp != 0) wrong("s_axi_bresp", "it is not OKAY");
         if (top_.s_axi_rvalid && top_.s_axi_rresp != 0) wrong("s_axi_rresp", "it is not OKAY");
         const bool stays_b = top_.s_axi_bvalid && !top_.s_axi_bready;
@@ -322,14 +336,16 @@ class Bench {
         if (answer_stays_r_ && !(top_.s_axi_rvalid && top_.s_axi_rdata == answer_)) wrong("s_axi_r", "an answer that was not taken has not stayed");
         answer_stays_r_ = stays_r;
         answer_ = top_.s_axi_rdata;
-        if (top_.s_axi_bvalid && top_.s_axi_bready) write_ = {};
+        if (top_.s_axi_bvalid && top_.s_axi_bready) answered(write_);
         if (top_.s_axi_rvalid && top_.s_axi_rready) {
-            std::printf("read %llu %x %x\n", clock_, read_.access.address, static_cast<unsigned>(top_.s_axi_rdata));
-            read_ = {};
+            const auto address = read_.taken.empty() ? 0 : read_.taken.front().address;
+            std::printf("read %llu %x %x\n", clock_, address, static_cast<unsigned>(top_.s_axi_rdata));
+            answered(read_);
         }
         if (top_.s_axi_awvalid && top_.s_axi_awready) write_.address_taken = true;
         if (top_.s_axi_wvalid && top_.s_axi_wready) write_.data_taken = true;
-        if (top_.s_axi_arvalid && top_.s_axi_arready) read_.address_taken = true;
+        if (write_.address_taken && write_.data_taken) write_.take();
+        if (top_.s_axi_arvalid && top_.s_axi_arready) read_.take();
         if (write_.address_delay > 0) --write_.address_delay;
         if (write_.data_delay > 0) --write_.data_delay;
         if (read_.address_delay > 0) --read_.address_delay;

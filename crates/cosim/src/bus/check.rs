@@ -196,7 +196,7 @@ impl<'a> Receiver<'a> {
         }
         let sent = self.sent(at)?;
         self.pass_over(at)?;
-        if sent.fate == Fate::LeftOut {
+        if matches!(sent.fate, Fate::LeftOut | Fate::Skipped) {
             return Err(Wrong::presence("a frame that must be left out", false));
         }
         self.next = at + 1;
@@ -246,7 +246,7 @@ impl<'a> Receiver<'a> {
             let sent = self.sent(number)?;
             self.is_first |= sent.first;
             match sent.fate {
-                Fate::Either => self.skipped += 1,
+                Fate::Either | Fate::Skipped => self.skipped += 1,
                 Fate::LeftOut | Fate::Cut => {}
                 Fate::Taken => {
                     let missing = Wrong::presence(format!("the packets of frame {number}"), true);
@@ -334,7 +334,7 @@ impl<'a> Receiver<'a> {
 
     fn end(&mut self, number: u32, end: End) -> Result<(), Wrong> {
         let (rows, remembers) = (self.checker.layout.rows(), self.checker.remembers);
-        let is_lossless = self.session.is_lossless;
+        let Session { is_lossless, keeps_rows, .. } = *self.session;
         let (open, is_loose) = self.opened(number)?;
         let sent: u32 = open.came.iter().map(|&came| u32::from(came)).sum();
         if end.regions_sent != sent {
@@ -356,6 +356,9 @@ impl<'a> Receiver<'a> {
         }
         if is_lossless && (end.regions_dropped > 0 || end.rows_dropped > 0) {
             return Err(Wrong::number("dropped regions", 0, end.regions_dropped));
+        }
+        if keeps_rows && end.rows_dropped > 0 {
+            return Err(Wrong::number("dropped rows", 0, end.rows_dropped));
         }
         self.open = None;
         self.is_loose |= remembers && end.regions_dropped > 0;

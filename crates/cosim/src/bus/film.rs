@@ -9,6 +9,9 @@ use foveate_frame::Frame;
 const MOVING: u32 = 16;
 /// Pixels of a side of what stands still and is of one grey level.
 const TILE: u32 = 4;
+/// One of so many tiles gets another grey level with each frame, by this at most: means differ by more than a level, and by less.
+const DRIFTS: u64 = 8;
+const DRIFT: u16 = 24;
 /// One of so many frames is nothing but noise.
 const NOISE: u32 = 3;
 
@@ -54,11 +57,43 @@ impl Film {
         self.shot(false)
     }
 
+    /// The next frame, which flickers as far as it can without the highest bit.
+    pub(super) fn flickering(&mut self) -> Frame {
+        let flicker = std::mem::replace(&mut self.flicker, largest(self.bits) / 2);
+        let frame = self.quiet();
+        self.flicker = flicker;
+        frame
+    }
+
+    fn drift(&mut self) {
+        let (width, height) = self.size;
+        for (left, top) in (0..height)
+            .step_by(TILE as usize)
+            .flat_map(|top| (0..width).step_by(TILE as usize).map(move |left| (left, top)))
+        {
+            if !self.random.one_in(DRIFTS) {
+                continue;
+            }
+            let (up, by) =
+                (self.random.one_in(2), self.random.pixel(DRIFT.min(largest(self.bits) / 4)));
+            for y in top..(top + TILE).min(height) {
+                for x in left..(left + TILE).min(width) {
+                    let pixel = &mut self.still[(y * width + x) as usize];
+                    *pixel = match up {
+                        true => pixel.saturating_add(by).min(largest(self.bits) / 2),
+                        false => pixel.saturating_sub(by),
+                    };
+                }
+            }
+        }
+    }
+
     fn shot(&mut self, is_noise: bool) -> Frame {
         let (width, height) = self.size;
         let (across, down) = (MOVING.min(width), MOVING.min(height));
         let from = (self.number * 5 % (width - across + 1), self.number * 3 % (height - down + 1));
         self.number += 1;
+        self.drift();
         let mut pixels = self.still.clone();
         for y in 0..height {
             for x in 0..width {

@@ -130,11 +130,11 @@ impl BusJob {
         replay::remove(&self.output)?;
 
         let start = Instant::now();
-        let other = with_other_thresholds(&self.design);
-        let others = other.as_ref().and_then(Design::raster).map(registers);
+        let others = with_other_thresholds(&self.design);
+        let cameras = cameras(&self.design, &others);
+        let others: Vec<_> = others.iter().filter_map(Design::raster).map(registers).collect();
         let registers = registers(design);
-        let cameras = cameras(&self.design, other.as_ref());
-        let scenes = self.scenes(design, &registers, others.as_deref());
+        let scenes = self.scenes(design, &registers, &others);
         let vectors = start.elapsed();
         if scenes.is_empty() {
             return Err(CosimError::Nothing);
@@ -179,7 +179,7 @@ impl BusJob {
         &self,
         design: RasterDesign<'a>,
         registers: &'a [Register],
-        others: Option<&'a [Register]>,
+        others: &'a [Vec<Register>],
     ) -> Vec<Scene<'a>> {
         let mut scenes = Vec::new();
         for round in 0..u64::from(self.rounds) {

@@ -33,13 +33,14 @@ pub(super) struct Stage<'a> {
     registers: &'a [Register],
     /// Registers of the same core with other thresholds, where it can have them and what it remembers does not
     /// depend on them.
-    others: Option<&'a [Register]>,
+    others: &'a [Vec<Register>],
     random: Random,
     film: Film,
 }
 
-/// The design with other thresholds, if its hardware is the same and what it remembers does not depend on them.
-pub(super) fn with_other_thresholds(design: &Design) -> Option<Design> {
+/// The design with other thresholds, lower ones and one with the highest bit of a level, if what it remembers does not depend
+/// on them.
+pub(super) fn with_other_thresholds(design: &Design) -> Vec<Design> {
     match (design.temporal().reference, design.periphery(), design.thresholds()) {
         (Reference::Previous, None, Thresholds::Runtime) => {}
         (
@@ -47,13 +48,20 @@ pub(super) fn with_other_thresholds(design: &Design) -> Option<Design> {
             _,
             Thresholds::Runtime | Thresholds::Constant,
         ) => {
-            return None;
+            return Vec::new();
         }
     }
+    let level = design.temporal().level;
+    let lower = if level == 0 { 1 } else { level / 2 };
+    let highest = level | 1 << (design.pixel_bits() - 1);
+    [lower, highest].into_iter().filter_map(|level| with_level(design, level)).collect()
+}
+
+/// The design with that level of change, and other thresholds.
+fn with_level(design: &Design, level: u32) -> Option<Design> {
     let mut config = design.config();
     let temporal = &mut config.camera.temporal;
-    let level = temporal.level_at(design.pixel_bits());
-    temporal.level = Some(if level == 0 { 1 } else { level / 2 });
+    temporal.level = Some(level);
     temporal.min_count = if temporal.min_count > 1 { 1 } else { 3 };
     // Each register has another value, or nobody would see whether it is taken over. Of noise, some regions are relevant by
     // each level and each minimum.
@@ -74,7 +82,7 @@ impl<'a> Stage<'a> {
     pub(super) fn new(
         design: RasterDesign<'a>,
         registers: &'a [Register],
-        others: Option<&'a [Register]>,
+        others: &'a [Vec<Register>],
         seed: u64,
     ) -> Self {
         let mut random = Random::new(seed);
@@ -171,6 +179,14 @@ impl<'a> Stage<'a> {
     fn stopped_sink(&mut self) -> Traffic<'a> {
         let frame = self.design.timing().clocks_per_frame();
         let mut traffic = Traffic::new(self.design);
+        // From reset on, longer than three frames: the first waits, and no source waits for it.
+        traffic.reset();
+        traffic.may_drop();
+        traffic.hold(5 * frame + 2000);
+        for fate in [Fate::Taken, Fate::Skipped, Fate::Skipped] {
+            traffic.frame(Sent { fate, ..taken(self.film.next()) });
+        }
+        self.end(&mut traffic, 0);
         traffic.reset();
         traffic.may_drop();
         let either = |frame| Sent { fate: Fate::Either, ..taken(frame) };
@@ -186,8 +202,28 @@ impl<'a> Stage<'a> {
         for _ in 0..2 {
             traffic.frame(taken(self.film.next()));
         }
+        // A restart forgets references, and counts on.
+        traffic.drain();
+        traffic.write(self.address("control"), self.control_bits(&["enable", "wait", "restart"]));
+        traffic.frame(Sent { first: true, ..taken(self.film.next()) });
         self.end(&mut traffic, 0);
+        self.two_rows_wait(&mut traffic);
         traffic
+    }
+
+    /// One row of regions leaves, the next two wait until both are decided: none is dropped.
+    fn two_rows_wait(&mut self, traffic: &mut Traffic<'a>) {
+        let (side, line) = (self.design.region_size(), traffic.words() as u64);
+        // With more pixels at a clock the next row comes while the packets of these still leave.
+        if self.design.height() < 4 * side || self.design.pixels_per_clock() > 1 {
+            return;
+        }
+        traffic.reset();
+        traffic.may_drop_regions();
+        traffic.gaps(0);
+        let hold = u64::from(side + 3) * line;
+        traffic.frame_around(taken(self.film.quiet()), 2 * side - 1, |traffic| traffic.hold(hold));
+        self.end(traffic, 0);
     }
 
     /// Thresholds, `restart` and `enable` while frames come.
@@ -196,14 +232,18 @@ impl<'a> Stage<'a> {
         let mut traffic = self.waiting();
         let middle = self.design.height() / 2;
         traffic.frame(taken(self.film.quiet()));
+        self.passing_thresholds(&mut traffic);
         let camera = self.thresholds(&mut traffic, middle, 0, 1);
         let next = |film: &mut Film| Sent { camera, ..taken(film.next()) };
         traffic.frame(next(&mut self.film));
         traffic.frame(next(&mut self.film));
         // A restart within a frame waits for its end.
         let restart = self.control_bits(&["enable", "wait", "restart"]);
+        let (status, waits) = (self.address("status"), self.status_bits(&["busy", "restarting"]));
         traffic.frame_around(next(&mut self.film), middle, |traffic| {
             traffic.write(control, restart);
+            traffic.read(status, Answer::Is(waits));
+            traffic.join();
         });
         traffic.frame(Sent { first: true, ..next(&mut self.film) });
         traffic.frame(next(&mut self.film));
@@ -227,8 +267,24 @@ impl<'a> Stage<'a> {
         for _ in 0..2 {
             traffic.frame(Sent { camera, ..taken(self.film.next()) });
         }
+        // Every pixel changes by less than the highest bit of a level, and many by more than the others.
+        let camera = self.thresholds(&mut traffic, middle, camera, 2);
+        for _ in 0..2 {
+            traffic.frame(Sent { camera, ..taken(self.film.flickering()) });
+        }
         self.end(&mut traffic, 0);
         traffic
+    }
+
+    /// Thresholds that come and go within a frame, while its first regions are decided: they change nothing.
+    fn passing_thresholds(&mut self, traffic: &mut Traffic<'a>) {
+        let own: Vec<(u32, u32)> = self.registers.iter().filter_map(threshold).collect();
+        let lines = [1, (self.design.region_size() + 3).min(self.design.height())];
+        let mut others = [u32::MAX, 0].into_iter();
+        traffic.frame_around_each(taken(self.film.quiet()), lines, |traffic| {
+            let other = others.next().unwrap_or_default();
+            own.iter().for_each(|&(address, value)| traffic.write(address, value ^ other));
+        });
     }
 
     /// Writes thresholds within a frame, which hold from the next one on: those of camera `to`, where there are two. Returns the
@@ -240,7 +296,7 @@ impl<'a> Stage<'a> {
         from: usize,
         to: usize,
     ) -> usize {
-        let Some(others) = self.others else { return from };
+        let Some(others) = self.others.get(to.max(1) - 1) else { return from };
         let registers = if to == 0 { self.registers } else { others };
         let written: Vec<(u32, u32)> = registers.iter().filter_map(threshold).collect();
         let frame = Sent { camera: from, ..taken(self.film.quiet()) };
@@ -374,6 +430,8 @@ impl<'a> Stage<'a> {
             traffic.write(enable, 0);
         }
         traffic.write_bytes(events, all, NONE);
+        traffic.write(events, 0);
+        traffic.read(events, Answer::Is(set));
         for bit in (0..u32::BITS).map(|bit| 1 << bit).filter(|bit| all & bit != 0) {
             traffic.write(enable, bit);
             traffic.interrupt(true);
@@ -401,6 +459,8 @@ impl<'a> Stage<'a> {
         traffic.join();
         traffic.in_order(true);
         traffic.write(enable, 0);
+        // None of the words was a restart.
+        traffic.frame(taken(self.film.next()));
         self.end(traffic, 0);
     }
 
@@ -474,6 +534,10 @@ impl<'a> Stage<'a> {
         bits(self.register("control"), names)
     }
 
+    fn status_bits(&self, names: &[&str]) -> u32 {
+        bits(self.register("status"), names)
+    }
+
     fn event(&self, name: &str) -> u32 {
         bits(self.register("events"), &[name])
     }
@@ -521,8 +585,8 @@ fn threshold(register: &Register) -> Option<(u32, u32)> {
     has.then(|| (register.address, after_reset(register)))
 }
 
-/// The cameras whose decisions may be asked for: the design's, and the one with other thresholds.
-pub(super) fn cameras(design: &Design, other: Option<&Design>) -> Vec<Camera> {
+/// The cameras whose decisions may be asked for: the design's, and those with other thresholds.
+pub(super) fn cameras(design: &Design, others: &[Design]) -> Vec<Camera> {
     let camera = |design: &Design| Camera::clone(design);
-    std::iter::once(design).chain(other).map(camera).collect()
+    std::iter::once(design).chain(others).map(camera).collect()
 }

@@ -18,6 +18,8 @@ pub(super) enum Fate {
     LeftOut,
     /// It may be skipped, because the sink stalls.
     Either,
+    /// It must be skipped, because packets of the one before wait.
+    Skipped,
     /// A reset comes while it is under way.
     Cut,
 }
@@ -54,6 +56,8 @@ pub(super) struct Session {
     pub(super) answers: Vec<(u32, Answer)>,
     /// Whether packets must leave without a dropped region or row.
     pub(super) is_lossless: bool,
+    /// Whether no row may be dropped.
+    pub(super) keeps_rows: bool,
 }
 
 /// What happens, as lines for the program, and what must come of it.
@@ -103,6 +107,12 @@ impl<'a> Traffic<'a> {
     /// Regions may be dropped from now on: the sink stalls, or is too slow for all regions at full rate.
     pub(super) fn may_drop(&mut self) {
         self.session().is_lossless = false;
+    }
+
+    /// Regions may be dropped from now on, and no rows.
+    pub(super) fn may_drop_regions(&mut self) {
+        self.may_drop();
+        self.session().keeps_rows = true;
     }
 
     /// How often nothing is offered, in percent.
@@ -159,7 +169,7 @@ impl<'a> Traffic<'a> {
         self.line("join");
     }
 
-    /// Whether reads and writes wait for each other.
+    /// Whether reads and writes wait for each other, and for the answers to those before them.
     pub(super) fn in_order(&mut self, yes: bool) {
         self.line(if yes { "apart 0" } else { "apart 1" });
     }
@@ -185,6 +195,23 @@ impl<'a> Traffic<'a> {
         self.lines(&sent.frame, 0..at);
         inside(self);
         self.lines(&sent.frame, at..sent.frame.height());
+        self.expect(sent);
+    }
+
+    /// A whole frame; before each of these lines something else happens.
+    pub(super) fn frame_around_each(
+        &mut self,
+        sent: Sent,
+        lines: [u32; 2],
+        mut inside: impl FnMut(&mut Self),
+    ) {
+        let mut from = 0;
+        for line in lines {
+            self.lines(&sent.frame, from..line);
+            inside(self);
+            from = line;
+        }
+        self.lines(&sent.frame, from..sent.frame.height());
         self.expect(sent);
     }
 
