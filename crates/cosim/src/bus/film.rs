@@ -17,7 +17,8 @@ const NOISE: u32 = 3;
 
 /// Frames of a design, one after the other.
 pub(super) struct Film {
-    still: Vec<u16>,
+    /// Grey levels of the tiles that stand still, row by row.
+    tiles: Vec<u16>,
     size: (u32, u32),
     bits: u32,
     number: u32,
@@ -29,17 +30,13 @@ impl Film {
     pub(super) fn new(design: RasterDesign<'_>, random: &mut Random) -> Self {
         let (size, bits, mut random) =
             ((design.width(), design.height()), design.pixel_bits(), random.fork());
-        let tiles_across = size.0.div_ceil(TILE);
-        let tiles: Vec<u16> = (0..tiles_across * size.1.div_ceil(TILE))
+        let tiles = (0..size.0.div_ceil(TILE) * size.1.div_ceil(TILE))
             .map(|_| random.pixel(largest(bits) / 2))
             .collect();
-        let tile = |x: u32, y: u32| tiles[(y / TILE * tiles_across + x / TILE) as usize];
-        let still =
-            (0..size.1).flat_map(|y| (0..size.0).map(move |x| (x, y))).map(|(x, y)| tile(x, y));
         // No change, but with half the level it would be one.
         let flicker =
             u16::try_from(design.temporal().level).unwrap_or(u16::MAX).min(largest(bits) / 2);
-        Self { still: still.collect(), size, bits, number: 0, flicker, random }
+        Self { tiles, size, bits, number: 0, flicker, random }
     }
 
     /// The next frame.
@@ -66,24 +63,14 @@ impl Film {
     }
 
     fn drift(&mut self) {
-        let (width, height) = self.size;
-        for (left, top) in (0..height)
-            .step_by(TILE as usize)
-            .flat_map(|top| (0..width).step_by(TILE as usize).map(move |left| (left, top)))
-        {
-            if !self.random.one_in(DRIFTS) {
-                continue;
-            }
-            let (up, by) =
-                (self.random.one_in(2), self.random.pixel(DRIFT.min(largest(self.bits) / 4)));
-            for y in top..(top + TILE).min(height) {
-                for x in left..(left + TILE).min(width) {
-                    let pixel = &mut self.still[(y * width + x) as usize];
-                    *pixel = match up {
-                        true => pixel.saturating_add(by).min(largest(self.bits) / 2),
-                        false => pixel.saturating_sub(by),
-                    };
-                }
+        let most = largest(self.bits);
+        for tile in &mut self.tiles {
+            if self.random.one_in(DRIFTS) {
+                let (up, by) = (self.random.one_in(2), self.random.pixel(DRIFT.min(most / 4)));
+                *tile = match up {
+                    true => tile.saturating_add(by).min(most / 2),
+                    false => tile.saturating_sub(by),
+                };
             }
         }
     }
@@ -94,15 +81,17 @@ impl Film {
         let from = (self.number * 5 % (width - across + 1), self.number * 3 % (height - down + 1));
         self.number += 1;
         self.drift();
-        let mut pixels = self.still.clone();
+        let mut pixels = Vec::new();
         for y in 0..height {
             for x in 0..width {
                 let inside = x.wrapping_sub(from.0) < across && y.wrapping_sub(from.1) < down;
-                let pixel = &mut pixels[(y * width + x) as usize];
-                *pixel = match inside || is_noise {
+                let tile = y / TILE * width.div_ceil(TILE) + x / TILE;
+                pixels.push(match inside || is_noise {
                     true => self.random.pixel(largest(self.bits)),
-                    false => (*pixel).saturating_add(self.random.pixel(self.flicker)),
-                };
+                    false => {
+                        self.tiles[tile as usize].saturating_add(self.random.pixel(self.flicker))
+                    }
+                });
             }
         }
         Frame::new(width, height, self.bits, pixels).expect("pixels are at most the largest")

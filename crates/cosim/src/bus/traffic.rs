@@ -155,7 +155,7 @@ impl<'a> Traffic<'a> {
 
     /// Reads a register, and goes on at once.
     pub(super) fn read(&mut self, address: u32, answer: Answer) {
-        self.line(&format!("read {address:x}"));
+        self.ask(address);
         self.session().answers.push((address, answer));
     }
 
@@ -191,18 +191,15 @@ impl<'a> Traffic<'a> {
     }
 
     /// A whole frame; before the line `at` something else happens.
-    pub(super) fn frame_around(&mut self, sent: Sent, at: u32, inside: impl FnOnce(&mut Self)) {
-        self.lines(&sent.frame, 0..at);
-        inside(self);
-        self.lines(&sent.frame, at..sent.frame.height());
-        self.expect(sent);
+    pub(super) fn frame_around(&mut self, sent: Sent, at: u32, inside: impl FnMut(&mut Self)) {
+        self.frame_around_each(sent, [at], inside);
     }
 
     /// A whole frame; before each of these lines something else happens.
-    pub(super) fn frame_around_each(
+    pub(super) fn frame_around_each<const COUNT: usize>(
         &mut self,
         sent: Sent,
-        lines: [u32; 2],
+        lines: [u32; COUNT],
         mut inside: impl FnMut(&mut Self),
     ) {
         let mut from = 0;

@@ -122,7 +122,7 @@ impl<'a> Builder<'a> {
         })?;
         let cells = match self.cells.get(name) {
             Some(cells) => cells.clone(),
-            None => timed(netlist, name, module, self.library)?.into(),
+            None => Rc::from(timed(netlist, name, module, self.library)?),
         };
         self.cells.insert(name.to_owned(), cells.clone());
         Ok(Instance { path: path.into(), module, cells })
