@@ -41,6 +41,8 @@ pub(super) struct Checker<'a> {
     registers: &'a [Register],
     /// Whether a dropped region changes what is decided afterwards.
     remembers: bool,
+    /// Clocks that a frame takes at least: its transfers.
+    transfers: u64,
 }
 
 impl<'a> Checker<'a> {
@@ -53,7 +55,10 @@ impl<'a> Checker<'a> {
             Reference::LastSent => true,
             Reference::Previous => design.periphery().is_some(),
         };
-        Self { layout: Layout::new(&design, false, TICK_RATE), cameras, registers, remembers }
+        let words = design.width().div_ceil(design.pixels_per_clock());
+        let transfers = u64::from(words) * u64::from(design.height());
+        let layout = Layout::new(&design, false, TICK_RATE);
+        Self { layout, cameras, registers, remembers, transfers }
     }
 
     /// Compares what was heard with what must come of the traffic.
@@ -66,7 +71,7 @@ impl<'a> Checker<'a> {
                 let missing = Wrong { clock: end, ..Wrong::presence("the run ended early", false) };
                 return Err(first_breach.unwrap_or(missing));
             };
-            let found = Receiver::new(self, session).receive(heard, end);
+            let found = Receiver::new(self, session, heard.start).receive(heard, end);
             let found = found.map_err(|wrong| match &first_breach {
                 Some(breach) if breach.clock <= wrong.clock => breach.clone(),
                 _ => wrong,
@@ -108,6 +113,9 @@ struct Receiver<'a> {
     is_first: bool,
     /// A dropped region has changed what is decided.
     is_loose: bool,
+    /// The first clock after the reset.
+    start: u64,
+    /// The next frame cannot have begun before.
     time: u64,
     skipped: u32,
     dropped: u32,
@@ -116,7 +124,7 @@ struct Receiver<'a> {
 }
 
 impl<'a> Receiver<'a> {
-    fn new(checker: &'a Checker<'a>, session: &'a Session) -> Self {
+    fn new(checker: &'a Checker<'a>, session: &'a Session, start: u64) -> Self {
         Self {
             checker,
             session,
@@ -125,6 +133,7 @@ impl<'a> Receiver<'a> {
             next: 0,
             is_first: true,
             is_loose: false,
+            start,
             time: 0,
             skipped: 0,
             dropped: 0,
@@ -173,7 +182,7 @@ impl<'a> Receiver<'a> {
         }
         self.agreed.comparisons += 1;
         match packet {
-            Packet::Frame(info) => self.frame(frame, &info),
+            Packet::Frame(info) => self.frame(frame, &info, parcel.first),
             Packet::Row(row) => self.row(frame, &row),
             Packet::Region(region) => self.region(frame, &region),
             Packet::End(end) => self.end(frame, end),
@@ -182,7 +191,7 @@ impl<'a> Receiver<'a> {
         }
     }
 
-    fn frame(&mut self, number: u32, info: &FrameInfo) -> Result<(), Wrong> {
+    fn frame(&mut self, number: u32, info: &FrameInfo, left: u64) -> Result<(), Wrong> {
         if let Some(open) = &self.open {
             return Err(Wrong::number(
                 "the END of the frame before its FRAME",
@@ -206,10 +215,7 @@ impl<'a> Receiver<'a> {
             let at = format!("what FRAME says: {info:?}, expected {expected:?}");
             return Err(Wrong::presence(at, false));
         }
-        if info.time < self.time {
-            return Err(Wrong::number("the time of a frame, at least", self.time, info.time));
-        }
-        self.time = info.time + 1;
+        self.time(info.time, left)?;
         self.is_loose &= !first;
         let mut outcome = None;
         for (camera, model) in self.cameras.iter_mut().enumerate() {
@@ -232,6 +238,19 @@ impl<'a> Receiver<'a> {
             rows: 0,
             came: vec![false; regions],
         });
+        Ok(())
+    }
+
+    /// The time of a frame is when it began: after all words of the one before, and before the first word of its FRAME left.
+    fn time(&mut self, time: u64, left: u64) -> Result<(), Wrong> {
+        let latest = left - self.start;
+        if time < self.time {
+            return Err(Wrong::number("the time of a frame, at least", self.time, time));
+        }
+        if time >= latest {
+            return Err(Wrong::number("the time of a frame, below", latest, time));
+        }
+        self.time = time + self.checker.transfers;
         Ok(())
     }
 

@@ -7,7 +7,7 @@ use foveate_frame::Frame;
 
 /// Pixels of a side of what moves, at most.
 const MOVING: u32 = 16;
-/// Pixels of a side of what stands still and is of one grey level.
+/// Pixels of a side of what stands still and is of one grey level. A region in an odd column is a single tile, and irrelevant.
 const TILE: u32 = 4;
 /// One of so many tiles gets another grey level with each frame, by this at most: means differ by more than a level, and by less.
 const DRIFTS: u64 = 8;
@@ -20,6 +20,7 @@ pub(super) struct Film {
     /// Grey levels of the tiles that stand still, row by row.
     tiles: Vec<u16>,
     size: (u32, u32),
+    side: u32,
     bits: u32,
     number: u32,
     flicker: u16,
@@ -36,7 +37,7 @@ impl Film {
         // No change, but with half the level it would be one.
         let flicker =
             u16::try_from(design.temporal().level).unwrap_or(u16::MAX).min(largest(bits) / 2);
-        Self { tiles, size, bits, number: 0, flicker, random }
+        Self { tiles, size, side: design.region_size(), bits, number: 0, flicker, random }
     }
 
     /// The next frame.
@@ -75,6 +76,14 @@ impl Film {
         }
     }
 
+    /// What stands still at a place.
+    fn still(&self, x: u32, y: u32) -> u16 {
+        let start = |at: u32| at / self.side * self.side;
+        let is_plain = x / self.side % 2 == 1;
+        let (x, y) = if is_plain { (start(x), start(y)) } else { (x, y) };
+        self.tiles[(y / TILE * self.size.0.div_ceil(TILE) + x / TILE) as usize]
+    }
+
     fn shot(&mut self, is_noise: bool) -> Frame {
         let (width, height) = self.size;
         let (across, down) = (MOVING.min(width), MOVING.min(height));
@@ -85,12 +94,9 @@ impl Film {
         for y in 0..height {
             for x in 0..width {
                 let inside = x.wrapping_sub(from.0) < across && y.wrapping_sub(from.1) < down;
-                let tile = y / TILE * width.div_ceil(TILE) + x / TILE;
                 pixels.push(match inside || is_noise {
                     true => self.random.pixel(largest(self.bits)),
-                    false => {
-                        self.tiles[tile as usize].saturating_add(self.random.pixel(self.flicker))
-                    }
+                    false => self.still(x, y).saturating_add(self.random.pixel(self.flicker)),
                 });
             }
         }

@@ -6,7 +6,8 @@ use std::io::BufRead;
 /// A packet that has left.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Parcel {
-    /// The clock at which its last word was taken.
+    /// The clocks at which its first word was taken, and its last.
+    pub(super) first: u64,
     pub(super) clock: u64,
     pub(super) bytes: Vec<u8>,
     /// Whether its last word was marked; otherwise a reset came first.
@@ -24,6 +25,8 @@ pub(super) struct Breach {
 /// What was heard between two resets.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Heard {
+    /// The first clock after the reset.
+    pub(super) start: u64,
     pub(super) parcels: Vec<Parcel>,
     /// Registers that were read: clock, address and value.
     pub(super) reads: Vec<(u64, u32, u32)>,
@@ -57,7 +60,7 @@ impl Record {
         let clock = clock.parse().ok()?;
         match kind {
             "reset" => {
-                self.sessions.push(Heard::default());
+                self.sessions.push(Heard { start: clock, ..Heard::default() });
                 Some(())
             }
             "packet" => self.word(clock, rest),
@@ -85,7 +88,7 @@ impl Record {
         let (word, last) = rest.split_once(' ')?;
         let parcels = &mut self.sessions.last_mut()?.parcels;
         if parcels.last().is_none_or(|parcel| parcel.is_whole) {
-            parcels.push(Parcel { clock, bytes: Vec::new(), is_whole: false });
+            parcels.push(Parcel { first: clock, clock, bytes: Vec::new(), is_whole: false });
         }
         let parcel = parcels.last_mut()?;
         parcel.bytes.extend(u64::from_str_radix(word, 16).ok()?.to_le_bytes());
@@ -106,7 +109,8 @@ mod tests {
         let record = Record::read(text.as_bytes()).unwrap();
         let [first, second] = record.sessions.as_slice() else { panic!("{record:?}") };
         let bytes = [250, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0].to_vec();
-        assert_eq!(first.parcels[0], Parcel { clock: 11, bytes, is_whole: true });
+        assert_eq!(first.parcels[0], Parcel { first: 9, clock: 11, bytes, is_whole: true });
+        assert_eq!((first.start, second.start), (4, 20));
         assert!(first.parcels.len() == 2 && !first.parcels[1].is_whole);
         assert_eq!(second.reads, [(25, 0x1c, 100_000_000)]);
         assert_eq!((record.breaches.len(), record.clocks), (1, Some(40)));

@@ -69,6 +69,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault(SMALL, "packet_rows", "LAST_ROW = ROWS - 1", "LAST_ROW = ROWS - 2"),
     fault(SMALL, "packet_rows", "LAST_COLUMN = COLUMNS - 1", "LAST_COLUMN = COLUMNS - 2"),
     fault(SMALL, "packet_rows", "full_q[collect_q] : drops_q", "1'b0 : drops_q"),
+    fault(SMALL, "packet_rows", "full_q[collect_q] : drops_q", "|full_q : drops_q"),
     fault(SMALL, "packet_rows", "dropped_o = row_end && drops", "dropped_o = 1'b0"),
     fault(SMALL, "packet_rows", "row_o = leave_q ?", "row_o = !leave_q ?"),
     fault(SMALL, "packet_rows", "valid_frame_o = frames_q[leave_q]", "valid_frame_o = frames_q[!leave_q]"),
@@ -89,6 +90,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault(SMALL, "packet_frames", "admit_o = !announced_q && !deciding_q", "admit_o = !deciding_q"),
     fault(SMALL, "packet_frames", "if (announced_q && !open_q) number_q", "if (announced_q) number_q"),
     fault(SMALL, "packet_frames", "            first_q     <= 1'b0;\n", ""),
+    fault(SMALL, "packet_frames", "behind_o = announced_q && !deciding_q", "behind_o = 1'b0"),
     fault(SMALL, "packet_frames", "closed_o = decided_q[frame_q] && ", "closed_o = decided_q[frame_q] || "),
     fault(SMALL, "packet_frames", "clear = rst_i || forget_i || ended_i", "clear = rst_i || forget_i || 1'b0"),
     fault(SMALL, "packet_frames", "if (rst_i) count_q <= 32'd0;", ""),
@@ -138,4 +140,6 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault(SMALL, "rcm_axi", "m_axis_packets_tkeep = 8'hFF", "m_axis_packets_tkeep = 8'h7F"),
     fault(SMALL, "rcm_axi", "if (lost_valid) dropped_q", "if (region_take) dropped_q"),
     fault(SMALL, "rcm_axi", "rst ? 64'd0 : time_q + 1'b1", "64'd0"),
+    fault(SMALL, "rcm_axi", ".time_i(frame_time)", ".time_i(time_q)"),
+    fault(MEANS, "rcm_axi", ".summary_level_i(summary_level)", ".summary_level_i(s_axis_video_tdata[9:0])"),
 ];
