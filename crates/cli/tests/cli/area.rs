@@ -11,13 +11,17 @@ use foveate_toolchain::testing::{require_tools, takes_whole_lists};
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
-const DESIGN: [&str; 6] = [
+const DESIGN: [&str; 10] = [
     "--preset",
     "raster",
     "--set",
     "hardware.interface='axi'",
     "--set",
-    "frame={width=64,height=48}",
+    "frame={width=32,height=16}",
+    "--set",
+    "region.size=4",
+    "--set",
+    "denoise.filter='none'",
 ];
 
 /// Cells by type.

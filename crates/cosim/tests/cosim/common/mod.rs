@@ -117,7 +117,7 @@ pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> V
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
     let taken = numbered.filter(|(number, fault)| {
-        seen.insert(module(fault)) || takes_whole_lists() || number % 4 == 0
+        seen.insert(module(fault)) || takes_whole_lists() || number % 8 == 0
     });
     taken.map(|(_, fault)| fault).collect()
 }
