@@ -4,7 +4,7 @@
 use super::heard::{Heard, Parcel, Record};
 use super::traffic::{Answer, Fate, Sent, Session};
 use super::wrong::Wrong;
-use foveate_design::{Action, Camera, RasterDesign, Reference};
+use foveate_design::{Action, Camera, RasterDesign, RasterTiming, Reference};
 use foveate_emit::Register;
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use foveate_packets::{
@@ -55,8 +55,7 @@ impl<'a> Checker<'a> {
             Reference::LastSent => true,
             Reference::Previous => design.periphery().is_some(),
         };
-        let words = design.width().div_ceil(design.pixels_per_clock());
-        let transfers = u64::from(words) * u64::from(design.height());
+        let transfers = RasterTiming::of(design).taken();
         let layout = Layout::new(&design, false, TICK_RATE);
         Self { layout, cameras, registers, remembers, transfers }
     }

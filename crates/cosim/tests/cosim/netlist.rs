@@ -78,7 +78,7 @@ fn netlists_agree_with_the_model() {
         (FOLDED_MEANS, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
         (RASTER_MEANS, Level::Rcm { columns: 4, rows: 2 }, (4, 2)),
     ];
-    // What these have the ones above have, too, but for two regions in a lane.
+    // What these have the ones above have, too, but for two regions in a lane, and for two RPUs side by side.
     let others = [
         (MEANS, Level::Rcm { columns: 2, rows: 1 }, (1, 1)),
         (DEEP, Level::Rpu, (1, 1)),

@@ -115,14 +115,14 @@ struct Builder<'a> {
 
 impl<'a> Builder<'a> {
     fn instance(&mut self, name: &str, path: &str) -> Result<Instance<'a>, EstimateError> {
-        let netlist = self.netlist;
+        let Self { netlist, library, .. } = *self;
         let module = netlist.modules.get(name).ok_or_else(|| EstimateError::MissingModule {
             module: name.to_owned(),
             present: netlist.modules.keys().cloned().collect::<Vec<_>>().join(", "),
         })?;
         let cells = match self.cells.get(name) {
             Some(cells) => cells.clone(),
-            None => Rc::from(timed(netlist, name, module, self.library)?),
+            None => Rc::from(timed(netlist, name, module, library)?),
         };
         self.cells.insert(name.to_owned(), cells.clone());
         Ok(Instance { path: path.into(), module, cells })

@@ -111,7 +111,7 @@ pub(crate) fn agrees(
     }
 }
 
-/// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each fourth of the
+/// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each eighth of the
 /// others; or all.
 pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let mut seen = BTreeSet::new();
