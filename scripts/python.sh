@@ -15,7 +15,9 @@ if [ -z "$tools" ]; then
     tools=$(scripts/python_tools.sh --package)
     wheels=${CARGO_TARGET_DIR:-target}/wheels
     rm -rf "$wheels"
-    VIRTUAL_ENV=$(dirname "$tools") "$tools/maturin" build --profile dev --features as-tested --locked --quiet --out "$wheels" >&2
+    mkdir -p "$wheels"
+    VIRTUAL_ENV=$(dirname "$tools") "$tools/maturin" build --profile dev --features as-tested --locked --out "$wheels" >"$wheels/build.log" 2>&1 ||
+        { cat "$wheels/build.log" >&2 && exit 1; }
     "$tools/pip" install --quiet --disable-pip-version-check --force-reinstall --no-deps "$wheels"/*.whl >&2
 fi
 echo "$tools"

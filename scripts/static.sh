@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Checks what is not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), hosted workflows (their schema),
 # the container file (hadolint), CITATION.cff (its schema), that all places name one version, dependencies (cargo-deny: licences,
-# bans, sources; skipped where it is not installed), and that no large file is tracked. Installs what is missing but the last.
+# bans, sources; skipped where it is not installed), that no large file is tracked, and that examples in documentation are run. Installs what is missing but the last.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_tools.sh
@@ -20,6 +20,13 @@ scripts/versions.py
 # Nothing here has to be as large but the engine of the live page, whose page has a limit of its own; what is came by mistake.
 large=$(git ls-files -z | xargs -0 -I{} find {} -maxdepth 0 -size +1000k ! -path web/foveate.wasm)
 [ -z "$large" ] || { echo "static: tracked files of more than 1 MB: $large" >&2 && exit 1; }
+# Of a crate without examples in its documentation, rustdoc would read everything to find none.
+examples=$(find crates/*/src -name '*.rs' -exec awk 'FNR == 1 { inside = 0 }
+    /^ *\/\/[\/!] *```/ { if (!inside && !/```text/) print FILENAME; inside = !inside }' {} +)
+for example in $examples; do
+    ! grep -q '^doctest = false' "${example%%/src/*}/Cargo.toml" ||
+        { echo "static: $example has an example, which its crate's 'doctest = false' leaves untried" >&2 && exit 1; }
+done
 if command -v cargo-deny >/dev/null; then
     cargo deny --offline --locked --log-level error check licenses bans sources
 else

@@ -41,7 +41,7 @@ scripts/static.sh
 step "documentation"
 RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --locked --quiet
 step "build of the tests"
-cargo test --workspace --locked --quiet --no-run --lib --bins --tests
+cargo test --workspace --locked --quiet --no-run
 FOVEATE=$(realpath "${CARGO_TARGET_DIR:-target}/debug/foveate")
 export FOVEATE
 step "the engine of the live page, in a browser and natively"
@@ -49,9 +49,9 @@ scripts/web.sh --test
 step "book"
 scripts/book.sh
 step "Python package, the documents with it, workflow on this machine"
-scripts/shared_build.py
 wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(scripts/python.sh)
+scripts/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
 # One of two processors for each.
 (scripts/snippets.sh && scripts/workflow.sh) >"$beside" 2>&1 &
@@ -66,7 +66,6 @@ JOBS=1 scripts/mutation.sh --sample 4 axi
 wait $! || { cat "$beside" && exit 1; }
 cat "$beside"
 step "tests"
-cargo test --workspace --locked --quiet --doc
-cargo test --workspace --locked --lib --bins --tests | tee "$log"
+cargo test --workspace --locked | tee "$log"
 step "counts"
 awk '/^test result:/ { passed += $4; failed += $6 } END { print passed " passed, " failed " failed" }' "$log"

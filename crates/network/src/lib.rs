@@ -22,6 +22,7 @@ mod operator;
 mod read;
 pub mod sight;
 mod tensor;
+mod threads;
 mod values;
 
 pub use element::{Element, Encoding};

@@ -8,8 +8,8 @@ use crate::kernel::{
     chunks, chunks_in_a_row,
 };
 use crate::mask::Mask;
+use crate::threads;
 use foveate_lanes::Level;
-use rayon::prelude::*;
 use std::sync::Arc;
 
 /// A convolution of floating-point values.
@@ -127,14 +127,13 @@ impl Conv {
                 let taps = rows.kernel * columns.kernel;
                 let layout = |area| Layout::new(area, rows, columns);
                 let layouts: &Vec<_> = &areas(chunks, size[1]).into_iter().map(layout).collect();
-                let channel = |planes: &mut Planes, (channel, outputs)| {
+                let channel = |planes: &mut Planes, channel: usize, outputs: &mut [f32]| {
                     let (weights, bias) = (&weights[channel * taps..][..taps], bias[channel]);
                     let (picture, width) = (picture(channel), size[1]);
                     Depthwise { picture, weights, bias, layouts, outputs, width, finish }
                         .convolve(self.level, planes);
                 };
-                let channels = output.par_chunks_mut(places).enumerate();
-                channels.for_each_init(Planes::default, channel);
+                threads::each_chunk_in(output, places, &channel);
             }
             Kernels::Groups(kernels) => {
                 let of_group = channels / groups;
@@ -145,7 +144,7 @@ impl Conv {
                         kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
                     };
                     let blocks = weights.blocks();
-                    kernel::parts(blocks, chunks, values, size).into_par_iter().for_each(part);
+                    threads::each_part(kernel::parts(blocks, chunks, values, size), &part);
                 }
             }
         }

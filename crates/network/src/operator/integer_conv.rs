@@ -9,9 +9,9 @@ use crate::kernel::{
     self, Blocking, ByteWeights, CHUNK, Chunk, DepthwiseBytes, EXACT, Outputs, Picture, chunks,
 };
 use crate::mask::Mask;
+use crate::threads;
 use crate::values::Byte;
 use foveate_lanes::Level;
-use rayon::prelude::*;
 
 /// Weights of 8 bits, a row per channel. Those without sign are kept with 128 less, as are their zero points.
 #[derive(Clone, Debug)]
@@ -87,34 +87,38 @@ impl IntegerConv {
             columns,
             padding: X::saturated(self.zero),
         };
-        let planes = values_of(output, form).par_chunks_mut(of_group * form.places()).enumerate();
+        let (outputs, length) = (values_of::<Y>(output, form), of_group * form.places());
         match &self.kernels {
-            Kernels::Depthwise(weights) => planes.for_each(|(channel, outputs)| {
-                let taps = rows.kernel * columns.kernel;
-                let mut sums = vec![[0; CHUNK]; chunks.len()];
-                self.level.run(DepthwiseBytes {
-                    picture: picture(channel),
-                    weights: (&weights.values[channel * taps..][..taps], weights.zeros[channel]),
-                    chunks: &chunks,
-                    sums: &mut sums,
-                });
-                for (chunk, sums) in chunks.iter().zip(sums) {
-                    let row = &mut outputs[chunk.y * form.width()..][chunk.x..form.width()];
-                    for (output, sum) in row.iter_mut().zip(sums) {
-                        *output = self.sums.finish(channel, sum);
+            Kernels::Depthwise(weights) => {
+                threads::each_chunk(outputs, length, &|channel, outputs| {
+                    let taps = rows.kernel * columns.kernel;
+                    let mut sums = vec![[0; CHUNK]; chunks.len()];
+                    self.level.run(DepthwiseBytes {
+                        picture: picture(channel),
+                        weights: (
+                            &weights.values[channel * taps..][..taps],
+                            weights.zeros[channel],
+                        ),
+                        chunks: &chunks,
+                        sums: &mut sums,
+                    });
+                    for (chunk, sums) in chunks.iter().zip(sums) {
+                        let row = &mut outputs[chunk.y * form.width()..][chunk.x..form.width()];
+                        for (output, sum) in row.iter_mut().zip(sums) {
+                            *output = self.sums.finish(channel, sum);
+                        }
                     }
-                }
-            }),
-            Kernels::Groups(kernels) => planes.for_each(|(group, values)| {
+                });
+            }
+            Kernels::Groups(kernels) => threads::each_chunk(outputs, length, &|group, values| {
                 let (weights, picture) = (&kernels[group], picture(group));
                 let finish = |channel, sum| self.sums.finish(group * of_group + channel, sum);
                 let part = |(chunks, outputs): (&[Chunk], Outputs<'_, Y>)| {
                     kernel::convolve_bytes(self.level, &picture, weights, chunks, outputs, finish);
                 };
                 let blocks = weights.packed().blocks();
-                kernel::parts(blocks, &chunks, values, [form.height(), form.width()])
-                    .into_par_iter()
-                    .for_each(part);
+                let parts = kernel::parts(blocks, &chunks, values, [form.height(), form.width()]);
+                threads::each_part(parts, &part);
             }),
         }
     }

@@ -8,8 +8,8 @@ use super::{Job, Operator, Products, of_bytes, values_of};
 use crate::element::{Encoding, typed, typed_byte};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::threads;
 use crate::values::Byte;
-use rayon::prelude::*;
 
 #[derive(Clone, Debug)]
 pub(crate) struct IntegerMatMul {
@@ -24,9 +24,10 @@ pub(crate) struct IntegerMatMul {
 impl IntegerMatMul {
     fn multiply<X: Byte, Y: Outcome>(&self, job: Job<'_>) {
         let Job { inputs, form, output, .. } = job;
-        let rows = inputs[0].values::<X>().par_chunks(self.inputs);
-        let outputs = values_of::<Y>(output, form).par_chunks_mut(self.rows.zeros.len());
-        outputs.zip(rows).for_each(|(outputs, input)| {
+        let rows = inputs[0].values::<X>();
+        let outputs = values_of::<Y>(output, form);
+        threads::each_chunk(outputs, self.rows.zeros.len(), &|number, outputs| {
+            let input = &rows[number * self.inputs..][..self.inputs];
             let weights = self.rows.values.chunks(self.inputs).zip(&self.rows.zeros);
             for ((channel, output), weights) in outputs.iter_mut().enumerate().zip(weights) {
                 let (row, &zero) = weights;

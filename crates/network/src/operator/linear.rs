@@ -4,7 +4,7 @@
 use super::{Job, Operator, Products, only, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
-use rayon::prelude::*;
+use crate::threads;
 
 /// Partial sums of a dot product, added at the end in one order.
 const PARTS: usize = 16;
@@ -106,11 +106,11 @@ impl Operator for Linear {
             return;
         }
         let (outputs, input) = (self.outputs(), inputs[0].values::<f32>());
-        values_of::<f32>(output, form).par_iter_mut().enumerate().for_each(|(place, output)| {
+        threads::each_chunk(values_of::<f32>(output, form), 1, &|place, output| {
             let (row, column) = (place / outputs, place % outputs);
             let bias = self.bias.get(column).copied().unwrap_or(0.0);
             let weights = &self.weights[column * self.inputs..][..self.inputs];
-            *output = bias + dot(weights, &input[row * self.inputs..][..self.inputs]);
+            output[0] = bias + dot(weights, &input[row * self.inputs..][..self.inputs]);
         });
     }
 

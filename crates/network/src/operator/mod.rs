@@ -62,8 +62,8 @@ use crate::element::{Element, Encoding};
 use crate::form::Form;
 use crate::mask::{Mask, Window};
 use crate::tensor::Tensor;
+use crate::threads;
 use crate::values::{Number, Values};
-use rayon::prelude::*;
 use std::fmt::Debug;
 use std::ops::Range;
 use std::sync::Arc;
@@ -196,7 +196,7 @@ impl Job<'_> {
         let output = values_of(output, form);
         let (inner, ranges) = (form.inner(), at.ranges());
         let length = form.places() * inner;
-        output.par_chunks_mut(length).enumerate().for_each(|(outer, plane)| {
+        threads::each_chunk(output, length, &|outer, plane| {
             for range in &ranges {
                 let run = range.start * inner..range.end * inner;
                 let start = outer * length;

@@ -5,7 +5,7 @@ use super::places::aligned;
 use super::{Job, Operator, only, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
-use rayon::prelude::*;
+use crate::threads;
 
 /// What a mean is over.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -96,9 +96,9 @@ impl Operator for Normalize {
     fn compute(&self, job: Job<'_>) {
         let Job { inputs, form, output, .. } = job;
         let (block, each) = self.lengths(form);
-        let blocks = inputs[0].values::<f32>().par_chunks(block);
-        let to = values_of::<f32>(output, form).par_chunks_mut(block);
-        to.zip(blocks).enumerate().for_each(|(number, (to, from))| {
+        let values = inputs[0].values::<f32>();
+        threads::each_chunk(values_of::<f32>(output, form), block, &|number, to| {
+            let from = &values[number * block..][..block];
             let count = block as f64;
             let mean = from.iter().map(|&value| f64::from(value)).sum::<f64>() / count;
             let square = |&value: &f32| (f64::from(value) - mean) * (f64::from(value) - mean);

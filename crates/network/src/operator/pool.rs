@@ -6,8 +6,8 @@ use super::{Job, Operator, features, moved, only, values_of, wanted};
 use crate::element::{Element, Encoding, typed};
 use crate::form::Form;
 use crate::mask::{Mask, Window};
+use crate::threads;
 use crate::values::Number;
-use rayon::prelude::*;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PoolKind {
@@ -96,14 +96,14 @@ impl Pool {
                 });
             });
         };
-        let channel = |rows: &mut Vec<T>, (output, plane): (&mut [T], &[T])| {
+        let planes = inputs[0].values::<T>();
+        let channel = |rows: &mut Vec<T>, number: usize, output: &mut [T]| {
+            let plane = &planes[number * height * width..][..height * width];
             rows.resize(height * form.width(), T::LOWEST);
             pass(&in_rows, plane, [height, width], &seen, rows);
             pass(&of_rows, rows, [height, form.width()], at, output);
         };
-        let planes = inputs[0].values().par_chunks(height * width);
-        let outputs = values_of(output, form).par_chunks_mut(form.places());
-        outputs.zip(planes).for_each_init(Vec::new, channel);
+        threads::each_chunk_in(values_of(output, form), form.places(), &channel);
     }
 
     fn average(&self, job: Job<'_>, with_padding: bool) {
@@ -124,9 +124,9 @@ impl Pool {
     ) {
         let Job { inputs, form, output, at } = job;
         let size = [inputs[0].form().height(), inputs[0].form().width()];
-        let planes = inputs[0].values::<T>().par_chunks(size[0] * size[1]);
-        let outputs = values_of(output, form).par_chunks_mut(form.places());
-        outputs.zip(planes).for_each(|(output, plane)| {
+        let planes = inputs[0].values::<T>();
+        threads::each_chunk(values_of(output, form), form.places(), &|number, output| {
+            let plane = &planes[number * size[0] * size[1]..][..size[0] * size[1]];
             for_each_run(at, output, |place, run| fill(plane, size, place, run));
         });
     }

@@ -5,8 +5,8 @@ use super::arithmetic::broadcast;
 use super::{Job, Operator, Products, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::threads;
 use foveate_lanes::{Level, Task};
-use rayon::prelude::*;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Product {
@@ -61,8 +61,7 @@ impl Operator for Product {
         let steps = |of: &Form| form.steps_of(of)[..fronts].to_vec();
         let (steps_a, steps_b) = (steps(a.form()), steps(b.form()));
         let (a, b) = (a.values::<f32>(), b.values::<f32>());
-        let each = values_of::<f32>(output, form).par_chunks_mut(rows * columns).enumerate();
-        each.for_each(|(number, to)| {
+        threads::each_chunk(values_of::<f32>(output, form), rows * columns, &|number, to| {
             let a = &a[front.offset(number, &steps_a)..][..rows * inner];
             let b = &b[front.offset(number, &steps_b)..][..inner * columns];
             self.level.run(Rows { a, b, to, inner, columns });

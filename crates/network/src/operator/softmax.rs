@@ -7,8 +7,8 @@ use super::{Job, Operator, of_bytes, only, values_of};
 use crate::element::{Encoding, typed_byte};
 use crate::form::Form;
 use crate::mask::Mask;
+use crate::threads;
 use crate::values::Byte;
-use rayon::prelude::*;
 
 /// Along one axis, or over all axes from one on.
 #[derive(Clone, Debug)]
@@ -66,8 +66,9 @@ impl Operator for Softmax {
     fn compute(&self, job: Job<'_>) {
         let Job { inputs, form, output, .. } = job;
         let (length, step) = self.line(form);
-        let planes = values_of::<f32>(output, form).par_chunks_mut(length * step);
-        planes.zip(inputs[0].values::<f32>().par_chunks(length * step)).for_each(|(to, from)| {
+        let (from, plane) = (inputs[0].values::<f32>(), length * step);
+        threads::each_chunk(values_of::<f32>(output, form), plane, &|number, to| {
+            let from = &from[number * plane..][..plane];
             (0..step).for_each(|first| self.shares(&from[first..], &mut to[first..], step));
         });
     }

@@ -8,8 +8,8 @@ use super::{Activation, Job, Operator, Products, features, only, values_of};
 use crate::form::Form;
 use crate::kernel::{self, Blocking, Outputs, Picture, Weights, chunks};
 use crate::mask::{Mask, Window};
+use crate::threads;
 use foveate_lanes::Level;
-use rayon::prelude::*;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -194,9 +194,8 @@ impl TransposedConv {
                 let finish = |x| self.finish.of(x);
                 kernel::convolve(self.level, &picture, weights, chunks, outputs, finish);
             };
-            kernel::parts(weights.blocks(), &chunks, &mut planes, [height, width])
-                .into_par_iter()
-                .for_each(part);
+            let parts = kernel::parts(weights.blocks(), &chunks, &mut planes, [height, width]);
+            threads::each_part(parts, &part);
             let to = &mut values_of::<f32>(job.output, job.form)[group * own * job.form.places()..];
             for (plane, to) in planes.chunks(form.places()).zip(to.chunks_mut(job.form.places())) {
                 for row in 0..height {
