@@ -5,6 +5,7 @@ import subprocess
 import sys
 
 import foveate as fv
+import pytest
 from conftest import ROOT
 
 USE = """
@@ -36,28 +37,35 @@ WRONG = {
 }
 
 
-def mypy(*words, cwd=ROOT):
+def run(*words, cwd):
     return subprocess.run([sys.executable, "-m", *words], cwd=cwd, capture_output=True, text=True)
 
 
-def test_the_package_is_typed():
-    checked = mypy("mypy", "--config-file", "pyproject.toml", "python/foveate")
+@pytest.fixture(scope="module")
+def mypy(tmp_path_factory):
+    """Runs it, strictly. What it has read of others' packages it reads once."""
+    cache = tmp_path_factory.mktemp("mypy")
+    return lambda *words, cwd: run("mypy", "--strict", "--cache-dir", str(cache), *words, cwd=cwd)
+
+
+def test_the_package_is_typed(mypy):
+    checked = mypy("--config-file", "pyproject.toml", "python/foveate", cwd=ROOT)
     assert checked.returncode == 0, checked.stdout
 
 
 def test_the_stubs_are_those_of_the_compiled_part(tmp_path):
     # `main` and the like are not for users; what PyO3 adds to classes is not in stubs.
-    checked = mypy("mypy.stubtest", "foveate._foveate", "--ignore-missing-stub", cwd=tmp_path)
+    checked = run("mypy.stubtest", "foveate._foveate", "--ignore-missing-stub", cwd=tmp_path)
     assert checked.returncode == 0, checked.stdout
 
 
-def test_users_are_checked(tmp_path):
+def test_users_are_checked(mypy, tmp_path):
     (tmp_path / "good.py").write_text(USE)
-    good = mypy("mypy", "--strict", "good.py", cwd=tmp_path)
+    good = mypy("good.py", cwd=tmp_path)
     assert good.returncode == 0, good.stdout
     for number, line in enumerate(WRONG):
         (tmp_path / f"wrong{number}.py").write_text(f"import foveate as fv\n\n{line}\n")
-    bad = mypy("mypy", *(f"wrong{number}.py" for number in range(len(WRONG))), cwd=tmp_path)
+    bad = mypy(*(f"wrong{number}.py" for number in range(len(WRONG))), cwd=tmp_path)
     for number, line in enumerate(WRONG):
         assert f"wrong{number}.py:3: error" in bad.stdout, line
 

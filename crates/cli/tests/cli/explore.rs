@@ -143,7 +143,7 @@ fn what_fit_finds_can_be_generated() {
         let fit = ["fit", "scene:street", "-o", "found.toml"];
         run_in(dir.path(), &[&fit, &frame[..], &[syntheses], more].concat())
     };
-    let fit = |more: &[&str]| fit_with("2", more);
+    let fit = |more: &[&str]| fit_with("1", more);
     let found = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz"]);
     assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
     assert!(found.stdout.contains("Cheapest: serial"), "{}", found.stdout);

@@ -50,14 +50,14 @@ fn the_scripts_of_a_core_give_the_clock_of_the_estimate() {
         ("synth/ice40.sh", "hx8k", Tool::NextpnrIce40),
     ] {
         let estimate =
-            ["estimate", "--level", "rcm", "--place-and-route", device, "--seeds", "3", "--json"];
+            ["estimate", "--level", "rcm", "--place-and-route", device, "--seeds", "2", "--json"];
         let report: Value =
             serde_json::from_str(&succeed_in(dir.path(), &[&estimate[..], &settings].concat()))
                 .unwrap();
         let fmax = &report["devices"][0]["placed"]["fmax"];
         let seeds = fmax["seeds_mhz"].as_array().unwrap_or_else(|| panic!("{report}"));
         let expected = seeds.iter().filter_map(Value::as_f64).fold(f64::INFINITY, f64::min);
-        let found = worst(&dir.path().join("core"), script, &["rcm", device, "3"], nextpnr);
+        let found = worst(&dir.path().join("core"), script, &["rcm", device, "2"], nextpnr);
         assert!((found / expected - 1.0).abs() < TOLERANCE, "{device}: {found} and {expected} MHz");
     }
     for (words, part) in [

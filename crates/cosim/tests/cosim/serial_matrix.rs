@@ -3,7 +3,7 @@
 //! clocks, so that the keys are not crossed but take turns, each at a pace of its own.
 
 use crate::common::serial::{config, name};
-use crate::common::{agrees, design, directed, feature, half, in_parallel, in_turn, simulators};
+use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, meeting, simulators};
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{
     Combine, Config, Decimal, Design, FeatureKind, Feed, Filter, Irrelevant, MemoryKind,
@@ -92,7 +92,7 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
             }
         }
     }
-    check_all(&half(cases, &[4, 2, 2, 2]));
+    check_all(&meeting(cases, &[4, 2, 2, 2]));
 }
 
 /// Small arrays: feed x neighborhood x fold, among them folds that leave empty slots, and every region in
@@ -217,8 +217,7 @@ fn deep_arrays_agree() {
             }
         }
     }
-    assert_eq!(cases.len(), 16);
-    check_all(&cases);
+    check_all(&meeting(cases, &[2; 4]));
 }
 
 /// Means of blocks where there is more to them than that: one pixel, 3x3 pixels, the whole region, many words; a feature that
@@ -294,5 +293,5 @@ fn the_memory_that_is_named_agrees() {
         }
     }
     let axes = [Filter::ALL.len(), Reference::ALL.len(), Feed::ALL.len(), 2];
-    check_all(&half(cases, &axes));
+    check_all(&meeting(cases, &axes));
 }

@@ -87,7 +87,7 @@ fn parameters_out_of_range_are_refused_one_by_one() {
         (!found.is_empty())
             .then(|| format!("{} {:?}: {}", case.module, case.parameters, found.join("; ")))
     };
-    // Of those out of range, which the other tools refuse together, Verilator sees a third, and each module's first.
+    // Of those out of range, which the other tools refuse together, Verilator sees a sixth, and each module's first.
     let cases = cases();
     let mut modules = BTreeSet::new();
     let chosen: Vec<&Case> = cases
@@ -95,7 +95,7 @@ fn parameters_out_of_range_are_refused_one_by_one() {
         .enumerate()
         .filter(|(number, case)| {
             let first = case.refused.is_some() && modules.insert(&case.module);
-            case.refused.is_none() || first || number % 3 == 0 || takes_whole_lists()
+            case.refused.is_none() || first || number % 6 == 0 || takes_whole_lists()
         })
         .map(|(_, case)| case)
         .collect();

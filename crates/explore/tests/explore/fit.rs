@@ -37,7 +37,7 @@ impl Hooks for Cancelled {
 }
 
 fn run(frames: u32, constraints: &Constraints, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
-    run_with(&[], frames, constraints, Some(1_000_000), hooks)
+    run_with(&[], frames, constraints, Some(1_000_000), 2, hooks)
 }
 
 fn run_with(
@@ -45,6 +45,7 @@ fn run_with(
     frames: u32,
     constraints: &Constraints,
     clock_hz: Option<u64>,
+    most: usize,
     hooks: &dyn Hooks,
 ) -> Result<Fit, ExploreError> {
     let task = "[frame]\nwidth = 32\nheight = 24\n[temporal]\nreference = \"last-sent\"\n";
@@ -62,7 +63,7 @@ fn run_with(
                 toolchain: Toolchain::system(),
                 cache: Cache::from_env().unwrap(),
             },
-            most: 2,
+            most,
         },
         hooks,
     )
@@ -201,7 +202,7 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     }
     let min_fps = 2000.0;
     let constraints = Constraints { min_fps: Some(min_fps), ..Constraints::default() };
-    let found = run_with(&[], 8, &constraints, None, &Quiet).unwrap();
+    let found = run_with(&[], 8, &constraints, None, 2, &Quiet).unwrap();
     let design = &found.design;
     let chosen = design.config.validate().unwrap();
     let tools = (Toolchain::system(), Cache::from_env().unwrap());
@@ -215,7 +216,7 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     assert_eq!(design.speed.unwrap().clock_mhz, clock.mhz);
 
     let impossible = Constraints { min_fps: Some(1e8), ..Constraints::default() };
-    let found = run_with(&[], 8, &impossible, None, &Quiet).unwrap();
+    let found = run_with(&[], 8, &impossible, None, 1, &Quiet).unwrap();
     assert!(!found.feasible && found.binding == ["min-fps"], "{:?}", found.binding);
 }
 
@@ -287,7 +288,7 @@ fn objects_are_counted_and_bind_where_they_are_lost() {
         std::fs::write(&boxes[0], text).unwrap();
         let (max_flips, min_recall) = (Some(0.0), Some(share));
         let constraints = Constraints { max_flips, min_recall, ..Constraints::default() };
-        run_with(&boxes, 8, &constraints, Some(1_000_000), &Quiet)
+        run_with(&boxes, 8, &constraints, Some(1_000_000), 1, &Quiet)
     };
     let found = fitted(rows(1..=8), 0.01).unwrap();
     let recall = |held: &[Held]| held.iter().find(|held| held.name == "min-recall").unwrap().value;

@@ -10,7 +10,7 @@ use foveate_footage::{Crop, FrameRate, InputOptions, Origin, Selection};
 /// 200 frames of a moving picture at 25 per second, larger than a pipe from the first second on.
 fn moving(folder: &Path, name: &str, more: &[&str]) -> std::path::PathBuf {
     let path = folder.join(name);
-    let source = ["-f", "lavfi", "-i", "testsrc2=size=320x240:rate=25:duration=8"];
+    let source = ["-f", "lavfi", "-i", "testsrc2=size=160x120:rate=25:duration=8"];
     ffmpeg(&[&source[..], more, &[path.to_str().unwrap()]].concat());
     path
 }
@@ -105,7 +105,7 @@ fn frames_are_numbered_whatever_is_taken() {
         origins.extend(source.origin());
     }
     let expected =
-        [125, 130, 135, 140].map(|number| Origin { number, size: (320, 240), own_file: false });
+        [125, 130, 135, 140].map(|number| Origin { number, size: (160, 120), own_file: false });
     assert_eq!(origins, expected);
 }
 

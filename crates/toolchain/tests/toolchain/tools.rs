@@ -107,7 +107,7 @@ fn verilator_writes_waves() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let dir = tempfile::tempdir().unwrap();
     let simulator = verilator::build(&tools, &cache, &counter(true)).unwrap();
     let output = tools.run_checked(&Invocation::new(simulator).dir(dir.path())).unwrap();
@@ -120,7 +120,7 @@ fn verilator_lint_is_strict_unless_told() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let narrow = COUNTER.replace("8'd1", "9'd1");
     let mut job = VerilatorJob { sources: vec![source("counter.v", &narrow)], ..counter(false) };
     let error = verilator::build(&tools, &cache, &job).unwrap_err();
