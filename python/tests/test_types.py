@@ -4,8 +4,9 @@ import inspect
 import subprocess
 import sys
 
-import foveate as fv
 import pytest
+
+import foveate as fv
 from conftest import ROOT
 
 USE = """
