@@ -61,7 +61,19 @@ BLOCKS = {"RAMB18E2": 1, "RAMB36E2": 2, "URAM288": 8}
 WIRES = ("$dff", "$sdff", "$adff", "$slice", "$concat", "$_DFF", "$_SDFF", "$_NOT_", "FD")
 # A module of one instance per region, whose size is the number of regions.
 ARRAYS = {"rcm", "serial_array"}
+# The leaf that is a memory of a raster core.
+MEMORY = "raster_memory"
 FACTOR, MARGIN, PER_BLOCK = 2, 64, 60
+
+
+def source_of(name, module):
+    """The name of a module in the source, which parameters have changed."""
+    return module["attributes"].get("hdlname", name).lstrip("\\").split(" ")[-1]
+
+
+def blocks_in(module):
+    """Its own 18-Kbit blocks."""
+    return sum(BLOCKS.get(cell["type"], 0) for cell in module["cells"].values())
 
 
 def weights(text):
@@ -71,18 +83,19 @@ def weights(text):
     modules = {name: module for name, module in modules if not any(box in module["attributes"] for box in boxes)}
     own = {}
     for name, module in modules.items():
-        logic = blocks = 0
+        logic, blocks = 0, blocks_in(module)
         for cell in module["cells"].values():
             kind = cell["type"]
-            if kind in modules or kind.startswith(WIRES):
+            if kind in modules:
+                # What chooses between memories grows with them.
+                blocks += blocks_in(modules[kind]) if source_of(kind, modules[kind]) == MEMORY else 0
+            elif kind in BLOCKS or kind.startswith(WIRES):
                 continue
-            if kind in BLOCKS:
-                blocks += BLOCKS[kind]
             elif kind in MEMORY_LUTS:
                 logic += MEMORY_LUTS[kind]
             else:
                 logic += max((len(bits) for port, bits in cell["connections"].items() if cell["port_directions"].get(port) == "output"), default=0)
-        source = module["attributes"].get("hdlname", name).lstrip("\\").split(" ")[-1]
+        source = source_of(name, module)
         before = own.get(source, (0, 0))
         own[source] = max(before, (logic, blocks))
     return own
