@@ -88,7 +88,8 @@ def weights(text):
             kind = cell["type"]
             if kind in modules:
                 # What chooses between memories grows with them.
-                blocks += blocks_in(modules[kind]) if source_of(kind, modules[kind]) == MEMORY else 0
+                if source_of(kind, modules[kind]) == MEMORY:
+                    blocks += blocks_in(modules[kind])
             elif kind in BLOCKS or kind.startswith(WIRES):
                 continue
             elif kind in MEMORY_LUTS:

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Checks what is not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), hosted workflows (their schema),
 # the container file (hadolint), CITATION.cff (its schema), that all places name one version, dependencies (cargo-deny: licences,
-# bans, sources; skipped where it is not installed), that no large file is tracked, and that examples in documentation are run. Installs what is missing but the last.
+# bans, sources; skipped where it is not installed), that no large file is tracked, and that examples
+# in documentation are run. Installs what is missing but cargo-deny.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_tools.sh

@@ -50,7 +50,7 @@ step "book"
 scripts/book.sh
 step "Python package, the documents with it, workflow on this machine"
 wait "$installed" || { cat "$packages" && exit 1; }
-FOVEATE_PACKAGE=$(scripts/python.sh)
+FOVEATE_PACKAGE=$(env --unset=FOVEATE_PACKAGE scripts/python.sh)
 scripts/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
 # One of two processors for each.

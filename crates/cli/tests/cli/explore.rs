@@ -137,13 +137,11 @@ fn what_fit_finds_can_be_generated() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    let frame =
-        ["--set", "frame={width=32,height=24}", "--frames", "8", "--quiet", "--max-syntheses"];
-    let fit_with = |syntheses, more: &[&str]| {
-        let fit = ["fit", "scene:street", "-o", "found.toml"];
-        run_in(dir.path(), &[&fit, &frame[..], &[syntheses], more].concat())
+    let frame = ["--set", "frame={width=32,height=24}", "--frames", "8", "--quiet"];
+    let fit = |more: &[&str]| {
+        let fit = ["fit", "scene:street", "-o", "found.toml", "--max-syntheses", "1"];
+        run_in(dir.path(), &[&fit, &frame[..], more].concat())
     };
-    let fit = |more: &[&str]| fit_with("1", more);
     let found = fit(&["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz"]);
     assert_eq!(found.code, 0, "{}{}", found.stdout, found.stderr);
     assert!(found.stdout.contains("Cheapest: serial"), "{}", found.stdout);
@@ -158,14 +156,14 @@ fn what_fit_finds_can_be_generated() {
     succeed_in(dir.path(), &["generate", "--config", "found.toml", "-o", "core"]);
     assert!(Path::new(&dir.path().join("core/rtl/rcm.v")).exists());
     let limits = ["--max-flips", "0%", "--min-fps", "100", "--clock", "1MHz", "--max-lut", "2"];
-    let none = fit_with("1", &limits);
+    let none = fit(&limits);
     assert_eq!(none.code, 1, "{}", none.stdout);
     assert!(none.stdout.contains("Binding: without --max-lut"), "{}", none.stdout);
     assert!(none.stderr.contains("no design meets all limits"), "{}", none.stderr);
     // An object in the lower left corner, which changes now and then.
     let rows = (1..=8).map(|frame| format!("{frame},1,1,17,8,8,1,1,1\n"));
     fs::write(dir.path().join("gt.txt"), rows.collect::<String>()).unwrap();
-    let lost = fit_with("1", &["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);
+    let lost = fit(&["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);
     assert_eq!(lost.code, 1, "{}", lost.stdout);
     assert!(lost.stdout.contains("NOT objects sent by half "), "{}", lost.stdout);
     let text = lost.stdout.split_whitespace().collect::<Vec<_>>().join(" ");

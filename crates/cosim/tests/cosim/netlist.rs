@@ -76,8 +76,8 @@ fn netlists_agree_with_the_model() {
         (FOLDED_MEANS, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
         (RASTER_MEANS, Level::Rcm { columns: 4, rows: 2 }, (4, 2)),
     ];
-    // What these have the ones above or the tests of single cells have, too, but for two regions in a lane, and for two RPUs side
-    // by side.
+    // What these have the ones above or the tests of single cells have, too, but for two regions in a lane, two RPUs side by
+    // side, and a division by 9.
     let others = [
         (VARIANCE, Level::Rpu, (1, 1)),
         (MEANS_DEEP, Level::Rpu, (1, 1)),
