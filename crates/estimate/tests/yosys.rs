@@ -36,7 +36,7 @@ fn a_toy_array_is_estimated() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let job = EstimateJob { leaves_of: Some("rpu".to_owned()), ..toy(784) };
     let report = estimate(&tools, &cache, &job).unwrap();
     assert_eq!(report.rpu.lut_memory, 8, "a single-port RAM of 64 x 8");
@@ -71,7 +71,7 @@ fn a_design_without_memory_is_estimated() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let mut job = toy(4);
     job.synthesis.sources[2].1 =
         job.synthesis.sources[2].1.replace("= mem[addr_i]", "= d_i").replace("reg [W", "//");
@@ -85,7 +85,7 @@ fn mistakes_are_named() {
     if !require_tools(&[Tool::Yosys]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let mut job = toy(4);
     job.synthesis.sources[3].1 =
         job.synthesis.sources[3].1.replace("always @(posedge clk_i)", "always @*");

@@ -24,6 +24,7 @@ pub mod testing;
 mod tool;
 mod toolchain;
 pub mod verilator;
+mod xilinx_cells;
 pub mod yosys;
 
 pub use cache::{Cache, Entry};

@@ -11,6 +11,7 @@ use crate::error::ToolError;
 use crate::files::Source;
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
+use crate::xilinx_cells;
 use crate::yosys::{self, YosysJob};
 
 const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
@@ -21,6 +22,8 @@ const SHIFT_REGISTERS: &str = "xilinx_srl -fixed -minlen 3\n\
     setparam -set ENPOL 1 t:$__XILINX_SHREG_\n\
     techmap -map +/xilinx/cells_map.v\n\
     clean\n";
+/// The file of the cells that synthesis can make.
+const CELLS: &str = "foveate_xilinx_cells.v";
 const NETLIST: &str = "netlist.json";
 const VERILOG: &str = "netlist.v";
 
@@ -80,7 +83,8 @@ impl SynthesisJob {
     /// When Yosys is missing or refuses the design.
     pub fn run(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Synthesis, ToolError> {
         let version = toolchain.find(Tool::Yosys)?.banner;
-        let mut run = yosys::run(toolchain, cache, &self.whole())?;
+        let cells = xilinx_cells::made(toolchain, cache)?;
+        let mut run = yosys::run(toolchain, cache, &self.whole(cells))?;
         let mut file = |name| run.files.remove(name).expect("it is one of the wanted files");
         let flags =
             format!("{SYNTHESIS} -flatten, then xilinx_srl; {} kept as a module", self.unit);
@@ -101,14 +105,13 @@ impl SynthesisJob {
         toolchain: &Toolchain,
         cache: &Cache,
     ) -> Result<Vec<u8>, ToolError> {
-        let job = self.script(&format!(
-            "hierarchy -check -top {top}\n{SYNTHESIS} -top {top}\n{SHIFT_REGISTERS}"
-        ));
+        let cells = xilinx_cells::made(toolchain, cache)?;
+        let job = self.script(&format!("hierarchy -check -top {top}\n"), top, "", cells);
         let mut run = yosys::run(toolchain, cache, &job)?;
         Ok(run.files.remove(NETLIST).expect("it is one of the wanted files"))
     }
 
-    fn whole(&self) -> YosysJob {
+    fn whole(&self, cells: Option<String>) -> YosysJob {
         let Self { unit, array, .. } = self;
         let set = |(name, value): &(&str, u32)| format!(" -set {name} {value}");
         let parameters: String = self.parameters.iter().map(set).collect();
@@ -117,24 +120,37 @@ impl SynthesisJob {
             set => format!("chparam{set} {array}\n"),
         };
         // A unit with parameters has another name by now, and its attribute from its Verilog.
-        let mut job = self.script(&format!(
+        let prepare = format!(
             "{parameters}hierarchy -check -top {array}\n\
-             setattr -mod -set keep_hierarchy 1 {unit}\n\
-             {SYNTHESIS} -flatten -top {array}\n\
-             {SHIFT_REGISTERS}"
-        ));
+             setattr -mod -set keep_hierarchy 1 {unit}\n"
+        );
+        let mut job = self.script(&prepare, array, " -flatten", cells);
         job.script += &format!("write_verilog -noattr {VERILOG}\n");
         job.outputs.push(VERILOG.to_owned());
         job
     }
 
-    /// Reads the sources, synthesizes, and writes the netlist without the library of cells.
-    fn script(&self, synthesis: &str) -> YosysJob {
+    /// Reads the sources, does `prepare`, synthesizes, and writes the netlist without the library of cells.
+    fn script(&self, prepare: &str, top: &str, options: &str, cells: Option<String>) -> YosysJob {
+        let mut sources = self.sources.clone();
+        let mut synthesis = format!("{SYNTHESIS}{options} -top {top}");
+        if let Some(cells) = cells {
+            sources.push((CELLS.to_owned(), cells));
+            // What it would do at first, with fewer cells.
+            let begin = format!(
+                "read_verilog -lib -specify +/xilinx/cells_sim.v\n\
+                 read_verilog -lib {CELLS}\n\
+                 hierarchy -check -top {top}\n"
+            );
+            synthesis = format!("{begin}{synthesis} -run prepare:");
+        }
         let script = format!(
-            "{}{synthesis}delete =A:blackbox =A:whitebox\nwrite_json {NETLIST}\n",
+            "{}{prepare}{synthesis}\n{SHIFT_REGISTERS}\
+             delete =A:blackbox =A:whitebox\n\
+             write_json {NETLIST}\n",
             self.read()
         );
-        YosysJob { sources: self.sources.clone(), script, outputs: vec![NETLIST.to_owned()] }
+        YosysJob { sources, script, outputs: vec![NETLIST.to_owned()] }
     }
 
     fn read(&self) -> String {

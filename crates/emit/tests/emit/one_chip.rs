@@ -14,7 +14,7 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 
 /// Clocks of a simulation: a few frames of each core.
-const CLOCKS: u32 = 20_000;
+const CLOCKS: u32 = 10_000;
 
 /// A core of every organization, and a second one of each of two.
 fn designs() -> Vec<(Prefix, Design)> {

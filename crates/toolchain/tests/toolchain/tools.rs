@@ -93,7 +93,7 @@ fn verilator_builds_a_model_that_counts() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
-    let (tools, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
+    let (tools, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let simulator = verilator::build(&tools, &cache, &counter(false)).unwrap();
     let output = tools.run_checked(&Invocation::new(&simulator)).unwrap();
     assert_eq!(output.stdout, b"9\n");

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The cells of Xilinx devices that only have ports, without those that no core can have.
+//!
+//! `synth_xilinx` begins with the ports of 328 cells, from pads to processors, and takes them along through all of its steps. Its
+//! rules for `UltraScale+` make four of them. A small core without the others is synthesized in two thirds of the time.
+//!
+//! The netlist stays the same: Yosys orders nets by numbers that names got when they were first seen, so all names of the file are
+//! shown to it before the four cells.
+
+use std::collections::HashSet;
+use std::fmt::Write as _;
+use std::fs;
+
+use crate::cache::Cache;
+use crate::error::ToolError;
+use crate::files;
+use crate::key::Key;
+use crate::tool::Tool;
+use crate::toolchain::Toolchain;
+use crate::yosys;
+
+/// The file in the library of Yosys.
+const LIBRARY: &str = "xilinx/cells_xtra.v";
+/// What the rules make of it: block RAM, `UltraRAM` and DSP blocks.
+const MADE: [&str; 4] = ["RAMB18E2", "RAMB36E2", "URAM288", "DSP48E2"];
+/// Words of Verilog that the file has, which are no names.
+const KEYWORDS: [&str; 8] =
+    ["module", "endmodule", "parameter", "input", "output", "inout", "integer", "real"];
+const KEPT: &str = "cells.v";
+
+/// Verilog of the cells, to be read in place of the file; none where the library of this Yosys cannot be read, or has another form.
+///
+/// # Errors
+/// When Yosys is missing, or the cache cannot be used.
+pub(crate) fn made(toolchain: &Toolchain, cache: &Cache) -> Result<Option<String>, ToolError> {
+    let key = Key::builder("cells")
+        .field("version", toolchain.find(Tool::Yosys)?.identity())
+        .field("file", LIBRARY)
+        .list("cells", &MADE)
+        .finish();
+    let kept = cache.get_or_build(&key, KEPT, |dir| {
+        let library = match yosys::cell_models(toolchain, cache, LIBRARY) {
+            Err(ToolError::Io { .. }) => String::new(),
+            found => found?,
+        };
+        files::write(dir, KEPT, part(&library).unwrap_or_default().as_bytes())
+    })?;
+    let text = fs::read_to_string(kept.path()).map_err(ToolError::io("read", kept.path()))?;
+    Ok((!text.is_empty()).then_some(text))
+}
+
+/// The names of the whole file, as attributes of a module without content, and the cells that the rules make.
+fn part(library: &str) -> Option<String> {
+    let modules = MADE.iter().map(|name| module(library, name)).collect::<Option<Vec<_>>>()?;
+    let mut text = format!("(* {} *)\nmodule names;\nendmodule\n", names(library).join(", "));
+    for module in modules {
+        writeln!(text, "{module}").expect("writing to a string does not fail");
+    }
+    Some(text)
+}
+
+/// The text of a module.
+fn module<'a>(library: &'a str, name: &str) -> Option<&'a str> {
+    const END: &str = "\nendmodule";
+    let begin = library.find(&format!("\nmodule {name} "))? + 1;
+    let length = library[begin..].find(END)? + END.len();
+    Some(&library[begin..begin + length])
+}
+
+/// The names in a text, each once, in the order in which they come first.
+fn names(library: &str) -> Vec<&str> {
+    let mut seen: HashSet<_> = KEYWORDS.into();
+    let mut names = Vec::new();
+    for line in library.lines() {
+        let code = line.split("//").next().unwrap_or_default();
+        // What stands between two quotes is a value.
+        for text in code.split('"').step_by(2) {
+            let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || "_'".contains(c)));
+            let is_name =
+                |word: &&str| word.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_');
+            names.extend(words.filter(is_name).filter(|word| seen.insert(*word)));
+        }
+    }
+    names
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TEXT: &str = "// Of a device.\nmodule PAD (...);\n    parameter MODE = \"NO_NAME\";\n    input I;\nendmodule\n\
+        \nmodule RAMB18E2 (...);\n    parameter [7:0] INIT = 8'h0A; // Or else.\n    output DO;\n    input I;\nendmodule\n";
+
+    #[test]
+    fn names_are_in_order_and_once() {
+        assert_eq!(names(TEXT), ["PAD", "MODE", "I", "RAMB18E2", "INIT", "DO"]);
+    }
+
+    #[test]
+    fn a_module_is_found_by_its_whole_name() {
+        let found = module(TEXT, "RAMB18E2").unwrap();
+        assert!(found.starts_with("module RAMB18E2 (") && found.ends_with("\nendmodule"));
+        assert_eq!((module(TEXT, "RAMB18"), module(TEXT, "DSP48E2")), (None, None));
+        // PAD is the first line but one, RAMB18E2 the only one of the four.
+        assert_eq!(part(TEXT), None);
+    }
+}
