@@ -43,7 +43,7 @@ step_benches() {
     # Every output of the shipped benches tied to 0, over sizes, folds and feeds.
     cargo test --locked --package foveate-cosim --test cosim -- --ignored tied
     # Lists of faults, netlists and designs of which the tests take a part.
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted every_design_passes netlists without_forwarding every_feature one_lane deep_arrays memory_that_is_named
+    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted every_design_passes netlists without_forwarding every_feature one_lane arrays_agree_for deep_arrays memory_that_is_named block_rams
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-boards --test boards -- faults
     FOVEATE_WHOLE=1 cargo test --locked --package foveate-emit --test emit
     FOVEATE_WHOLE=1 cargo test --locked --package foveate --test cli -- area:: --include-ignored
