@@ -7,6 +7,7 @@
 use crate::error::CosimError;
 use crate::harness::rendered;
 use askama::Template;
+use foveate_toolchain::yosys;
 
 /// Text of a DSP slice that multiplies.
 const DSP: &str = include_str!("../tb/cells/dsp48e2.v");
@@ -53,7 +54,7 @@ pub fn cell_models(
 ) -> Result<String, CosimError> {
     let mut text = "// Models of cells: those of Yosys (ISC license), and Foveate's.\n".to_owned();
     for cell in cells {
-        let model = own(&cell).or_else(|| of_library(library, &cell));
+        let model = own(&cell).or_else(|| yosys::module(library, &cell));
         text.push('\n');
         text += &model.ok_or(CosimError::NoModel { cell })?;
     }
@@ -73,25 +74,6 @@ pub fn wired_wrongly(netlist: &str) -> bool {
         let is_wide = cell.contains(".WRITE_WIDTH_B(32'd72)");
         is_wide && port(cell, ".DINPADINP") == port(cell, ".DINPBDINP")
     })
-}
-
-/// The module of that name.
-fn of_library(library: &str, cell: &str) -> Option<String> {
-    let begins = |line: &str| {
-        let rest = line.strip_prefix("module ").and_then(|rest| rest.strip_prefix(cell));
-        rest.is_some_and(|rest| rest.trim_start().starts_with(['(', '#', ';']) || rest.is_empty())
-    };
-    let mut lines = library.lines().skip_while(|line| !begins(line)).peekable();
-    lines.peek()?;
-    let mut text = String::new();
-    for line in lines {
-        text += line;
-        text.push('\n');
-        if line.starts_with("endmodule") {
-            break;
-        }
-    }
-    Some(text)
 }
 
 #[cfg(test)]

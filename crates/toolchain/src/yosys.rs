@@ -81,6 +81,26 @@ pub fn cell_models(toolchain: &Toolchain, cache: &Cache, file: &str) -> Result<S
     fs::read_to_string(path).map_err(ToolError::io("read the cell models of Yosys in", path))
 }
 
+/// The text of the module of that name in a file of models, if it has one.
+#[must_use]
+pub fn module(library: &str, name: &str) -> Option<String> {
+    let begins = |line: &str| {
+        let rest = line.strip_prefix("module ").and_then(|rest| rest.strip_prefix(name));
+        rest.is_some_and(|rest| rest.trim_start().starts_with(['(', '#', ';']) || rest.is_empty())
+    };
+    let mut lines = library.lines().skip_while(|line| !begins(line)).peekable();
+    lines.peek()?;
+    let mut text = String::new();
+    for line in lines {
+        text += line;
+        text.push('\n');
+        if line.starts_with("endmodule") {
+            break;
+        }
+    }
+    Some(text)
+}
+
 /// Refuses JSON that is none or empty: a Yosys that was killed, or is none, may have written it.
 fn check(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
     if !name.ends_with(".json") {

@@ -55,8 +55,8 @@ fn the_scripts_of_a_core_give_the_clock_of_the_estimate() {
             serde_json::from_str(&succeed_in(dir.path(), &[&estimate[..], &settings].concat()))
                 .unwrap();
         let fmax = &report["devices"][0]["placed"]["fmax"];
-        let found = fmax["seeds_mhz"].as_array().unwrap_or_else(|| panic!("{report}"));
-        let expected = found.iter().filter_map(Value::as_f64).fold(f64::INFINITY, f64::min);
+        let reached = fmax["seeds_mhz"].as_array().unwrap_or_else(|| panic!("{report}"));
+        let expected = reached.iter().filter_map(Value::as_f64).fold(f64::INFINITY, f64::min);
         let found = worst(&dir.path().join("core"), script, &["rcm", device, seeds], nextpnr);
         assert!((found / expected - 1.0).abs() < TOLERANCE, "{device}: {found} and {expected} MHz");
     }
