@@ -209,14 +209,26 @@ impl Output {
             return Ok(self);
         }
         let full = self.log();
+        let silent = full.trim().is_empty();
         Err(ToolError::Failed {
             command: invocation.command_line(),
             status: self.status,
-            tail: log_excerpt(&full),
+            tail: if silent { without_a_word(invocation) } else { log_excerpt(&full) },
             full,
             log: None,
         })
     }
+}
+
+/// What to look at where a program has failed without a word: it writes its messages to a disk, too.
+fn without_a_word(invocation: &Invocation) -> String {
+    let temporary = std::env::temp_dir();
+    let places = invocation.dir.iter().chain([&temporary]);
+    let places: Vec<_> = places.map(|place| format!("`{}`", place.display())).collect();
+    format!(
+        "it printed nothing, as on a full disk; see how much is free in {}",
+        places.join(" and in ")
+    )
 }
 
 fn quoted(word: &OsStr) -> String {
@@ -243,5 +255,15 @@ mod tests {
     fn failures_carry_command_code_and_log() {
         let error = Output::failure(3, "bad\n").checked(&Invocation::new("tool")).unwrap_err();
         assert_eq!(error.to_string(), "`tool` failed (exit status: 3):\nbad");
+    }
+
+    #[test]
+    fn a_failure_without_a_word_points_to_the_disk() {
+        let tool = Invocation::new("tool").dir("/build");
+        let error = Output::failure(1, "\n").checked(&tool).unwrap_err().to_string();
+        assert!(error.contains("printed nothing, as on a full disk"), "{error}");
+        for place in [Path::new("/build"), &std::env::temp_dir()] {
+            assert!(error.contains(&format!("`{}`", place.display())), "{error}");
+        }
     }
 }

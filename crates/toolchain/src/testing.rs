@@ -37,6 +37,12 @@ pub fn takes_whole_lists() -> bool {
     std::env::var_os("FOVEATE_WHOLE").is_some()
 }
 
+/// The step through a list of which each `n`-th item is enough for every run.
+#[must_use]
+pub fn every(n: usize) -> usize {
+    if takes_whole_lists() { 1 } else { n }
+}
+
 /// The folder of real images and video that the environment variable `FOVEATE_DATA` names. Without
 /// one, says on the terminal that the test is skipped.
 ///

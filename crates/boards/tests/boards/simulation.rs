@@ -10,7 +10,7 @@ use foveate_frame::Frame;
 use foveate_model::FunctionalCamera;
 use foveate_packets::{Command, Found, Layout, Packet, Region, Register, Row, Splitter};
 use foveate_toolchain::Tool;
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_toolchain::testing::{every, require_tools};
 use std::path::Path;
 
 /// All regions of a frame can leave at this rate of pixels.
@@ -288,7 +288,6 @@ fn faults_between_sensor_and_line_are_found() {
     }
     let project = project("hm01b0-4", &[]);
     // Each is a program of its own: all are planted by scripts/release.sh, a third in every run.
-    let step = if takes_whole_lists() { 1 } else { 3 };
     let faults = [
         ("board", ".LEFT(2)", ".LEFT(1)"),
         ("board", ".TOP(2)", ".TOP(3)"),
@@ -301,7 +300,7 @@ fn faults_between_sensor_and_line_are_found() {
         ("board", "wire rst = !awake_q[7];", "wire rst = 1'b0;"),
         ("board", ".m_araddr_o(araddr)", ".m_araddr_o()"),
     ];
-    for fault in faults.into_iter().step_by(step) {
+    for fault in faults.into_iter().step_by(every(3)) {
         let program = simulated(&project, Some(fault));
         let found = check(&project, &program, Damage::None);
         assert!(found.is_err(), "not seen: {fault:?}");

@@ -8,7 +8,7 @@ use foveate_cosim::{
     CosimError, Difference, Dut, Recorder, Recording, Run, Simulator, cell_models, wired_wrongly,
 };
 use foveate_design::{Direction, Port, PortRole, Qualifier};
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_toolchain::testing::{every, require_tools};
 use foveate_toolchain::verilator::Optimize;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
@@ -250,8 +250,7 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
     let larger = [(1, 1 << 15), (8, 1 << 12), (16, 1 << 11), (32, 1 << 10), (10, 1 << 12)];
     // Words that are wider than a port; one is of two cells, and one has a port to spare.
     let wide = [(9, 1 << 11), (36, 1 << 9), (27, 1 << 9), (40, 1 << 10)];
-    let every = if takes_whole_lists() { 1 } else { 2 };
-    let one = [&shapes[..], &larger].concat().into_iter().step_by(every);
+    let one = [&shapes[..], &larger].concat().into_iter().step_by(every(2));
     let one = one.map(|shape| (Ports::One, shape));
     let two = [&shapes[..], &larger, &wide].concat().into_iter().map(|shape| (Ports::Two, shape));
     let shapes: Vec<(Ports, (u32, u32))> = one.chain(two).collect();

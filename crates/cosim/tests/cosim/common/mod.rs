@@ -6,7 +6,7 @@ pub(crate) mod vectors;
 
 use foveate_cosim::{CosimError, CosimReport, Job, Level, Simulator, Stimulus};
 use foveate_design::{Config, Design, FeatureKind, SpatialConfig};
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_toolchain::testing::{every, require_tools, takes_whole_lists};
 use foveate_toolchain::{Cache, Toolchain};
 use std::collections::BTreeSet;
 use std::path::Path;
@@ -126,9 +126,8 @@ pub(crate) fn agrees(
 pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
-    let taken = numbered.filter(|(number, fault)| {
-        seen.insert(module(fault)) || takes_whole_lists() || number % 8 == 0
-    });
+    let taken =
+        numbered.filter(|(number, fault)| seen.insert(module(fault)) || number % every(8) == 0);
     taken.map(|(_, fault)| fault).collect()
 }
 

@@ -14,7 +14,7 @@ mod sync_faults;
 use crate::common::{agrees, cosimulate, directed, in_parallel, sampled, simulators};
 use faults::Fault;
 use foveate_cosim::{CosimReport, Job, Level, Recording, Simulator};
-use foveate_toolchain::testing::{require_tools, takes_whole_lists};
+use foveate_toolchain::testing::{every, require_tools};
 use foveate_toolchain::{Cache, Toolchain};
 use planted::Planted;
 use std::collections::{BTreeSet, HashMap};
@@ -162,8 +162,7 @@ fn every_design_passes_without_a_fault() {
             designs.push(fault.design);
         }
     }
-    let step = if takes_whole_lists() { 1 } else { 4 };
-    let designs: Vec<Planted> = designs.into_iter().step_by(step).collect();
+    let designs: Vec<Planted> = designs.into_iter().step_by(every(4)).collect();
     let failures = in_parallel(&designs, |planted| {
         let folder = output.path().join(format!("{planted:?}"));
         let stimulus = directed(planted.level(""), 1);
