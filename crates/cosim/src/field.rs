@@ -5,6 +5,9 @@ use crate::gate::Gate;
 use foveate_design::Port;
 use std::fmt::Write as _;
 
+/// Bytes of a record that are looked at at once.
+const WORD: usize = size_of::<u128>();
+
 /// Where one port lies in a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
@@ -20,35 +23,34 @@ pub struct Field {
 
 impl Field {
     /// Writes one lane; bits of `value` above the lane's width are dropped.
+    #[inline]
     pub fn set(&self, record: &mut [u8], lane: u32, value: u64) {
         let (start, shift) = self.place(lane);
         let mask = u128::from(mask(self.port.width));
-        let (mask, value) = (mask << shift, (u128::from(value) & mask) << shift);
-        let masks = mask.to_le_bytes().into_iter().zip(value.to_le_bytes());
-        for (byte, (mask, value)) in record[start..self.end()].iter_mut().zip(masks) {
-            *byte = (*byte & !mask) | value;
-        }
+        let word = word_at(record, start) & !(mask << shift);
+        let word = word | (u128::from(value) & mask) << shift;
+        let rest = &mut record[start..];
+        let bytes = rest.len().min(WORD);
+        rest[..bytes].copy_from_slice(&word.to_le_bytes()[..bytes]);
     }
 
     /// Writes every lane, lane 0 first; faster than one after the other.
+    #[inline]
     pub(crate) fn set_all(&self, record: &mut [u8], values: impl Iterator<Item = u64>) {
-        let end = self.end();
-        let mut bytes = record[self.offset..end].iter_mut();
+        const STEP: usize = size_of::<u64>();
+        let mut rest = &mut record[self.offset..self.end()];
         let (mut waiting, mut bits) = (0u128, 0);
         for value in values.take(self.port.lanes as usize) {
             waiting |= u128::from(value & mask(self.port.width)) << bits;
             bits += self.port.width;
-            while bits >= 8 {
-                if let Some(byte) = bytes.next() {
-                    *byte = waiting.to_le_bytes()[0];
-                }
-                waiting >>= 8;
-                bits -= 8;
+            if bits >= u64::BITS {
+                let (step, more) = rest.split_at_mut(STEP);
+                step.copy_from_slice(&waiting.to_le_bytes()[..STEP]);
+                (rest, waiting, bits) = (more, waiting >> u64::BITS, bits - u64::BITS);
             }
         }
-        if let (Some(byte), true) = (bytes.next(), bits > 0) {
-            *byte = waiting.to_le_bytes()[0];
-        }
+        let bytes = (bits as usize).div_ceil(8);
+        rest[..bytes].copy_from_slice(&waiting.to_le_bytes()[..bytes]);
     }
 
     /// Writes every lane, each with as many values as it holds: one, or the pixels of a word, the first in the lowest
@@ -56,6 +58,7 @@ impl Field {
     ///
     /// # Panics
     /// When there is not a value for each place: who should know the port does not.
+    #[inline]
     pub(crate) fn set_values(&self, record: &mut [u8], values: &[u64]) {
         let (held, bits) = self.word(values.len());
         let lanes = self.port.lanes as usize;
@@ -80,6 +83,7 @@ impl Field {
     }
 
     /// Pixels of a lane, and bits of a pixel, where all lanes have so many pixels.
+    #[inline]
     fn word(&self, pixels: usize) -> (usize, u32) {
         let held = (pixels / self.port.lanes as usize).max(1);
         (held, self.port.width / u32::try_from(held).unwrap_or(u32::MAX))
@@ -87,18 +91,16 @@ impl Field {
 
     /// Reads one lane.
     #[must_use]
+    #[inline]
     pub fn get(&self, record: &[u8], lane: u32) -> u64 {
         let (start, shift) = self.place(lane);
-        let mut word = [0; 16];
-        for (to, from) in word.iter_mut().zip(&record[start..self.end()]) {
-            *to = *from;
-        }
-        let value = (u128::from_le_bytes(word) >> shift) & u128::from(mask(self.port.width));
+        let value = (word_at(record, start) >> shift) & u128::from(mask(self.port.width));
         u64::try_from(value).expect("the mask has 64 bits")
     }
 
     /// Its bytes.
     #[must_use]
+    #[inline]
     pub fn slice<'a>(&self, record: &'a [u8]) -> &'a [u8] {
         &record[self.offset..self.end()]
     }
@@ -115,12 +117,15 @@ impl Field {
         digits.split_off(digits.len() - wanted)
     }
 
+    #[inline]
     fn end(&self) -> usize {
         self.offset + self.bytes
     }
 
     /// First byte of a lane, and its first bit in that byte.
+    #[inline]
     fn place(&self, lane: u32) -> (usize, u32) {
+        debug_assert!(lane < self.port.lanes, "lane {lane} of {}", self.port.name);
         let bit = lane * self.port.width;
         (self.offset + (bit / 8) as usize, bit % 8)
     }
@@ -128,6 +133,7 @@ impl Field {
 
 impl Gate {
     /// Whether no lane of a value is compared at this clock.
+    #[inline]
     pub(crate) fn is_shut(self, fields: &[Field], expected: &[u8]) -> bool {
         match self {
             Self::Always => false,
@@ -138,6 +144,7 @@ impl Gate {
     }
 
     /// Whether a lane is compared at a clock at which the gate is not shut.
+    #[inline]
     pub(crate) fn lets_pass(self, fields: &[Field], expected: &[u8], lane: u32) -> bool {
         match self {
             Self::Always | Self::AnyLane(_) => true,
@@ -146,7 +153,23 @@ impl Gate {
     }
 }
 
+/// The bytes from one on as a number, zeros behind the end of the record: a lane of up to 64 bits is whole in it, wherever in its
+/// first byte it begins.
+#[inline]
+fn word_at(record: &[u8], start: usize) -> u128 {
+    let rest = &record[start..];
+    rest.first_chunk().map_or_else(
+        || {
+            let mut word = [0; WORD];
+            word[..rest.len()].copy_from_slice(rest);
+            u128::from_le_bytes(word)
+        },
+        |word| u128::from_le_bytes(*word),
+    )
+}
+
 /// Ones in the lowest bits.
+#[inline]
 pub(crate) fn mask(width: u32) -> u64 {
     u64::MAX.checked_shr(u64::BITS.saturating_sub(width)).unwrap_or(0)
 }

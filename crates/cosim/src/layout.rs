@@ -48,6 +48,7 @@ impl Layout {
 
     /// The ports and their places.
     #[must_use]
+    #[inline]
     pub fn fields(&self) -> &[Field] {
         &self.fields
     }
@@ -74,7 +75,13 @@ impl Layout {
     /// only those with the bit.
     #[must_use]
     pub fn values(&self, expected: &[u8]) -> u64 {
-        self.fields.iter().map(|field| self.compared_lanes(field, expected).count() as u64).sum()
+        let lanes = |field: &Field| match field.gate {
+            // A bit for each lane.
+            Gate::SameLane(valid) => ones(self.fields[valid].slice(expected)),
+            gate if gate.is_shut(&self.fields, expected) => 0,
+            Gate::Always | Gate::AnyLane(_) => field.port.lanes,
+        };
+        self.fields.iter().map(|field| u64::from(lanes(field))).sum()
     }
 
     /// Values that are compared and differ.
@@ -97,6 +104,10 @@ impl Layout {
         let lanes = if field.gate.is_shut(&self.fields, expected) { 0 } else { field.port.lanes };
         (0..lanes).filter(|&lane| field.gate.lets_pass(&self.fields, expected, lane))
     }
+}
+
+fn ones(bytes: &[u8]) -> u32 {
+    bytes.iter().map(|byte| byte.count_ones()).sum()
 }
 
 /// The gate of a port among the others of a layout: the valid bit of its lane where there is one per

@@ -76,7 +76,7 @@ fn threads(folder: &Path, asked: &str, variable: &str) -> usize {
     };
     // The most that there are until nothing has changed for a while.
     let (mut most, mut since) = (0, Instant::now());
-    while since.elapsed() < Duration::from_secs(2) {
+    while since.elapsed() < Duration::from_secs(1) {
         if count() > most {
             (most, since) = (count(), Instant::now());
         }

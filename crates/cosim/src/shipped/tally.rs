@@ -58,8 +58,8 @@ pub(super) struct Counter {
     /// Regions that were lost, and the region and frame of the last word that came with abort.
     lost: u64,
     aborted: Option<(u64, u64)>,
-    /// Every bit that is expected to be 1 where it is compared.
-    seen: Vec<u8>,
+    /// The lanes of each field that have been expected to be nothing but 0 where they were compared.
+    silent: Vec<Vec<u32>>,
 }
 
 impl Counter {
@@ -71,7 +71,7 @@ impl Counter {
             tally: VectorTally::default(),
             lost: 0,
             aborted: None,
-            seen: outputs.record(),
+            silent: outputs.fields().iter().map(|field| (0..field.port.lanes).collect()).collect(),
         }
     }
 
@@ -106,13 +106,10 @@ impl Counter {
         let lost = at(PortRole::LostCount).map_or(0, |field| field.get(expected, 0));
         self.tally.lost = self.tally.lost.max(lost);
         self.see_losses(outputs, expected);
-        for field in outputs.fields() {
-            for lane in outputs.compared_lanes(field, expected) {
-                let value = field.get(expected, lane);
-                if value != 0 {
-                    let seen = field.get(&self.seen, lane);
-                    field.set(&mut self.seen, lane, seen | value);
-                }
+        for (field, silent) in outputs.fields().iter().zip(&mut self.silent) {
+            if !silent.is_empty() && !field.gate.is_shut(outputs.fields(), expected) {
+                let is_compared = |lane| field.gate.lets_pass(outputs.fields(), expected, lane);
+                silent.retain(|&lane| !is_compared(lane) || field.get(expected, lane) == 0);
             }
         }
     }
@@ -138,11 +135,11 @@ impl Counter {
     }
 
     pub(super) fn finish(self, outputs: &Layout) -> VectorTally {
-        let Self { regions, never_lost, mut tally, seen, lost, .. } = self;
+        let Self { regions, never_lost, mut tally, silent, lost, .. } = self;
         let Losses { waiting, stepping, .. } = tally.losses;
         tally.losses.whole = lost.saturating_sub(waiting + stepping);
         tally.frames = (tally.active + tally.held + tally.blank) / regions.max(1);
-        for field in outputs.fields() {
+        for (field, silent) in outputs.fields().iter().zip(silent) {
             let port = &field.port;
             // The number of the only region is 0.
             let is_numbered = matches!(port.role, PortRole::Region | PortRole::ForwardRegion);
@@ -150,8 +147,7 @@ impl Counter {
             if (is_numbered && regions == 1) || (is_loss && never_lost) {
                 continue;
             }
-            let silent = (0..port.lanes).filter(|&lane| field.get(&seen, lane) == 0);
-            tally.silent.extend(silent.map(|lane| match port.lanes {
+            tally.silent.extend(silent.into_iter().map(|lane| match port.lanes {
                 1 => port.name.clone(),
                 _ => format!("lane {lane} of {}", port.name),
             }));
