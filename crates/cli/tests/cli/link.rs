@@ -187,9 +187,7 @@ fn a_clip_that_ends_early_is_compared_as_far_as_it_goes() {
         [&b"YUV4MPEG2 W64 H48 F25:1 Cmono\n"[..], &frame(9), &frame(99), &frame(30)].concat();
     fs::write(dir.path().join("cut.y4m"), &whole[..whole.len() - 100]).unwrap();
     let args = ["link", "cut.y4m", "-o", "out", "--codecs", "mjpeg"];
-    let cut = run_in(dir.path(), &args);
-    let says = "`out` is not complete: cut: ";
-    assert!(cut.code == 1 && cut.stderr.contains(says), "{} {}", cut.code, cut.stderr);
+    let cut = fail_in(dir.path(), 1, &args, &["`out` is not complete: cut: "]);
     assert!(cut.stdout.contains("kB/s, NOT COMPLETE\n"), "{}", cut.stdout);
     let report = fs::read_to_string(dir.path().join("out/link.json")).unwrap();
     let report: Value = serde_json::from_str(&report).unwrap();

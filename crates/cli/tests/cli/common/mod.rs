@@ -52,7 +52,7 @@ pub(crate) fn succeed_in(folder: &Path, args: &[&str]) -> String {
 }
 
 /// Runs the command in `folder` and expects one line on standard error, beside warnings, that has all of `parts`.
-pub(crate) fn fail_in(folder: &Path, code: i32, args: &[&str], parts: &[&str]) {
+pub(crate) fn fail_in(folder: &Path, code: i32, args: &[&str], parts: &[&str]) -> CommandOutput {
     let outcome = run_in(folder, args);
     assert_eq!(outcome.code, code, "{args:?}: {}", outcome.stderr);
     let errors = outcome.stderr.lines().filter(|line| !line.starts_with("foveate: warning: "));
@@ -60,6 +60,7 @@ pub(crate) fn fail_in(folder: &Path, code: i32, args: &[&str], parts: &[&str]) {
     for part in parts {
         assert!(outcome.stderr.contains(part), "{args:?}: {} lacks {part}", outcome.stderr);
     }
+    outcome
 }
 
 /// Every file below `folder` by its path, sorted.
