@@ -89,17 +89,21 @@ mod tests {
     /// The same value by value, as the modes are defined.
     fn naive<T: Number>(form: &Form, kept: &[T], fresh: &[T], at: &Mask, limit: f32) -> Mask {
         let (inner, places) = (form.inner(), form.places());
-        let differs = |&(kept, fresh): &(T, T)| {
+        let differs = |kept: T, fresh: T| {
             !kept.is_same(fresh)
                 && (limit == 0.0
                     || kept.distance(fresh).is_nan()
                     || kept.distance(fresh) * form.encoding().scale > limit)
         };
-        Mask::from_fn(form.height(), form.width(), |x, y| {
-            let place = y * form.width() + x;
-            let own = (0..kept.len()).filter(|at| at / inner % places == place);
-            at.contains(x, y) && own.map(|at| (kept[at], fresh[at])).any(|pair| differs(&pair))
-        })
+        let mut found = Mask::empty(form.height(), form.width());
+        for (number, (&kept, &fresh)) in kept.iter().zip(fresh).enumerate() {
+            let place = number / inner % places;
+            let (x, y) = (place % form.width(), place / form.width());
+            if at.contains(x, y) && differs(kept, fresh) {
+                found.insert(x, y);
+            }
+        }
+        found
     }
 
     /// Forms with planes below and above a word and a block, and with the channels last.

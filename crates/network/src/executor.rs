@@ -258,9 +258,44 @@ mod tests {
     use super::*;
     use crate::layout::Layout;
     use crate::mask::Window;
-    use crate::operator::{Activation, Arithmetic, Binary, Conv, Geometry, Operator, Pointwise};
-    use foveate_lanes::Level;
+    use crate::operator::Operator;
     use std::sync::Arc;
+
+    /// Every second row and column.
+    const WINDOW: Window = Window { kernel: 3, stride: 2, dilation: 1, before: 1, after: 1 };
+
+    /// What the operators of these tests make of floating-point values in one plane.
+    #[derive(Clone, Copy, Debug)]
+    enum Kind {
+        /// The sum of what [`WINDOW`] sees, each tap with a weight of its own.
+        Window,
+        /// The value itself, which becomes 0.
+        Zero,
+        /// The sum of both inputs.
+        Sum,
+    }
+
+    impl Kind {
+        fn at(self, inputs: &[&Tensor], x: usize, y: usize) -> f32 {
+            let value = |input: usize, x, y| {
+                let tensor = inputs[input];
+                tensor.values::<f32>()[y * tensor.form().width() + x]
+            };
+            match self {
+                Self::Zero => 0.0 * value(0, x, y),
+                Self::Sum => value(0, x, y) + value(1, x, y),
+                Self::Window => {
+                    let form = inputs[0].form();
+                    let taps = (0..9).filter_map(|tap| {
+                        let row = WINDOW.input(y, tap / 3, form.height())?;
+                        let column = WINDOW.input(x, tap % 3, form.width())?;
+                        Some(value(0, column, row) * [1., 2., 3., 4., 5., 6., 7., 8., 9.][tap])
+                    });
+                    taps.sum()
+                }
+            }
+        }
+    }
 
     /// What may be wrong with how a change spreads.
     #[derive(Clone, Copy, Debug)]
@@ -276,64 +311,58 @@ mod tests {
         Kernel,
     }
 
-    /// An operator with a fault in its spread alone.
+    /// An operator that may have a fault, in its spread alone.
     #[derive(Debug)]
     struct Faulty {
-        operator: Arc<dyn Operator>,
-        window: Window,
+        kind: Kind,
         fault: Fault,
     }
 
     impl Operator for Faulty {
         fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
-            self.operator.form(inputs)
+            let halved = Form::features(vec![1, 1, 12, 12]);
+            Ok(if matches!(self.kind, Kind::Window) { halved } else { inputs[0].clone() })
         }
 
         fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
-            let window = self.window;
-            let wrong = match self.fault {
-                Fault::None => return self.operator.spread(inputs, output),
-                Fault::MissedUnion => return self.operator.spread(&inputs[..1], output),
-                Fault::Padding => Window { before: window.before - 1, ..window },
-                Fault::Phase => Window { before: window.before + 1, ..window },
-                Fault::Kernel => Window { kernel: window.kernel - 1, ..window },
-            };
-            inputs[0].1.through(wrong, wrong, output.height(), output.width())
+            let (height, width) = (output.height(), output.width());
+            let through = |window| inputs[0].1.through(window, window, height, width);
+            let is_first = |x, y| inputs[0].1.contains(x, y);
+            let is_any = |x, y| inputs.iter().any(|(_, mask)| mask.contains(x, y));
+            match (self.kind, self.fault) {
+                (_, Fault::Padding) => through(Window { before: WINDOW.before - 1, ..WINDOW }),
+                (_, Fault::Phase) => through(Window { before: WINDOW.before + 1, ..WINDOW }),
+                (_, Fault::Kernel) => through(Window { kernel: WINDOW.kernel - 1, ..WINDOW }),
+                (_, Fault::MissedUnion) => Mask::from_fn(height, width, is_first),
+                (Kind::Window, Fault::None) => through(WINDOW),
+                (Kind::Zero | Kind::Sum, Fault::None) => Mask::from_fn(height, width, is_any),
+            }
         }
 
         fn compute(&self, job: Job<'_>) {
-            self.operator.compute(job);
+            let width = job.form.width();
+            for (place, output) in
+                f32::of_mut(job.output)[..job.form.places()].iter_mut().enumerate()
+            {
+                let (x, y) = (place % width, place / width);
+                if job.at.contains(x, y) {
+                    *output = self.kind.at(job.inputs, x, y);
+                }
+            }
         }
     }
 
-    /// A convolution with stride 2 and the sum of two branches, of which one operator has a fault.
-    fn network(in_convolution: Fault, in_sum: Fault) -> Network {
-        let window = Window { kernel: 3, stride: 2, dilation: 1, before: 1, after: 1 };
-        let weights: Vec<f32> = (1..=27u8).map(|weight| f32::from(weight) / 27.0).collect();
-        let level = Level::detect();
-        let geometry = Geometry::new(&[3, 1, 3, 3], [window; 2], 1).unwrap();
-        let conv = Conv::new(geometry, &weights, None, level).unwrap();
+    /// Windows with stride 2 and the sum of two branches, of which one operator has a fault. The first branch never changes.
+    fn network(in_window: Fault, in_sum: Fault) -> Network {
         let mut network = Network::new(Form::features(vec![1, 1, 24, 24]), Layout::Nchw).unwrap();
-        let faulty = |operator, fault| Arc::new(Faulty { operator, window, fault });
-        let first =
-            network.push("a", "Conv", faulty(Arc::new(conv), in_convolution), vec![0]).unwrap();
-        let minus = Arc::new(Pointwise(Activation::Abs));
-        let second = network.push("b", "Abs", minus, vec![first]).unwrap();
-        // The second input of the sum comes from a branch of its own.
-        let pool = Conv::new(geometry, &weights, None, level).unwrap();
-        let third = network.push("c", "Conv", Arc::new(pool), vec![0]).unwrap();
-        let half = Binary {
-            kind: Arithmetic::Mul,
-            constant: Some((Tensor::new(Form::whole(vec![]), vec![0.0]), false)),
-            finish: Activation::Identity,
+        let mut push = |kind, fault, inputs| {
+            let (name, operator) = (format!("{kind:?}"), Arc::new(Faulty { kind, fault }));
+            network.push(&name, &name, operator, inputs).unwrap()
         };
-        let none = network.push("d", "Mul", Arc::new(half), vec![second]).unwrap();
-        let sum = Arc::new(Binary {
-            kind: Arithmetic::Add,
-            constant: None,
-            finish: Activation::Identity,
-        });
-        network.push("e", "Add", faulty(sum, in_sum), vec![none, third]).unwrap();
+        let first = push(Kind::Window, in_window, vec![0]);
+        let none = push(Kind::Zero, Fault::None, vec![first]);
+        let second = push(Kind::Window, Fault::None, vec![0]);
+        push(Kind::Sum, in_sum, vec![none, second]);
         network
     }
 

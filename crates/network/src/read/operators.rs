@@ -162,13 +162,3 @@ pub(super) fn make(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
         .expect("the operator is known");
     maker(node)
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn operators_stand_in_order() {
-        assert!(OPERATORS.is_sorted_by_key(|&(name, _)| name));
-    }
-}

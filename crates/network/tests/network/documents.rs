@@ -21,6 +21,7 @@ fn the_page_lists_the_operators() {
         .unwrap();
     let listed: Vec<&str> = paragraph.split('`').skip(1).step_by(2).collect();
     assert_eq!(listed, operators().collect::<Vec<_>>());
+    assert!(listed.is_sorted(), "by the alphabet: {listed:?}");
 }
 
 #[test]
