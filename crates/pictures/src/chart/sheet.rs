@@ -6,9 +6,11 @@
 //! line. Dots are round here, too.
 
 use std::convert::Infallible;
+use std::ops::Range;
 
 use ab_glyph::{Font, FontRef, Glyph, PxScale, ScaleFont, point};
 use plotters::style::text_anchor::{HPos, VPos};
+use plotters_backend::rasterizer::draw_rect;
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
 };
@@ -49,6 +51,22 @@ impl DrawingBackend for Page<'_> {
                 *below = mixed(*below, above, colour.alpha);
             }
         }
+        Ok(())
+    }
+
+    /// Whole pages are filled, too: what hides all below it is copied row by row, not mixed pixel by pixel.
+    fn draw_rect<S: BackendStyle>(
+        &mut self,
+        from: BackendCoord,
+        to: BackendCoord,
+        style: &S,
+        fill: bool,
+    ) -> Result {
+        let colour = style.color();
+        if !fill || colour.alpha < 1.0 {
+            return draw_rect(self, from, to, style, fill);
+        }
+        self.cover(from, to, colour.rgb);
         Ok(())
     }
 
@@ -96,6 +114,17 @@ impl DrawingBackend for Page<'_> {
 }
 
 impl Page<'_> {
+    /// Gives the pixels of a rectangle a colour, those of its corners included.
+    fn cover(&mut self, from: BackendCoord, to: BackendCoord, (red, green, blue): (u8, u8, u8)) {
+        let (width, height) = self.size;
+        let columns = within(from.0, to.0, width);
+        let row = [red, green, blue].repeat(columns.len());
+        for y in within(from.1, to.1, height) {
+            let at = 3 * (y * width as usize + columns.start);
+            self.pixels[at..at + row.len()].copy_from_slice(&row);
+        }
+    }
+
     /// The letters of a text side by side on their baseline, from its anchor, as an SVG places them.
     fn set<S: BackendTextStyle>(&self, text: &str, style: &S) -> Vec<Glyph> {
         #[allow(clippy::cast_possible_truncation, reason = "sizes of letters")]
@@ -132,6 +161,12 @@ fn along(corner: f32, step: u32) -> i32 {
     (corner.round() as i32).saturating_add_unsigned(step)
 }
 
+/// The places from one to another, either of which may be the first, of which there are `end` on the page.
+fn within(one: i32, other: i32, end: u32) -> Range<usize> {
+    let place = |at: i64| usize::try_from(at.clamp(0, end.into())).unwrap_or(usize::MAX);
+    place(one.min(other).into())..place(i64::from(one.max(other)) + 1)
+}
+
 /// `above` over `below`, `alpha` of it.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
 fn mixed(below: u8, above: u8, alpha: f64) -> u8 {
@@ -143,6 +178,26 @@ mod tests {
     use plotters::prelude::*;
 
     use super::*;
+
+    /// A rectangle over any edge of the page, its corners in any order, is what the rasterizer of `plotters` makes of it.
+    #[test]
+    fn a_rectangle_that_hides_what_is_below_has_all_its_pixels() {
+        let places = [-3, -1, 0, 2, 6, 7, 8, 12];
+        let pairs = || places.into_iter().flat_map(|one| places.map(|other| (one, other)));
+        for ((x0, x1), (y0, y1)) in pairs().flat_map(|x| pairs().map(move |y| (x, y))) {
+            let drawn = |by: fn(&mut Page<'_>, BackendCoord, BackendCoord)| {
+                let mut pixels = vec![9; 3 * 7 * 8];
+                let font = FontRef::try_from_slice(dejavu::sans::regular()).unwrap();
+                by(&mut Page { pixels: &mut pixels, size: (7, 8), font }, (x0, y0), (x1, y1));
+                pixels
+            };
+            let ours =
+                drawn(|page, from, to| page.draw_rect(from, to, &RED.filled(), true).unwrap());
+            let theirs =
+                drawn(|page, from, to| draw_rect(page, from, to, &RED.filled(), true).unwrap());
+            assert_eq!(ours, theirs, "{x0}..{x1}, {y0}..{y1}");
+        }
+    }
 
     /// Rows with ink of a text at 20, 20 on white.
     fn inked(text: &str, size: u32) -> Vec<usize> {
