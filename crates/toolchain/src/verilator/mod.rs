@@ -189,8 +189,9 @@ fn build_in(
     files::write(dir, MAIN, job.cpp_main.as_bytes())?;
     let makefile = Makefile::read(dir, &job.prefix())?;
     let compiler = Compiler::new(toolchain, &makefile.include, job.trace)?;
-    let mut objects = compiler.run_time(cache, &makefile)?;
-    objects.extend(compiler.model(cache, dir, &makefile, job.optimize)?);
+    // First what may have mistakes.
+    let mut objects = compiler.model(cache, dir, &makefile, job.optimize)?;
+    objects.extend(compiler.run_time(cache, &makefile)?);
     compiler.link(dir, &objects, &makefile)
 }
 
