@@ -5,16 +5,16 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use crate::common::{design, every_design_on_a_bus, has_tclsh};
+use crate::common::{design, every_design_on_a_bus, has_tclsh, meeting};
 use foveate_emit::{Prefix, SourceFile, core};
 
-/// A core of each organization, and each on a bus, with the module of it that goes into a chip, and its clock.
+/// A core of each organization, and those on a bus in which two values meet, with the module of it that goes into a chip, and its clock.
 fn cores() -> Vec<(String, &'static str, &'static str)> {
     let ports = ["pipelined", "serial", "raster"].map(|organization| {
         let frame = "frame = { width = 32, height = 24 }";
         (format!("{frame}\nhardware.organization = '{organization}'\n"), "rcm", "clk_i")
     });
-    let buses = every_design_on_a_bus().into_iter().map(|toml| (toml, "rcm_axi", "aclk"));
+    let buses = meeting(every_design_on_a_bus()).into_iter().map(|toml| (toml, "rcm_axi", "aclk"));
     ports.into_iter().chain(buses).collect()
 }
 

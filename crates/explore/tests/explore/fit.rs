@@ -36,8 +36,13 @@ impl Hooks for Cancelled {
     }
 }
 
-fn run(frames: u32, constraints: &Constraints, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
-    run_with(&[], frames, constraints, Some(1_000_000), 2, hooks)
+fn run(
+    frames: u32,
+    constraints: &Constraints,
+    most: usize,
+    hooks: &dyn Hooks,
+) -> Result<Fit, ExploreError> {
+    run_with(&[], frames, constraints, Some(1_000_000), most, hooks)
 }
 
 fn run_with(
@@ -176,7 +181,7 @@ fn the_design_holds_what_was_asked_and_is_one() {
         max_lut: Some(200),
         ..Constraints::default()
     };
-    let found = run(8, &constraints, &Quiet).unwrap();
+    let found = run(8, &constraints, 2, &Quiet).unwrap();
     assert_eq!(found.frames, (4, 4));
     assert!(found.feasible && found.binding.is_empty(), "{:?}", found.design.fitted_held);
     let design = &found.design;
@@ -202,7 +207,7 @@ fn without_a_clock_the_rate_is_that_of_the_synthesized_design() {
     }
     let min_fps = 2000.0;
     let constraints = Constraints { min_fps: Some(min_fps), ..Constraints::default() };
-    let found = run_with(&[], 8, &constraints, None, 2, &Quiet).unwrap();
+    let found = run_with(&[], 8, &constraints, None, 1, &Quiet).unwrap();
     let design = &found.design;
     let chosen = design.config.validate().unwrap();
     let tools = (Toolchain::system(), Cache::from_env().unwrap());
@@ -231,7 +236,7 @@ fn where_nothing_holds_it_says_what_binds() {
         max_lut: Some(1),
         ..Constraints::default()
     };
-    let found = run(8, &constraints, &Quiet).unwrap();
+    let found = run(8, &constraints, 1, &Quiet).unwrap();
     assert!(!found.feasible);
     assert_eq!(found.binding, ["max-lut"]);
     let broken: Vec<_> = found.design.fitted_held.iter().filter(|held| !held.holds).collect();
@@ -240,9 +245,9 @@ fn where_nothing_holds_it_says_what_binds() {
 
 #[test]
 fn a_clip_must_have_halves_and_a_run_can_be_stopped() {
-    let short = run(3, &Constraints::default(), &Quiet).unwrap_err();
+    let short = run(3, &Constraints::default(), 1, &Quiet).unwrap_err();
     assert!(matches!(short, ExploreError::Short { frames: 3, .. }), "{short}");
-    let stopped = run(8, &Constraints::default(), &Cancelled).unwrap_err();
+    let stopped = run(8, &Constraints::default(), 1, &Cancelled).unwrap_err();
     assert!(matches!(stopped, ExploreError::Cancelled), "{stopped}");
 }
 

@@ -82,7 +82,8 @@ fn luma_is_the_coded_plane_whatever_way_it_comes() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    for format in ["yuv420p", "yuv422p", "yuv444p", "yuv420p10le", "gray", "gray10le", "nv12"] {
+    let formats = ["yuv420p", "yuv422p", "yuv444p", "yuv420p10le", "gray", "gray10le", "nv12"];
+    for (turn, format) in formats.into_iter().enumerate() {
         let lossless = ["-c:v", "rawvideo", "-pix_fmt", format, "-frames:v", "5"];
         let path = clip(dir.path(), &format!("{format}.nut"), &lossless);
         let raw = dir.path().join("raw");
@@ -92,7 +93,7 @@ fn luma_is_the_coded_plane_whatever_way_it_comes() {
         let bytes = fs::read(&raw).unwrap();
         let deep = format.contains("10");
         let (depth, size) = if deep { (10, 2) } else { (8, 1) };
-        for bits in [4, 8, 10, 16] {
+        for bits in [[8, 16], [4, 10]][turn % 2] {
             let (seen, problem) = frames(&path, bits, &InputOptions::default());
             assert_eq!((seen.len(), problem), (5, None), "{format}");
             for (frame, raw) in seen.iter().zip(bytes.chunks(bytes.len() / 5)) {
