@@ -143,6 +143,19 @@ impl Gate {
         }
     }
 
+    /// How many of all lanes of a value are compared at this clock.
+    #[inline]
+    pub(crate) fn open_lanes(self, fields: &[Field], expected: &[u8], all: u32) -> u32 {
+        match self {
+            // A bit for each lane.
+            Self::SameLane(valid) => {
+                fields[valid].slice(expected).iter().map(|byte| byte.count_ones()).sum()
+            }
+            Self::Always | Self::AnyLane(_) if self.is_shut(fields, expected) => 0,
+            Self::Always | Self::AnyLane(_) => all,
+        }
+    }
+
     /// Whether a lane is compared at a clock at which the gate is not shut.
     #[inline]
     pub(crate) fn lets_pass(self, fields: &[Field], expected: &[u8], lane: u32) -> bool {

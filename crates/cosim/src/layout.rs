@@ -75,12 +75,7 @@ impl Layout {
     /// only those with the bit.
     #[must_use]
     pub fn values(&self, expected: &[u8]) -> u64 {
-        let lanes = |field: &Field| match field.gate {
-            // A bit for each lane.
-            Gate::SameLane(valid) => ones(self.fields[valid].slice(expected)),
-            gate if gate.is_shut(&self.fields, expected) => 0,
-            Gate::Always | Gate::AnyLane(_) => field.port.lanes,
-        };
+        let lanes = |field: &Field| field.gate.open_lanes(&self.fields, expected, field.port.lanes);
         self.fields.iter().map(|field| u64::from(lanes(field))).sum()
     }
 
@@ -104,10 +99,6 @@ impl Layout {
         let lanes = if field.gate.is_shut(&self.fields, expected) { 0 } else { field.port.lanes };
         (0..lanes).filter(|&lane| field.gate.lets_pass(&self.fields, expected, lane))
     }
-}
-
-fn ones(bytes: &[u8]) -> u32 {
-    bytes.iter().map(|byte| byte.count_ones()).sum()
 }
 
 /// The gate of a port among the others of a layout: the valid bit of its lane where there is one per
