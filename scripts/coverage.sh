@@ -81,7 +81,7 @@ if [ "${1:-}" != --quick ]; then
         "paper $raster --grid 8x2 --set region.size=8 --set frame={width=218,height=222} --set hardware.pixels_per_clock=4 --set hardware.store='external'"
         "bare $raster --grid 5x3 $deep --set region.size=5 --set frame={width=222,height=222} --set hardware.store='single-port' --set spatial=[$corner]"
         "bare $raster --grid 4x3 $deep --set region.size=6 --set frame={width=224,height=222} --set hardware.forward=false --set spatial=[{feature='mad',min_score=4}]"
-        "paper $raster --grid 4x4 --rounds 3 --set region.size=6 --set frame={width=224,height=222} --set render={irrelevant='mean',payload='raw'}"
+        "paper $raster --grid 7x4 --rounds 2 --set region.size=12 --set frame={width=224,height=222} --set temporal.reference='last-sent' --set periphery.blocks=4 --set render={irrelevant='mean',payload='raw'}"
         "bare --level rcm --grid 3x2 --set region.size=4 $sync"
         "bare $serial --set region.size=4 --set hardware.feed='raster' $sync"
         "bare $raster --grid 5x2 --set region.size=4 --set frame={width=222,height=221} $sync"
