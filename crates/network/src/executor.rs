@@ -258,7 +258,7 @@ mod tests {
     use super::*;
     use crate::layout::Layout;
     use crate::mask::Window;
-    use crate::operator::Operator;
+    use crate::operator::{Operator, same_position};
     use std::sync::Arc;
 
     /// Every second row and column.
@@ -327,15 +327,13 @@ mod tests {
         fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
             let (height, width) = (output.height(), output.width());
             let through = |window| inputs[0].1.through(window, window, height, width);
-            let is_first = |x, y| inputs[0].1.contains(x, y);
-            let is_any = |x, y| inputs.iter().any(|(_, mask)| mask.contains(x, y));
             match (self.kind, self.fault) {
                 (_, Fault::Padding) => through(Window { before: WINDOW.before - 1, ..WINDOW }),
                 (_, Fault::Phase) => through(Window { before: WINDOW.before + 1, ..WINDOW }),
                 (_, Fault::Kernel) => through(Window { kernel: WINDOW.kernel - 1, ..WINDOW }),
-                (_, Fault::MissedUnion) => Mask::from_fn(height, width, is_first),
+                (_, Fault::MissedUnion) => same_position(&inputs[..1], output),
                 (Kind::Window, Fault::None) => through(WINDOW),
-                (Kind::Zero | Kind::Sum, Fault::None) => Mask::from_fn(height, width, is_any),
+                (Kind::Zero | Kind::Sum, Fault::None) => same_position(inputs, output),
             }
         }
 

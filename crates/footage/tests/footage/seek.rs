@@ -62,7 +62,7 @@ fn a_late_start_changes_nothing_but_where_it_starts() {
         let path = moving(dir.path(), name, &arguments);
         let whole = all(&path).0;
         assert!(whole.len() >= 195, "{name}");
-        // Four of them by turns: each decodes most of the clip.
+        // One of four by turns: each decodes most of the clip.
         let start = [3_000_000, 5_010_000, 6_480_000, 7_900_000][turn % 4];
         let expected = whole.iter().filter(|frame| frame.time_us >= start);
         let seen = frames(&path, 8, &from(start)).0;
