@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A configuration from Python's values: a preset, a file or a mapping, and keys by name.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, PRESETS, Preset};
@@ -51,7 +50,7 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
             source.get_type().name()?,
         )));
     };
-    fs::read_to_string(&path).map_err(|error| {
+    foveate_reading::settings(&path).map_err(|error| {
         let message = format!("cannot read the configuration `{}`: {error}", path.display());
         os_error(&error, message)
     })

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Boards: device, clock, pins, sensor, and the design that stands there by default. One file of data each.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, Preset};
@@ -185,7 +184,7 @@ impl Board {
     pub fn find(name: &str) -> Result<Self, BoardError> {
         let path = Path::new(name);
         if path.extension().is_some_and(|extension| extension == "toml") {
-            let text = fs::read_to_string(path)
+            let text = foveate_reading::settings(path)
                 .map_err(|source| BoardError::Read { path: path.to_owned(), source })?;
             let stem = path.file_stem().unwrap_or_default().to_string_lossy();
             return Self::read(&stem, &text, path.parent().unwrap_or(Path::new("")));

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Sensors on DVP: how their pixels come, and which registers they are set up with. One file of data each.
 
-use std::fs;
 use std::path::Path;
 
 use serde::Deserialize;
@@ -140,8 +139,8 @@ impl Sensor {
     pub fn find(name: &str, folder: &Path) -> Result<Self, BoardError> {
         if name.ends_with(".toml") {
             let path = folder.join(name);
-            let text =
-                fs::read_to_string(&path).map_err(|source| BoardError::Read { path, source })?;
+            let text = foveate_reading::settings(&path)
+                .map_err(|source| BoardError::Read { path, source })?;
             return Self::from_toml(name, &text);
         }
         match SENSORS.iter().find(|sensor| sensor.0 == name) {

@@ -25,7 +25,6 @@ mod threads;
 mod view;
 mod viewing;
 
-use std::fs;
 use std::path::PathBuf;
 
 use clap::builder::RangedI64ValueParser;
@@ -120,9 +119,8 @@ impl DesignArgs {
 
     fn text(&self) -> Result<String, CliError> {
         Ok(match (&self.config, &self.preset) {
-            (Some(file), _) => {
-                fs::read_to_string(file).map_err(CliError::io("read the configuration", file))?
-            }
+            (Some(file), _) => foveate_reading::settings(file)
+                .map_err(CliError::io("read the configuration", file))?,
             (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
             (None, None) => String::new(),
         })

@@ -20,6 +20,8 @@ const VERSION: u32 = 4;
 /// Hexadecimal digits of a name: 96 bits.
 pub(crate) const KEY_DIGITS: usize = 24;
 const FOLDER: &str = "measured";
+/// The largest measurement that is read, in bytes; one has a few KiB.
+const LIMIT: u64 = 1 << 26;
 
 /// Finished measurements.
 pub(crate) struct Store {
@@ -36,7 +38,7 @@ impl Store {
 
     /// A finished measurement; none that cannot be read.
     pub(crate) fn get(&self, key: &str) -> Option<Measured> {
-        serde_json::from_slice(&fs::read(self.place(key)).ok()?).ok()
+        serde_json::from_slice(&foveate_reading::bytes(&self.place(key), LIMIT).ok()?).ok()
     }
 
     pub(crate) fn put(&self, key: &str, measured: &Measured) -> Result<(), ExploreError> {

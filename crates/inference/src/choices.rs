@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What is chosen for a run, as people write it.
 
-use std::fs;
 use std::path::Path;
 
 use foveate_accelerator::Accelerator;
@@ -67,7 +66,7 @@ pub fn parse_goal(text: &str) -> Result<Goal, String> {
 pub fn read_accelerator(name: &str) -> Result<(String, Accelerator), InferenceError> {
     let path = Path::new(name);
     let accelerator = if path.extension().is_some_and(|extension| extension == "toml") {
-        let text = fs::read_to_string(path)
+        let text = foveate_reading::settings(path)
             .map_err(|source| InferenceError::Read { path: path.to_owned(), source })?;
         Accelerator::from_toml(&text)
             .map_err(|error| InferenceError::Choice { problem: format!("`{name}`: {error}") })?

@@ -2,7 +2,6 @@
 //! `foveate build`: a camera on a board, as a project and as a bitstream.
 
 use std::fmt::Write as _;
-use std::fs;
 use std::path::Path;
 
 use foveate_boards::{Board, Built, Project, build, write_project};
@@ -71,7 +70,7 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
 fn configuration(board: &Board, args: &BuildArgs) -> Result<Config, CliError> {
     let text = match (&args.config, &args.preset) {
         (Some(file), _) => {
-            fs::read_to_string(file).map_err(CliError::io("read the configuration", file))?
+            foveate_reading::settings(file).map_err(CliError::io("read the configuration", file))?
         }
         (None, Some(name)) => Preset::find(name)?.toml.to_owned(),
         (None, None) => board.config()?.to_toml(),

@@ -4,7 +4,6 @@
 mod table;
 mod units;
 
-use std::fs;
 use std::path::Path;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -80,7 +79,9 @@ fn read(file: &Path) -> Result<String, CliError> {
     let built_in = BUILT_IN.iter().find(|space| Path::new(space.name) == file);
     match built_in.filter(|_| !file.exists()) {
         Some(space) => Ok(space.toml.to_owned()),
-        None if file.exists() => fs::read_to_string(file).map_err(CliError::io("read", file)),
+        None if file.exists() => {
+            foveate_reading::settings(file).map_err(CliError::io("read", file))
+        }
         None => {
             let names: Vec<&str> = BUILT_IN.iter().map(|space| space.name).collect();
             Err(CliError::Usage(format!(

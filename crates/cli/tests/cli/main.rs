@@ -12,6 +12,7 @@ mod crate_map;
 mod dataset;
 mod decode;
 mod design;
+mod endless;
 mod explore;
 mod footage;
 mod force;

@@ -13,6 +13,8 @@ use crate::{FootageError, Kind, MAX_SIDE, SourceFrame};
 /// What a file of images starts with: unsigned bytes in three dimensions.
 pub(crate) const MAGIC: [u8; 4] = [0, 0, 8, 3];
 pub(crate) const LABEL_MAGIC: [u8; 4] = [0, 0, 8, 1];
+/// The most labels of a file. They are in memory, a byte each; images are read one by one, and have no such limit.
+const MAX_LABELS: u32 = 1 << 28;
 
 /// The images of a file.
 pub(crate) struct Idx {
@@ -146,6 +148,12 @@ fn labels_of(path: &Path, images: u32) -> Result<Vec<u8>, FootageError> {
     let total = number(&mut *input, path)?;
     if total != images {
         return Err(damaged(path, format!("it holds {total} labels for {images} images")));
+    }
+    if total > MAX_LABELS {
+        return Err(damaged(
+            path,
+            format!("it holds {total} labels, and the limit is {MAX_LABELS}; split it"),
+        ));
     }
     let mut labels = Vec::new();
     input.take(total.into()).read_to_end(&mut labels).map_err(cut(path))?;

@@ -63,8 +63,10 @@ fn text_that_is_no_text_is_refused() {
 #[test]
 fn a_damaged_file_of_a_yolo_folder_names_itself() {
     let folder = tempfile::tempdir().unwrap();
+    let long = "0 0.5 0.5 1 1\n".to_owned() + &" ".repeat(4096) + "0 0.5 0.5 1 1\n";
     for (text, parts) in [
         (&b"0 0.5 0.5 1 1\n0 0.5 0.5 1\n"[..], ["line 2", "4 numbers; expected 5"]),
+        (long.as_bytes(), ["line 2", "4096 bytes or more"]),
         (b"0 0.5 0.5 1 1.5\n", ["line 1", "1.5 is no share"]),
         (b"0.5 0.5 0.5 1 1\n", ["line 1", "`0.5` is no class"]),
         (b"0 0.5 \xff 1 1\n", ["line 1", "UTF-8"]),

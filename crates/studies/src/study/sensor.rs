@@ -7,7 +7,7 @@ use std::io::Read;
 use std::path::Path;
 use std::slice::from_ref;
 
-use csv::{ErrorKind, ReaderBuilder, Trim};
+use csv::{ErrorKind, ReaderBuilder, StringRecord, Trim};
 use flate2::read::MultiGzDecoder;
 use foveate_design::Design;
 use serde::Deserialize;
@@ -130,11 +130,15 @@ fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recor
     let packed = path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("gz"));
     let reader: Box<dyn Read> =
         if packed { Box::new(MultiGzDecoder::new(file)) } else { Box::new(file) };
-    let mut file = ReaderBuilder::new().flexible(true).trim(Trim::All).from_reader(reader);
+    let mut file =
+        foveate_reading::table(ReaderBuilder::new().flexible(true).trim(Trim::All), reader);
+    let columns = file.headers().map_err(|error| wrong(said(&error)))?.clone();
     let per_region = vec![0; design.regions() as usize];
     let mut recorded = Recorded { per_region, times: None, meanwhile: false };
-    for event in file.deserialize() {
-        let Event { t_us: t, x, y } = event.map_err(|error| wrong(said(&error)))?;
+    let event = |record: StringRecord| record.deserialize(Some(&columns));
+    for record in file.records() {
+        let Event { t_us: t, x, y } =
+            record.and_then(event).map_err(|error| wrong(said(&error)))?;
         let (from, to) = recorded.times.unwrap_or((t, t));
         recorded.times = Some((from.min(t), to.max(t)));
         let meanwhile = t > first && t <= last;

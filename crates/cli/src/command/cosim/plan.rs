@@ -12,6 +12,8 @@ use super::end_to_end::PACKETS;
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
 
+/// The largest file of Verilog that is read, in bytes; the longest that is generated has a few MiB.
+const VERILOG_LIMIT: u64 = 1 << 26;
 /// Clocks of the whole frame that are enough where nobody asked for it: some ten seconds of a raster core.
 const ENOUGH: u64 = 40_000_000;
 
@@ -160,7 +162,8 @@ fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
         let path = entry.map_err(CliError::io("read the folder", folder))?.path();
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
         if let (Some(name), true) = (name, path.extension().is_some_and(|e| e == "v")) {
-            let contents = fs::read_to_string(&path).map_err(CliError::io("read", &path))?;
+            let contents =
+                foveate_reading::text(&path, VERILOG_LIMIT).map_err(CliError::io("read", &path))?;
             files.push(SourceFile { path: format!("rtl/{name}"), contents });
         }
     }

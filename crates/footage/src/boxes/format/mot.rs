@@ -22,11 +22,10 @@ const LEAST_VISIBLE: f64 = 0.25;
 
 /// The objects of every frame that has a row, by its number.
 pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<Labelled>>, BoxError> {
-    let mut file = ReaderBuilder::new()
-        .has_headers(false)
-        .flexible(true)
-        .trim(Trim::All)
-        .from_reader(limits::open(path)?);
+    let mut file = foveate_reading::table(
+        ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All),
+        limits::open(path)?,
+    );
     let mut frames: BTreeMap<u64, Vec<Labelled>> = BTreeMap::new();
     let mut seen = HashSet::new();
     for record in file.records() {

@@ -18,7 +18,8 @@ pub(crate) const COLUMNS: [&str; 5] = ["file", "x0", "y0", "x1", "y1"];
 /// The boxes of every image that has a row, by its name.
 pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxError> {
     let reader = limits::open(path)?;
-    let mut file = ReaderBuilder::new().flexible(true).trim(Trim::All).from_reader(reader);
+    let mut file =
+        foveate_reading::table(ReaderBuilder::new().flexible(true).trim(Trim::All), reader);
     let headers = file.headers().map_err(|error| unreadable(path, error))?.clone();
     let mut places = [0; COLUMNS.len()];
     for (place, column) in places.iter_mut().zip(COLUMNS) {

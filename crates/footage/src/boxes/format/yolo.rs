@@ -10,8 +10,8 @@ use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, Labelled};
 use foveate_frame::Rect;
 
-/// Longest line, of which a few dozen letters are used.
-const MAX_LINE: u64 = 4096;
+/// The longest line in bytes, with its end; five numbers take a few dozen.
+const MAX_LINE: usize = 4096;
 const COLUMNS: [&str; 5] = ["class", "x", "y", "width", "height"];
 
 /// The file of an image: with as many of its folders as there are below `folder`.
@@ -25,11 +25,18 @@ pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Label
     let mut boxes = Vec::new();
     for number in 1.. {
         let mut line = Vec::new();
-        let read = reader.by_ref().take(MAX_LINE).read_until(b'\n', &mut line);
+        let read = reader.by_ref().take(MAX_LINE as u64).read_until(b'\n', &mut line);
         if read.map_err(|source| BoxError::Io { path: path.to_owned(), source })? == 0 {
             break;
         }
         let wrong = |problem| BoxError::Line { path: path.to_owned(), line: number, problem };
+        // The rest of the line would be read as another one.
+        if line.len() == MAX_LINE && !line.ends_with(b"\n") {
+            let problem = format!(
+                "it has {MAX_LINE} bytes or more, which is the limit; expected five numbers"
+            );
+            return Err(wrong(problem));
+        }
         let text = str::from_utf8(&line)
             .map_err(|_| wrong("it is no text in UTF-8; expected numbers".to_owned()))?;
         let fields: Vec<&str> = text.split_whitespace().collect();

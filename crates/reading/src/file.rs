@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Small files, whole.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+use crate::size::in_words;
+
+/// The largest file of settings, in bytes; one has a few KiB.
+pub const SETTINGS_LIMIT: u64 = 1 << 20;
+
+/// Reads a file of at most `limit` bytes. The file may be a pipe or a device, whose length is not known before.
+///
+/// # Errors
+/// When it cannot be read, or holds more bytes ([`io::ErrorKind::FileTooLarge`]).
+pub fn bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    File::open(path)?.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > limit {
+        let message = format!("it is larger than {}, which is the limit", in_words(limit));
+        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+    }
+    Ok(bytes)
+}
+
+/// Reads a file of settings: a configuration, space, board, sensor or accelerator of at most [`SETTINGS_LIMIT`] bytes.
+///
+/// # Errors
+/// As [`text`].
+pub fn settings(path: &Path) -> io::Result<String> {
+    text(path, SETTINGS_LIMIT)
+}
+
+/// Reads a text in UTF-8 of at most `limit` bytes.
+///
+/// # Errors
+/// As [`bytes`], and when the file is not text ([`io::ErrorKind::InvalidData`]).
+pub fn text(path: &Path, limit: u64) -> io::Result<String> {
+    String::from_utf8(bytes(path, limit)?).map_err(|error| {
+        let place = error.utf8_error().valid_up_to();
+        let message = format!("it is not text in UTF-8, from byte {place} on");
+        io::Error::new(io::ErrorKind::InvalidData, message)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_may_be_as_large_as_the_limit() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        std::fs::write(&path, "12345678").unwrap();
+        assert_eq!(text(&path, 8).unwrap(), "12345678");
+        let error = bytes(&path, 7).unwrap_err();
+        assert_eq!(error.kind(), io::ErrorKind::FileTooLarge);
+        assert_eq!(error.to_string(), "it is larger than 7 bytes, which is the limit");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn a_device_without_an_end_is_refused() {
+        let error = settings(Path::new("/dev/zero")).unwrap_err();
+        assert_eq!(error.to_string(), "it is larger than 1 MiB, which is the limit");
+    }
+
+    #[test]
+    fn other_bytes_than_text_are_named_by_their_place() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("file");
+        std::fs::write(&path, b"abc\xFF").unwrap();
+        let error = text(&path, 8).unwrap_err();
+        assert_eq!(error.to_string(), "it is not text in UTF-8, from byte 3 on");
+        assert_eq!(bytes(&path, 8).unwrap(), b"abc\xFF");
+    }
+}

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Files that may come from a stranger, read up to a limit.
+//!
+//! A small file has a limit of bytes ([`text`], [`bytes`]). A table has a limit of bytes per record ([`table`]), so that a table
+//! of any length can be read, but one endless record cannot take all memory. A reader of a whole document has both
+//! ([`LimitedReader`]). Each limit is an error of its own and never looks like the end of a file.
+//!
+//! The errors are [`io::Error`]s of the kind [`io::ErrorKind::FileTooLarge`] or [`io::ErrorKind::InvalidData`]; a caller adds the
+//! name of the file.
+//!
+//! [`io::Error`]: std::io::Error
+//! [`io::ErrorKind::FileTooLarge`]: std::io::ErrorKind::FileTooLarge
+//! [`io::ErrorKind::InvalidData`]: std::io::ErrorKind::InvalidData
+
+mod file;
+mod limited;
+mod size;
+mod table;
+
+pub use file::{SETTINGS_LIMIT, bytes, settings, text};
+pub use limited::LimitedReader;
+pub use table::{RECORD_LIMIT, Records, TableReader, table};

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A reader that gives up at a limit.
+
+use std::io::{self, Read};
+
+use crate::size::in_words;
+
+/// A reader that ends with an error of the kind [`io::ErrorKind::FileTooLarge`] where its source has more bytes than the limit.
+/// [`Read::take`] in its place would end the document there, as if it were complete.
+#[derive(Debug)]
+pub struct LimitedReader<R> {
+    source: R,
+    limit: u64,
+    left: u64,
+}
+
+impl<R: Read> LimitedReader<R> {
+    /// A reader of at most `limit` bytes.
+    pub fn new(source: R, limit: u64) -> Self {
+        Self { source, limit, left: limit }
+    }
+}
+
+impl<R: Read> Read for LimitedReader<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if buffer.is_empty() {
+            return Ok(0);
+        }
+        if self.left == 0 {
+            // The source may end exactly here.
+            return match self.source.read(&mut [0])? {
+                0 => Ok(0),
+                _ => Err(self.too_large()),
+            };
+        }
+        let most = buffer.len().min(usize::try_from(self.left).unwrap_or(usize::MAX));
+        let count = self.source.read(&mut buffer[..most])?;
+        self.left -= count as u64;
+        Ok(count)
+    }
+}
+
+impl<R> LimitedReader<R> {
+    fn too_large(&self) -> io::Error {
+        let message = format!("it is larger than {}, which is the limit", in_words(self.limit));
+        io::Error::new(io::ErrorKind::FileTooLarge, message)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(length: usize, limit: u64) -> io::Result<usize> {
+        let source = vec![1; length];
+        LimitedReader::new(source.as_slice(), limit).read_to_end(&mut Vec::new())
+    }
+
+    #[test]
+    fn a_limit_is_no_end() {
+        assert_eq!(read(4, 5).unwrap(), 4);
+        assert_eq!(read(5, 5).unwrap(), 5);
+        assert_eq!(read(6, 5).unwrap_err().kind(), io::ErrorKind::FileTooLarge);
+    }
+}

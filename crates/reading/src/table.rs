@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Tables of any length, of records that have a limit.
+
+use std::cell::Cell;
+use std::io::{self, Read};
+use std::rc::Rc;
+
+use csv::{Reader, ReaderBuilder, StringRecord};
+
+use crate::size::in_words;
+
+/// The largest record of a table, in bytes. A row of the widest format that is read has nine numbers.
+pub const RECORD_LIMIT: u64 = 1 << 20;
+
+/// A CSV reader whose records have at most [`RECORD_LIMIT`] bytes, a few more by what is read ahead.
+#[derive(Debug)]
+pub struct TableReader<R> {
+    reader: Reader<RecordReader<R>>,
+    since: Rc<Cell<u64>>,
+}
+
+/// Makes a reader of a table. A record also ends the count of blank lines before it.
+pub fn table<R: Read>(builder: &ReaderBuilder, source: R) -> TableReader<R> {
+    let since = Rc::new(Cell::new(0));
+    let source = RecordReader { source, since: Rc::clone(&since) };
+    TableReader { reader: builder.from_reader(source), since }
+}
+
+impl<R: Read> TableReader<R> {
+    /// The names of the columns; the first record, where the builder has no other.
+    ///
+    /// # Errors
+    /// When it cannot be read, or is longer than the limit.
+    pub fn headers(&mut self) -> csv::Result<&StringRecord> {
+        let headers = self.reader.headers();
+        self.since.set(0);
+        headers
+    }
+
+    /// The records in their order.
+    pub fn records(&mut self) -> Records<'_, R> {
+        Records { table: self }
+    }
+}
+
+/// The records of a table in their order. Each is an error that cannot be read, is not text, or is longer than the limit.
+#[derive(Debug)]
+pub struct Records<'a, R> {
+    table: &'a mut TableReader<R>,
+}
+
+impl<R: Read> Iterator for Records<'_, R> {
+    type Item = csv::Result<StringRecord>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        let mut record = StringRecord::new();
+        let read = self.table.reader.read_record(&mut record);
+        self.table.since.set(0);
+        match read {
+            Ok(true) => Some(Ok(record)),
+            Ok(false) => None,
+            Err(error) => Some(Err(error)),
+        }
+    }
+}
+
+/// Counts the bytes that were read since the last record was complete.
+#[derive(Debug)]
+struct RecordReader<R> {
+    source: R,
+    since: Rc<Cell<u64>>,
+}
+
+impl<R: Read> Read for RecordReader<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        if self.since.get() > RECORD_LIMIT {
+            let limit = in_words(RECORD_LIMIT);
+            let message = format!(
+                "a record has more than {limit}, which is the limit; expected short lines of text"
+            );
+            return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
+        }
+        let count = self.source.read(buffer)?;
+        self.since.set(self.since.get() + count as u64);
+        Ok(count)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The number of records, or the error.
+    fn count(source: impl Read) -> Result<usize, String> {
+        let mut table = table(ReaderBuilder::new().flexible(true), source);
+        table.headers().map_err(|error| error.to_string())?;
+        let mut count = 0;
+        for record in table.records() {
+            record.map_err(|error| error.to_string())?;
+            count += 1;
+        }
+        Ok(count)
+    }
+
+    #[test]
+    fn a_table_has_any_length() {
+        let text = "a,b\n".to_owned() + &"1,2\n".repeat(1 << 20);
+        assert!(text.len() as u64 > 3 * RECORD_LIMIT);
+        assert_eq!(count(text.as_bytes()).unwrap(), 1 << 20);
+    }
+
+    #[test]
+    fn a_record_without_an_end_is_an_error() {
+        let row = io::repeat(b'7');
+        let quoted = io::repeat(b'\n');
+        let blank = io::repeat(b'\n');
+        let error = "a record has more than 1 MiB";
+        assert!(count(row).unwrap_err().contains(error));
+        assert!(count((&b"a,b\n\""[..]).chain(quoted)).unwrap_err().contains(error));
+        assert!(count((&b"a,b\n1,2\n"[..]).chain(blank)).unwrap_err().contains(error));
+    }
+}

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Runs the program on a file and judges how it ends."""
+import enum
+import resource
+import subprocess
+
+MEMORY = 4 << 30
+SECONDS = 30
+
+
+class Answer(enum.Enum):
+    """How the program answered a file."""
+
+    ACCEPTED = "accepted"
+    PARTIAL = "in part"
+    REFUSED = "refused"
+    FAILED = "failed"
+
+    @property
+    def is_failure(self):
+        """Whether no file may be answered so."""
+        return self is Answer.FAILED
+
+
+def limit_memory():
+    """Bounds the address space of the process that calls it."""
+    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
+def judge(code, said):
+    """The answer of a run by its exit code and by its lines on standard error, and the reason of a failure."""
+    errors = [line for line in said.splitlines() if line.startswith("foveate: ") and not line.startswith("foveate: warning: ")]
+    if "panicked at" in said or "memory allocation of" in said:
+        return Answer.FAILED, said.strip().splitlines()[0]
+    if code == 0:
+        return Answer.ACCEPTED, ""
+    if code not in (1, 2):
+        return Answer.FAILED, f"exit code {code}: {said.strip()[:200]}"
+    if not errors:
+        return Answer.FAILED, f"exit code {code} without a message: {said.strip()[:200]}"
+    return (Answer.PARTIAL if code == 1 else Answer.REFUSED), errors[0]
+
+
+def ask(command, folder, standard_input=None):
+    """Runs a command in a folder, fed by a file or by nothing, and judges it."""
+    source = open(standard_input, "rb") if standard_input else subprocess.DEVNULL
+    try:
+        run = subprocess.run(command, cwd=folder, stdin=source, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                             timeout=SECONDS, preexec_fn=limit_memory, check=False)
+    except subprocess.TimeoutExpired:
+        return Answer.FAILED, f"no end within {SECONDS} s"
+    finally:
+        if standard_input:
+            source.close()
+    return judge(run.returncode, run.stderr.decode("utf-8", "replace"))
