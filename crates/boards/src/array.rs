@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An array of RPUs behind a pattern: the top around it, and what its signature is (docs/boards.md).
 
+use std::borrow::Cow;
+
 use askama::Template;
 use foveate_design::{
     Action, Design, FeatureKind, Payload, PipelinedDesign, PipelinedTiming, PortRole, bits_for,
@@ -8,6 +10,7 @@ use foveate_design::{
 };
 use foveate_emit::array_scores;
 use foveate_engine::Engine;
+use foveate_toolchain::text::comment_text;
 
 use crate::pattern::pattern;
 use crate::project::Project;
@@ -21,7 +24,7 @@ const BYTE: u32 = 8;
 #[template(path = "array_board.v")]
 struct ArrayTop<'a> {
     banner: String,
-    title: &'a str,
+    title: Cow<'a, str>,
     pair: bool,
     mhz: u32,
     leds: usize,
@@ -125,7 +128,7 @@ pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
     head.push("4'd0, active[region], summary[region], trs[region], srs[region]".to_owned());
     text_of(&ArrayTop {
         banner: project.banner(),
-        title: &board.title,
+        title: comment_text(&board.title),
         pair: project.has_pair(),
         mhz: board.clock.mhz,
         leds: board.leds.pins.len(),

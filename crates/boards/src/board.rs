@@ -7,7 +7,7 @@ use foveate_design::{Config, Preset};
 use serde::Deserialize;
 
 use crate::sensor::Level;
-use crate::{BoardError, Sensor};
+use crate::{BoardError, Sensor, words};
 
 /// The boards that come with the program: name and data.
 const BOARDS: &[(&str, &str)] = &[
@@ -85,6 +85,21 @@ pub enum Family {
 }
 
 impl Family {
+    /// The parts, of a family of which nextpnr has an option for each.
+    fn parts(self) -> &'static [&'static str] {
+        match self {
+            Self::Ice40 => &[
+                "lp384", "lp1k", "lp4k", "lp8k", "hx1k", "hx4k", "hx8k", "up3k", "up5k", "u1k",
+                "u2k", "u4k",
+            ],
+            Self::Ecp5 => &[
+                "12k", "25k", "45k", "85k", "um-25k", "um-45k", "um-85k", "um5g-25k", "um5g-45k",
+                "um5g-85k",
+            ],
+            Self::Gowin | Self::Vivado => &[],
+        }
+    }
+
     /// How the file is called that is loaded into a device.
     pub(crate) fn extension(self) -> &'static str {
         match self {
@@ -207,9 +222,11 @@ impl Board {
     }
 
     fn read(name: &str, text: &str, folder: &Path) -> Result<Self, BoardError> {
-        let invalid = |reason: String| BoardError::Invalid { name: name.to_owned(), reason };
-        let mut board: Self = toml::from_str(text)
-            .map_err(|error| invalid(error.to_string().trim_end().to_owned()))?;
+        let invalid = |reason: String| BoardError::Invalid { name: words::shown(name), reason };
+        words::check_name(name).map_err(invalid)?;
+        let no_board = |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
+        words::check(&text.parse().map_err(no_board)?).map_err(invalid)?;
+        let mut board: Self = toml::from_str(text).map_err(no_board)?;
         name.clone_into(&mut board.name);
         text.clone_into(&mut board.text);
         folder.clone_into(&mut board.folder);
@@ -250,6 +267,10 @@ impl Board {
     }
 
     fn check(&self) -> Result<(), String> {
+        self.check_part()?;
+        Preset::find(&self.design.preset).map_err(|error| format!("design.preset: {error}"))?;
+        let design = self.config().map_err(|error| format!("design.set: {error}"))?;
+        design.validate().map_err(|error| format!("design.set: {error}"))?;
         let eye = self.eye().map_err(|error| error.to_string())?;
         if let Some((sensor, pins)) = &eye {
             self.check_sensor(sensor, pins)?;
@@ -277,6 +298,15 @@ impl Board {
             return Err("clocks are 1 to 1000 MHz".to_owned());
         }
         self.check_baud()
+    }
+
+    /// A part is an option of nextpnr where that knows a family by its parts: no other option may take its place.
+    fn check_part(&self) -> Result<(), String> {
+        let (known, part) = (self.device.family.parts(), &self.device.part);
+        if known.is_empty() || known.contains(&part.as_str()) {
+            return Ok(());
+        }
+        Err(format!("device.part = \"{part}\": this family has {}", known.join(", ")))
     }
 
     /// Its pins must be those of the sensor, its clock within limits, and the core fast enough.

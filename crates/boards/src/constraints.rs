@@ -2,6 +2,7 @@
 //! Pins and clocks of a board, in the format of its tools.
 
 use foveate_emit::SourceFile;
+use foveate_toolchain::text::tcl_word;
 
 use crate::board::Family;
 use crate::project::{Project, Wire};
@@ -53,7 +54,9 @@ fn pin(family: Family, Wire { port, pin, standard }: &Wire) -> String {
             "IO_LOC \"{port}\" {pin};\nIO_PORT \"{port}\" IO_TYPE={standard} PULL_MODE={pull};\n"
         ),
         Family::Vivado => format!(
-            "set_property -dict {{PACKAGE_PIN {pin} IOSTANDARD {standard}}} [get_ports {{{port}}}]\n"
+            "set_property -dict {{PACKAGE_PIN {} IOSTANDARD {}}} [get_ports {{{port}}}]\n",
+            tcl_word(pin),
+            tcl_word(standard)
         ),
     }
 }

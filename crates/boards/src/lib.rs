@@ -20,6 +20,7 @@ mod script;
 mod sensor;
 mod text;
 mod top;
+mod words;
 
 pub use board::{Board, Clock, Device, Family, Leds, SensorPins, Serial};
 pub use build::{Built, Used, build, write_project};

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The README of a project.
 
+use std::borrow::Cow;
+
 use askama::Template;
+use foveate_toolchain::text::markdown_text;
 
 use crate::pattern::FRAMES;
 use crate::project::{Project, Wire};
@@ -12,9 +15,9 @@ use crate::text::text_of;
 #[template(path = "README.md")]
 struct Readme<'a> {
     banner: String,
-    title: &'a str,
+    title: Cow<'a, str>,
     page: &'a str,
-    sensor: &'a str,
+    sensor: Cow<'a, str>,
     width: u32,
     height: u32,
     regions: u32,
@@ -39,9 +42,9 @@ pub(crate) fn readme(project: &Project) -> String {
     let tools = script::tools(board.device.family);
     text_of(&Readme {
         banner: project.banner(),
-        title: &board.title,
+        title: markdown_text(&board.title),
         page: &board.page,
-        sensor: project.sensor_title(),
+        sensor: markdown_text(project.sensor_title()),
         width: design.width(),
         height: design.height(),
         regions: design.regions(),

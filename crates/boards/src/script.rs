@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The scripts that make a bitstream with open tools. `foveate build` runs the same ones.
 
+use std::borrow::Cow;
+
 use askama::Template;
 use foveate_emit::SourceFile;
+use foveate_toolchain::text::{comment_text, shell_word, tcl_word};
 
 use crate::board::{Board, Family};
 use crate::constraints;
@@ -82,8 +85,8 @@ struct Synthesis {
 #[template(path = "build.sh")]
 struct Build<'a> {
     banner: String,
-    title: &'a str,
-    bitstream: String,
+    title: Cow<'a, str>,
+    bitstream: Cow<'a, str>,
     install: &'static str,
     yosys: &'static str,
     nextpnr: &'static str,
@@ -99,24 +102,25 @@ struct Build<'a> {
 #[template(path = "build.tcl")]
 struct Vivado<'a> {
     banner: String,
-    title: &'a str,
-    part: &'a str,
+    title: Cow<'a, str>,
+    part: Cow<'a, str>,
     sources: &'a [String],
-    bitstream: &'a str,
+    bitstream: Cow<'a, str>,
 }
 
 #[derive(Template)]
 #[template(path = "program.tcl")]
 struct Load<'a> {
     banner: String,
-    title: &'a str,
-    bitstream: &'a str,
+    title: Cow<'a, str>,
+    bitstream: Cow<'a, str>,
 }
 
 /// The scripts of a project whose Verilog is in these files.
 pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
     let Some(tools) = tools(board.device.family) else { return vivado(project, sources) };
+    let bitstream = shell_word(&bitstream);
     let (writes, packs) = packing(board, &bitstream);
     let synthesis = Synthesis {
         banner: project.banner(),
@@ -128,7 +132,7 @@ pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     };
     let build = Build {
         banner: project.banner(),
-        title: &board.title,
+        title: comment_text(&board.title),
         bitstream,
         install: tools.install,
         yosys: tools.yosys,
@@ -148,12 +152,16 @@ fn vivado(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
     let build = Vivado {
         banner: project.banner(),
-        title: &board.title,
-        part: &board.device.part,
+        title: comment_text(&board.title),
+        part: tcl_word(&board.device.part),
         sources,
-        bitstream: &bitstream,
+        bitstream: tcl_word(&bitstream),
     };
-    let load = Load { banner: project.banner(), title: &board.title, bitstream: &bitstream };
+    let load = Load {
+        banner: project.banner(),
+        title: comment_text(&board.title),
+        bitstream: tcl_word(&bitstream),
+    };
     vec![file("build.tcl", text_of(&build)), file("program.tcl", text_of(&load))]
 }
 
@@ -161,21 +169,18 @@ fn vivado(project: &Project, sources: &[String]) -> Vec<SourceFile> {
 fn arguments(board: &Board) -> String {
     let (device, pins) = (&board.device, constraints::name(board.device.family));
     let core = board.clock.core_mhz;
+    let option = format!("--{}", device.part);
+    let (option, part, package) =
+        (shell_word(&option), shell_word(&device.part), shell_word(&device.package));
     match device.family {
-        Family::Ice40 => {
-            format!("--{} --package {} --pcf {pins} --freq {core}", device.part, device.package)
-        }
+        Family::Ice40 => format!("{option} --package {package} --pcf {pins} --freq {core}"),
         Family::Ecp5 => {
             let speed = device.speed.unwrap_or(6);
-            format!(
-                "--{} --package {} --speed {speed} --lpf {pins} --freq {core}",
-                device.part, device.package
-            )
+            format!("{option} --package {package} --speed {speed} --lpf {pins} --freq {core}")
         }
-        Family::Gowin => format!(
-            "--device {} --vopt family={} --vopt cst={pins} --freq {core}",
-            device.part, device.package
-        ),
+        Family::Gowin => {
+            format!("--device {part} --vopt family={package} --vopt cst={pins} --freq {core}")
+        }
         Family::Vivado => String::new(),
     }
 }
@@ -192,7 +197,10 @@ fn packing(board: &Board, bitstream: &str) -> (&'static str, String) {
         ),
         Family::Gowin => (
             "--write \"build/seed$seed.pnr.json\"",
-            format!("-d {} -o {bitstream} \"build/seed$seed.pnr.json\"", board.device.package),
+            format!(
+                "-d {} -o {bitstream} \"build/seed$seed.pnr.json\"",
+                shell_word(&board.device.package)
+            ),
         ),
         Family::Vivado => ("", String::new()),
     }

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use serde::Deserialize;
 
-use crate::BoardError;
+use crate::{BoardError, words};
 
 /// The sensors that come with the program: name and data.
 const SENSORS: &[(&str, &str)] = &[
@@ -154,8 +154,9 @@ impl Sensor {
 
     fn from_toml(name: &str, text: &str) -> Result<Self, BoardError> {
         let invalid = |reason: String| BoardError::Invalid { name: name.to_owned(), reason };
-        let mut sensor: Self = toml::from_str(text)
-            .map_err(|error| invalid(error.to_string().trim_end().to_owned()))?;
+        let no_sensor = |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
+        words::check(&text.parse().map_err(no_sensor)?).map_err(invalid)?;
+        let mut sensor: Self = toml::from_str(text).map_err(no_sensor)?;
         text.clone_into(&mut sensor.text);
         sensor.check().map_err(invalid)?;
         Ok(sensor)

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The Verilog around a core: leaves of `rtl/board/`, and the top that connects them.
 
+use std::borrow::Cow;
+
 use askama::Template;
 use foveate_design::{Hardware, PipelinedDesign, RasterDesign, index_bits};
 use foveate_emit::{
     BOARD_LEAVES, LEAVES, Leaf, SourceFile, Top as CoreTop, array_registers, on_bus, verilog,
 };
 use foveate_packets::Layout;
+use foveate_toolchain::text::comment_text;
 
 use crate::array;
 use crate::board::SensorPins;
@@ -40,7 +43,7 @@ const AROUND_AN_ARRAY: &[&str] = &[
 #[template(path = "board.v")]
 struct Top<'a> {
     banner: String,
-    title: &'a str,
+    title: Cow<'a, str>,
     mhz: u32,
     core_mhz: u32,
     capture: Capture,
@@ -75,7 +78,7 @@ struct Capture {
 #[template(path = "sensor_steps.v")]
 struct Steps<'a> {
     banner: String,
-    title: &'a str,
+    title: Cow<'a, str>,
     step_bits: u32,
     word_bits: u32,
     words: Vec<String>,
@@ -85,7 +88,7 @@ struct Steps<'a> {
 #[template(path = "pattern_board.v")]
 struct PatternTop<'a> {
     banner: String,
-    title: &'a str,
+    title: Cow<'a, str>,
     pair: bool,
     mhz: u32,
     core_mhz: u32,
@@ -167,7 +170,7 @@ fn top(project: &Project, sensor: &Sensor, pins: &SensorPins) -> String {
     let Project { board, design, .. } = project;
     text_of(&Top {
         banner: project.banner(),
-        title: &board.title,
+        title: comment_text(&board.title),
         mhz: board.clock.mhz,
         core_mhz: board.clock.core_mhz,
         capture: capture(project, sensor, pins),
@@ -207,7 +210,7 @@ fn steps(project: &Project, sensor: &Sensor) -> String {
     let digits = bits.div_ceil(4) as usize;
     text_of(&Steps {
         banner: project.banner(),
-        title: &sensor.title,
+        title: comment_text(&sensor.title),
         step_bits: index_bits(words.len() as u64),
         word_bits: bits,
         words: words.iter().map(|word| format!("{word:0digits$X}")).collect(),
@@ -223,7 +226,7 @@ fn pattern_top(project: &Project, design: RasterDesign<'_>) -> String {
     let packet_words = lengths.into_iter().max().unwrap_or_default() / 8;
     text_of(&PatternTop {
         banner: project.banner(),
-        title: &board.title,
+        title: comment_text(&board.title),
         pair: project.has_pair(),
         mhz: board.clock.mhz,
         core_mhz: board.clock.core_mhz,

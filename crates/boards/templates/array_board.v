@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// {= title =}:
+// For {= title =}:
 // the array `rcm` behind a pattern at full rate, with a sum of all that it says, captures and a serial line (docs/boards.md of Foveate).
 `default_nettype none
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// {= title =}:
+// For {= title =}:
 // the core `rcm_axi` between a sensor and a serial line (docs/boards.md of Foveate).
 `default_nettype none
 

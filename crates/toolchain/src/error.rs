@@ -143,8 +143,10 @@ pub enum ToolError {
         port: String,
     },
 
-    /// A source has a name that would leave the folder it is written to.
-    #[error("source name `{name}` is not valid; use a relative path without `..`")]
+    /// A source has a name that would leave the folder it is written to, or mean something in a script.
+    #[error(
+        "source name `{name}` is not valid; use letters, digits, `.`, `_`, `+` and `-`, a first letter that is no `-` or `+`, and no `..`"
+    )]
     BadName {
         /// The name.
         name: String,

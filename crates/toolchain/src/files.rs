@@ -5,18 +5,31 @@ use std::fs;
 use std::path::{Component, Path};
 
 use crate::error::ToolError;
+use crate::text::visible;
 
 /// A source file as name (relative to the folder of the tool) and contents.
 pub type Source = (String, String);
 
 const EXCERPT_LINES: usize = 20;
 
+/// Checks the name of a source. It stands in scripts of tools, and Yosys runs what follows a `;`.
+///
+/// # Errors
+/// When it would leave its folder, is an option, or is no plain word.
+pub fn check_source_name(name: &str) -> Result<(), ToolError> {
+    let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "._+-/".contains(letter);
+    let is_inside = |part| matches!(part, Component::Normal(_));
+    let is_option = name.split('/').any(|part| part.starts_with(['-', '+']));
+    let is_right = !name.is_empty()
+        && !is_option
+        && name.chars().all(is_plain)
+        && Path::new(name).components().all(is_inside);
+    if is_right { Ok(()) } else { Err(ToolError::BadName { name: visible(name).into_owned() }) }
+}
+
 /// Writes one file and the folders above it.
 pub(crate) fn write(dir: &Path, name: &str, contents: &[u8]) -> Result<(), ToolError> {
-    let inside = Path::new(name).components().all(|part| matches!(part, Component::Normal(_)));
-    if name.is_empty() || !inside {
-        return Err(ToolError::BadName { name: name.to_owned() });
-    }
+    check_source_name(name)?;
     let path = dir.join(name);
     if let Some(parent) = path.parent() {
         fs::create_dir_all(parent).map_err(ToolError::io("create", parent))?;
@@ -48,7 +61,22 @@ mod tests {
     #[test]
     fn names_stay_inside() {
         let dir = tempfile::tempdir().unwrap();
-        for name in ["../x.v", "/tmp/x.v", "", "a/../../x.v"] {
+        for name in [
+            "../x.v",
+            "/tmp/x.v",
+            "",
+            "a/../../x.v",
+            "a b.v",
+            "a;b.v",
+            "a\n!b.v",
+            "a$b.v",
+            "it's.v",
+            "-f.v",
+            "rtl/-f.v",
+            "+x.v",
+            "\u{e4}.v",
+            "\u{1b}.v",
+        ] {
             let error = write(dir.path(), name, b"").unwrap_err();
             assert!(matches!(error, ToolError::BadName { .. }), "{name}");
         }

@@ -8,6 +8,7 @@ use std::time::Duration;
 
 use crate::error::ToolError;
 use crate::files::log_excerpt;
+use crate::text::shell_word;
 
 /// What a program reads from its standard input.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
@@ -232,13 +233,7 @@ fn without_a_word(invocation: &Invocation) -> String {
 }
 
 fn quoted(word: &OsStr) -> String {
-    let word = word.to_string_lossy();
-    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./=+:,@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.into_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
+    shell_word(&word.to_string_lossy()).into_owned()
 }
 
 #[cfg(test)]

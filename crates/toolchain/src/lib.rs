@@ -4,7 +4,7 @@
 //! Everything goes through a [`Toolchain`], which finds each [`Tool`] once, refuses versions that are
 //! too old, and runs [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all that went
 //! into them. The modules [`verilator`], [`iverilog`], [`yosys`] and [`nextpnr`]
-//! know one tool each; [`SynthesisJob`] knows what Yosys is told for a Xilinx device.
+//! know one tool each; [`SynthesisJob`] knows what Yosys is told for a Xilinx device. [`text`] puts user text into scripts.
 
 pub mod cache;
 mod error;
@@ -21,6 +21,7 @@ mod process;
 mod stream;
 mod synthesis;
 pub mod testing;
+pub mod text;
 mod tool;
 mod toolchain;
 pub mod verilator;
@@ -29,7 +30,7 @@ pub mod yosys;
 
 pub use cache::{Cache, Entry};
 pub use error::ToolError;
-pub use files::Source;
+pub use files::{Source, check_source_name};
 pub use host::{Host, SystemHost};
 pub use invocation::{Input, Invocation, Output};
 pub use key::{Key, KeyBuilder, sha256_hex, sources_sha256};

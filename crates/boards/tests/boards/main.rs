@@ -4,7 +4,10 @@
 
 mod array;
 mod common;
+mod cores;
 mod film;
+mod hostile;
 mod pattern;
 mod projects;
 mod simulation;
+mod user_texts;

@@ -206,7 +206,7 @@ fn designs_that_fit_no_board_are_refused() {
 }
 
 /// Commands of Vivado that its scripts may use; each checks the files that it names.
-const STUBS: &str = r#"
+pub(crate) const STUBS: &str = r#"
 set called {}
 foreach name {create_project synth_design opt_design place_design phys_opt_design route_design report_utilization
               report_timing_summary open_hw_manager connect_hw_server open_hw_target program_hw_devices close_hw_manager} {

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Which characters the texts of a file may have. They stand in scripts and pages, so that each is a plain word, unless it is
+//! one of the few that need more: a key that is new here is a plain word, too.
+
+use foveate_toolchain::text::is_hidden;
+use toml::{Table, Value};
+
+/// Most characters of a word, of a line for people, and of a change of a design.
+const WORD: usize = 64;
+const LINE: usize = 200;
+const CHANGE: usize = 1000;
+/// Most characters of a text in a message.
+const SHOWN: usize = 40;
+
+/// What a text is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Form {
+    /// A name, a pin, a level.
+    Word,
+    /// A device, as its tool calls it.
+    Part,
+    /// A line for people, in any script.
+    Line,
+    /// An address.
+    Page,
+    /// A command that people run by themselves: words that a shell takes as they are.
+    Command,
+    /// The name of a sensor, or the path of its file.
+    Sensor,
+    /// A change of a configuration, which is parsed.
+    Change,
+}
+
+/// The texts that are no plain words.
+const FORMS: &[(&str, Form)] = &[
+    ("title", Form::Line),
+    ("page", Form::Page),
+    ("flash", Form::Command),
+    ("sensor", Form::Sensor),
+    ("device.part", Form::Part),
+    ("design.set", Form::Change),
+];
+
+/// Checks every text of a file.
+///
+/// # Errors
+/// Which text is wrong, and what would be right.
+pub(crate) fn check(file: &Table) -> Result<(), String> {
+    file.iter().try_for_each(|(key, value)| check_value(key, key, value))
+}
+
+/// Checks the name of a board, which is that of its file and of its bitstream.
+///
+/// # Errors
+/// What is wrong, and what would be right.
+pub(crate) fn check_name(name: &str) -> Result<(), String> {
+    Form::Word.check(name).map_err(|right| {
+        format!("its name is that of its bitstream, in scripts: {right}; rename the file")
+    })
+}
+
+/// `path` names the value in messages; `key` is the same without places in arrays.
+fn check_value(path: &str, key: &str, value: &Value) -> Result<(), String> {
+    match value {
+        Value::String(text) => {
+            let form =
+                FORMS.iter().find(|(known, _)| *known == key).map_or(Form::Word, |form| form.1);
+            form.check(text).map_err(|right| format!("{path} = \"{}\": {right}", shown(text)))
+        }
+        Value::Array(values) => values
+            .iter()
+            .enumerate()
+            .try_for_each(|(place, value)| check_value(&format!("{path}[{place}]"), key, value)),
+        Value::Table(table) => table.iter().try_for_each(|(name, value)| {
+            check_value(&format!("{path}.{name}"), &format!("{key}.{name}"), value)
+        }),
+        Value::Integer(_) | Value::Float(_) | Value::Boolean(_) | Value::Datetime(_) => Ok(()),
+    }
+}
+
+/// The beginning of a text, with its control characters written out.
+pub(crate) fn shown(text: &str) -> String {
+    let more = if text.chars().nth(SHOWN).is_some() { "..." } else { "" };
+    text.chars().take(SHOWN).flat_map(char::escape_debug).chain(more.chars()).collect()
+}
+
+impl Form {
+    /// # Errors
+    /// What would be right.
+    fn check(self, text: &str) -> Result<(), String> {
+        let most = match self {
+            Self::Word | Self::Part => WORD,
+            Self::Line | Self::Page | Self::Command | Self::Sensor => LINE,
+            Self::Change => CHANGE,
+        };
+        let length = text.chars().count();
+        if length > most {
+            return Err(format!("it has {length} characters; {most} is the most"));
+        }
+        let (is_right, right) = match self {
+            Self::Word => {
+                (is_word(text, ""), "letters, digits, `.`, `_` and `-`, the first no `-`")
+            }
+            Self::Part => {
+                (is_word(text, "/"), "letters, digits, `.`, `_`, `/` and `-`, the first no `-`")
+            }
+            Self::Line => (is_line(text), "a line of text without control characters"),
+            Self::Page => (
+                is_page(text),
+                "an address that begins with https:// or http://, with `%20` for a blank",
+            ),
+            Self::Command => (
+                is_command(text),
+                "a program and its arguments with a blank between them, words of letters, digits and `-_./:=,+@` that a shell takes as they are",
+            ),
+            Self::Sensor => (
+                is_sensor(text),
+                "the name of a sensor, or the path of a file NAME.toml, whose name has letters, digits, `.`, `_` and `-`, the first no `-`",
+            ),
+            Self::Change => (is_line(text), "KEY=VALUE in a line without control characters"),
+        };
+        if is_right { Ok(()) } else { Err(right.to_owned()) }
+    }
+}
+
+/// Letters, digits, and some others; no option, and no folder.
+fn is_word(text: &str, others: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c) || others.contains(c);
+    let is_name = |part: &str| !part.is_empty() && part != "." && part != "..";
+    !text.starts_with('-') && text.chars().all(is_plain) && text.split('/').all(is_name)
+}
+
+fn is_line(text: &str) -> bool {
+    !text.trim().is_empty() && !text.contains(is_hidden)
+}
+
+/// Brackets would end a link of a page in Markdown, and quotes one in HTML.
+fn is_page(text: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-._~:/?#@!$&*+,;=%".contains(c);
+    let host = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://"));
+    host.is_some_and(|host| host.starts_with(|c: char| c.is_ascii_alphanumeric()))
+        && text.chars().all(is_plain)
+}
+
+fn is_command(text: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "-_./:=,+@".contains(c);
+    let (program, _) = text.split_once(' ').unwrap_or((text, ""));
+    let is_program = !program.starts_with('-') && !program.contains('=');
+    is_program && text.split(' ').all(|word| !word.is_empty() && word.chars().all(is_plain))
+}
+
+fn is_sensor(text: &str) -> bool {
+    let name = text.rsplit('/').next().unwrap_or_default();
+    is_word(name, "") && !text.contains(is_hidden)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_form_takes_what_it_is_for() {
+        for (form, good, bad) in [
+            (
+                Form::Word,
+                &["up5k", "LVCMOS33", "A1", "35", "x.y_z-1"][..],
+                &["", "-x", ".", "..", "a/b", "a b", "\u{e4}", "a;"][..],
+            ),
+            (
+                Form::Part,
+                &["GW2AR-LV18QN88C8/I7", "xcvu9p-flga2104-2L-e"],
+                &["../x", "a/../b", "/x", "-x", "a b"],
+            ),
+            (
+                Form::Line,
+                &["A board; \u{e4} (1 \u{b5}s) $x"],
+                &["", " ", "a\nb", "\u{1b}[2J", "\u{202e}x"],
+            ),
+            (
+                Form::Page,
+                &["https://a.b/c?d=e&f#g", "http://x"],
+                &[
+                    "ftp://x",
+                    "javascript:x",
+                    "https://",
+                    "https://x/)y",
+                    "https://x y",
+                    "https://x/\"",
+                ],
+            ),
+            (
+                Form::Command,
+                &["load", "vivado -mode batch -source program.tcl", "./up/load --to=/dev/ttyUSB0"],
+                &["", " load", "a  b", "a;b", "a $b", "-x", "X=1 a", "a\nb"],
+            ),
+            (
+                Form::Sensor,
+                &["ov7670-vga", "mine.toml", "../my sensors/mine.toml"],
+                &["", "..", "-x.toml", "a/-x.toml", "a/b c.toml", "a\n/b.toml"],
+            ),
+            (
+                Form::Change,
+                &["frame={width=320,height=240}", "render.irrelevant='mean'"],
+                &["", "a\nb"],
+            ),
+        ] {
+            for text in good {
+                assert_eq!(form.check(text), Ok(()), "{form:?} {text}");
+            }
+            for text in bad {
+                assert!(form.check(text).is_err(), "{form:?} {text}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_wrong_text_is_named_and_shown() {
+        let check = |text: &str| check(&text.parse().unwrap()).unwrap_err();
+        let said = check("[pins]\ndata = [\"1\", \"a\\nb\"]");
+        assert!(said.starts_with("pins.data[1] = \"a\\nb\": letters, digits"), "{said}");
+        let said = check(&format!("title = '{}'", "x".repeat(201)));
+        assert!(said.ends_with("...\": it has 201 characters; 200 is the most"), "{said}");
+    }
+}

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Data files with hostile texts: one per text that a file may hold, found from what its reader accepts, not from a list.
+
+use std::collections::BTreeSet;
+
+use toml::{Table, Value};
+
+/// The file that a command in one of the texts makes.
+pub(crate) const CANARY: &str = "canary";
+
+/// A key, or a place in an array.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) enum Step {
+    Key(String),
+    Place(usize),
+}
+
+/// Texts that would mean something in a shell, Tcl, Verilog, TOML, YAML, HTML, Markdown, a terminal or a file system.
+pub(crate) fn texts() -> Vec<String> {
+    let touch = format!("touch {CANARY}");
+    let mut texts: Vec<String> = [
+        "up5k; TOUCH; :",
+        "$(TOUCH)",
+        "`TOUCH`",
+        "a\nTOUCH\n#",
+        "a\r\nTOUCH",
+        "'; TOUCH; '",
+        "\"; TOUCH; \"",
+        "a && TOUCH",
+        "a | TOUCH",
+        "a > CANARY",
+        "x' \"y\" `z`",
+        "[exec TOUCH]",
+        "} ; exec TOUCH ; {",
+        "a\\",
+        "\\",
+        "{",
+        "]",
+        "$argv0",
+        "*/ TOUCH /*",
+        "a */ x",
+        "`include \"/etc/passwd\"",
+        "a\n`include \"/etc/passwd\"",
+        "synopsys translate_off",
+        "verilator lint_off WIDTH",
+        "</script><script>alert(1)</script>",
+        "<img src=x onerror=alert(1)>",
+        "](javascript:alert(1))",
+        "**x** | [y](z)",
+        "--->",
+        "&lt;",
+        "-flag",
+        "--run=x.py",
+        "..",
+        ".",
+        "../x",
+        "/etc/passwd",
+        "*",
+        "~",
+        "",
+        " ",
+        "a b",
+        "# x",
+        ": x",
+        "!sh TOUCH",
+        "%s%n",
+        "\u{0}",
+        "a\u{0}b",
+        "\u{1b}[2J",
+        "\u{7f}",
+        "\u{85}",
+        "a\u{2028}TOUCH",
+        "\u{202e}abc",
+        "Ümläut 目",
+        "\t",
+        "javascript:alert(1)",
+        "http://x/\"onclick=\"y",
+        "https://x/)[y](z",
+        "run",
+        "json",
+    ]
+    .into_iter()
+    .map(|text| text.replace("TOUCH", &touch).replace("CANARY", CANARY))
+    .collect();
+    texts.push("x".repeat(100_000));
+    texts
+}
+
+/// Where a file may hold a text, each with the file in which it holds that of `text`. `complaint` is what the reader says of a file.
+pub(crate) struct Schema<'a> {
+    pub(crate) base: Table,
+    pub(crate) complaint: &'a dyn Fn(&Table) -> Option<String>,
+}
+
+impl Schema<'_> {
+    /// Every place at which a text stands in the base, and every one at which the reader would accept one.
+    pub(crate) fn places(&self) -> BTreeSet<Vec<Step>> {
+        let mut places = BTreeSet::new();
+        self.search(&Value::Table(self.base.clone()), &mut Vec::new(), &mut places);
+        places
+    }
+
+    /// The base with a value at a place.
+    pub(crate) fn with(&self, place: &[Step], value: Value) -> Table {
+        let mut root = Value::Table(self.base.clone());
+        put(&mut root, place, value);
+        root.as_table().unwrap().clone()
+    }
+
+    fn search(&self, value: &Value, above: &mut Vec<Step>, places: &mut BTreeSet<Vec<Step>>) {
+        match value {
+            Value::String(_) => drop(places.insert(above.clone())),
+            Value::Array(values) => {
+                for (place, value) in values.iter().enumerate() {
+                    above.push(Step::Place(place));
+                    self.search(value, above, places);
+                    above.pop();
+                }
+            }
+            Value::Table(table) => {
+                for (key, value) in table {
+                    above.push(Step::Key(key.clone()));
+                    self.search(value, above, places);
+                    above.pop();
+                }
+                for key in self.accepted(above).into_iter().filter(|key| !table.contains_key(key)) {
+                    above.push(Step::Key(key));
+                    self.unused(above, places);
+                    above.pop();
+                }
+            }
+            _ => {}
+        }
+    }
+
+    /// Keys that the reader names when it finds one that it does not know.
+    fn accepted(&self, table: &[Step]) -> Vec<String> {
+        let mut place = table.to_vec();
+        place.push(Step::Key("zzz".to_owned()));
+        let said = (self.complaint)(&self.with(&place, Value::Integer(1))).unwrap_or_default();
+        let Some((_, expected)) = said.rsplit_once("expected") else { return Vec::new() };
+        expected.split('`').skip(1).step_by(2).map(str::to_owned).collect()
+    }
+
+    /// A key that the base does not have: may it be a text, a list of them, or a table that holds some?
+    fn unused(&self, key: &[Step], places: &mut BTreeSet<Vec<Step>>) {
+        for inner in self.accepted(key) {
+            let mut inside = key.to_vec();
+            inside.push(Step::Key(inner));
+            self.unused(&inside, places);
+        }
+        let text = || Value::String("a1".to_owned());
+        let is_no_type = |value: Value| {
+            let said = (self.complaint)(&self.with(key, value)).unwrap_or_default();
+            said.contains("invalid type") || said.contains("unknown variant")
+        };
+        if !is_no_type(text()) {
+            places.insert(key.to_vec());
+        }
+        if !is_no_type(Value::Array(vec![text()])) {
+            let mut first = key.to_vec();
+            first.push(Step::Place(0));
+            places.insert(first);
+        }
+    }
+}
+
+fn put(value: &mut Value, place: &[Step], new: Value) {
+    match place {
+        [] => *value = new,
+        [Step::Key(key), rest @ ..] => {
+            let table = value.as_table_mut().unwrap();
+            let is_list = matches!(rest.first(), Some(Step::Place(_)));
+            let empty =
+                || if is_list { Value::Array(Vec::new()) } else { Value::Table(Table::new()) };
+            put(table.entry(key.clone()).or_insert_with(empty), rest, new);
+        }
+        [Step::Place(place), rest @ ..] => {
+            let values = value.as_array_mut().unwrap();
+            if values.len() == *place {
+                values.push(Value::Boolean(false));
+            }
+            put(&mut values[*place], rest, new);
+        }
+    }
+}
+
+/// The name of the key at a place, as a message should have it.
+pub(crate) fn key(place: &[Step]) -> &str {
+    let name = |step: &Step| matches!(step, Step::Key(_));
+    match place.iter().rfind(|step| name(step)) {
+        Some(Step::Key(key)) => key,
+        _ => "",
+    }
+}

@@ -1,0 +1,349 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A file of a board or a sensor is data: whatever texts it holds, no generated script runs them, and no page shows them as more
+//! than text. Places come from what the readers accept, and interpreters judge what is generated.
+
+use std::collections::BTreeMap;
+use std::fs::{self, Permissions};
+use std::os::unix::fs::PermissionsExt;
+use std::path::{Path, PathBuf};
+use std::process::Command;
+
+use foveate_boards::{Board, BoardError, Project, write_project};
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+use toml::{Table, Value};
+
+use crate::hostile::{CANARY, Schema, Step, key, texts};
+use crate::projects::STUBS;
+
+const SHIPPED: &str = env!("CARGO_MANIFEST_DIR");
+
+/// A shipped file.
+fn shipped(kind: &str, name: &str) -> Table {
+    let path = Path::new(SHIPPED).join(kind).join(format!("{name}.toml"));
+    fs::read_to_string(path).unwrap().parse().unwrap()
+}
+
+/// A board of each family of devices, for small frames.
+fn boards() -> [(&'static str, Table); 4] {
+    ["icebreaker", "ulx3s", "tang-nano-20k", "vcu118"].map(|name| {
+        let mut board = shipped("boards", name);
+        let set = board["design"]["set"].as_array_mut().unwrap();
+        set.push("frame={width=64,height=48}".into());
+        (name, board)
+    })
+}
+
+fn project(name: &str, board: &Table) -> Result<Project, BoardError> {
+    let board = Board::from_toml(name, &board.to_string())?;
+    let design = board.config()?.validate()?;
+    Project::new(board, design)
+}
+
+fn files(project: &Project) -> BTreeMap<String, String> {
+    project.files().into_iter().map(|file| (file.path, file.contents)).collect()
+}
+
+/// A text that is one plain word in each of the languages.
+fn is_plain(text: &str) -> bool {
+    let is_plain = |c: char| c.is_ascii_alphanumeric() || "._/-".contains(c);
+    !text.is_empty() && !text.starts_with('-') && text.len() <= 64 && text.chars().all(is_plain)
+}
+
+/// Verilog without its comments; none of the templates has a string that looks like one.
+fn code(verilog: &str) -> String {
+    let lines = verilog.lines().map(|line| line.split("//").next().unwrap_or_default().trim_end());
+    lines.map(|line| format!("{line}\n")).collect()
+}
+
+/// Comments that are orders to a tool.
+fn orders(verilog: &str) -> Vec<&str> {
+    let words = ["synopsys", "synthesis", "verilator", "pragma"];
+    let comments = verilog.lines().filter_map(|line| Some((line, line.split_once("//")?.1)));
+    let orders =
+        comments.filter(|(_, text)| words.iter().any(|word| text.trim().starts_with(word)));
+    orders.map(|(line, _)| line).collect()
+}
+
+/// A script without the lines that are comments.
+fn commands(script: &str) -> Vec<&str> {
+    script.lines().filter(|line| !line.trim_start().starts_with('#')).collect()
+}
+
+/// Folders of projects whose texts are hostile, with that of the benign one first.
+struct Written {
+    root: tempfile::TempDir,
+    folders: Vec<PathBuf>,
+}
+
+impl Written {
+    fn new() -> Self {
+        Self { root: tempfile::tempdir().unwrap(), folders: Vec::new() }
+    }
+
+    fn write(&mut self, project: &Project) {
+        let folder = self.root.path().join(format!("out{}", self.folders.len()));
+        write_project(project, &folder, false).unwrap();
+        self.folders.push(folder);
+    }
+
+    fn has_canary(folder: &Path) -> bool {
+        fs::read_dir(folder).unwrap().any(|entry| {
+            let entry = entry.unwrap();
+            entry.file_name().to_string_lossy().contains(CANARY)
+                || (entry.path().is_dir() && Self::has_canary(&entry.path()))
+        })
+    }
+
+    /// Runs the script of each, or of the first and of every so many; all of them call the same commands.
+    fn run(&self, every: usize, with: impl Fn(&Path) -> Command, called: &str) {
+        let mut benign = None;
+        for folder in self.folders.iter().step_by(every) {
+            let output = with(folder).current_dir(folder).output().unwrap();
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{}: {said}", folder.display());
+            let log = match called {
+                "" => String::from_utf8_lossy(&output.stdout).into_owned(),
+                name => fs::read_to_string(folder.join(name)).unwrap(),
+            };
+            let first = benign.get_or_insert_with(|| log.clone());
+            assert_eq!(*first, log, "{}", folder.display());
+        }
+        assert!(!Self::has_canary(self.root.path()), "a text was run");
+    }
+
+    /// Each top is read as the module that it is.
+    fn read_by_yosys(&self) {
+        if !require_tools(&[Tool::Yosys]) {
+            return;
+        }
+        let mut script = String::new();
+        for folder in &self.folders {
+            for name in ["board", "sensor_steps"] {
+                let path = folder.join(format!("rtl/{name}.v"));
+                if path.is_file() {
+                    script += &format!(
+                        "read_verilog {}\nselect -assert-any {name}/*\ndesign -reset\n",
+                        path.display()
+                    );
+                }
+            }
+        }
+        let path = self.root.path().join("read.ys");
+        fs::write(&path, script).unwrap();
+        let run = Command::new("yosys").arg("-q").arg("-s").arg(&path).output().unwrap();
+        assert!(run.status.success(), "{}", String::from_utf8_lossy(&run.stderr));
+    }
+}
+
+/// What differs between a project and one whose file has a hostile text is text in comments and in its page.
+fn differs_in_words_alone(project: &Project, benign: &BTreeMap<String, String>, data: &str) {
+    let files = files(project);
+    assert!(files.keys().eq(benign.keys()));
+    for (path, contents) in &files {
+        let like = &benign[path];
+        let ending = Path::new(path).extension().unwrap_or_default().to_str().unwrap();
+        let lines = |text: &str| text.lines().count();
+        match ending {
+            _ if path == "board.toml" || path == "sensor.toml" => {
+                assert!(contents == like || contents == data, "{path}");
+            }
+            "v" => {
+                assert_eq!(code(contents), code(like), "{path}");
+                assert_eq!(orders(contents), orders(like), "{path}");
+            }
+            "md" => {
+                assert_eq!(lines(contents), lines(like), "{path}");
+                for (at, letter) in
+                    contents.char_indices().filter(|(_, letter)| "<[`|*".contains(*letter))
+                {
+                    let benign = like.matches(letter).count();
+                    let bare = contents
+                        .match_indices(letter)
+                        .filter(|(at, _)| !contents[..*at].ends_with('\\'));
+                    assert_eq!(bare.count(), benign, "{path}: {letter} at {at}\n{contents}");
+                }
+            }
+            _ => assert_eq!(commands(contents), commands(like), "{path}"),
+        }
+        for (number, line) in contents.lines().enumerate().filter(|_| !path.ends_with(".toml")) {
+            let is_wild = |c: char| c.is_control() || ('\u{2028}'..='\u{202e}').contains(&c);
+            assert!(!line.contains(is_wild), "{path}:{number}: {line:?}");
+        }
+    }
+}
+
+/// A text at a place of a file.
+type Tried = (Vec<Step>, String);
+
+/// Every text at every place of a file.
+fn all_of(schema: &Schema<'_>) -> Vec<Tried> {
+    let places = schema.places();
+    places
+        .iter()
+        .flat_map(|place| texts().into_iter().map(move |text| (place.clone(), text)))
+        .collect()
+}
+
+/// Tries texts in a file. Those that are taken though they are no plain words are written as projects, and returned.
+fn try_all(
+    schema: &Schema<'_>,
+    tried: Vec<Tried>,
+    make: &dyn Fn(&Table) -> Result<Project, BoardError>,
+    written: &mut Written,
+) -> Vec<Tried> {
+    let benign = make(&schema.base).unwrap();
+    written.write(&benign);
+    let benign = files(&benign);
+    let mut taken = Vec::new();
+    for (place, text) in tried {
+        let table = schema.with(&place, Value::String(text.clone()));
+        let shown: String = text.chars().take(40).collect();
+        match make(&table) {
+            _ if is_plain(&text) => {}
+            Err(error) => {
+                let said = error.to_string();
+                assert!(said.contains(key(&place)), "{place:?} = {shown:?}: {said:.300}");
+                assert!(said.len() < 1000, "{place:?} = {shown:?}: {} bytes", said.len());
+            }
+            Ok(project) => {
+                differs_in_words_alone(&project, &benign, &table.to_string());
+                written.write(&project);
+                taken.push((place, text));
+            }
+        }
+    }
+    taken
+}
+
+/// Programs in place of Yosys, nextpnr and packers; they write down how they are called.
+fn stubs(folder: &Path) -> PathBuf {
+    let stub = folder.join("stub");
+    let script = "#!/bin/sh\nprintf '<%s> ' \"$@\" >>called; echo >>called\n\
+                  echo \"Info: Max frequency for clock 'clk': 100.00 MHz\"\n\
+                  echo \"Info: Max frequency for clock 'sensor_pclk_i': 100.00 MHz\"\n\
+                  while [ $# -gt 0 ]; do case $1 in --report) echo {} >\"$2\" ;; esac; shift; done\n";
+    fs::write(&stub, script).unwrap();
+    fs::set_permissions(&stub, Permissions::from_mode(0o755)).unwrap();
+    stub
+}
+
+fn built_by_shell(written: &Written) {
+    let stub = stubs(written.root.path());
+    let shell = |_: &Path| {
+        let mut command = Command::new("sh");
+        command.args(["build.sh", "1"]);
+        for tool in ["YOSYS", "NEXTPNR", "PACK"] {
+            command.env(tool, &stub);
+        }
+        command
+    };
+    // A script starts some thirty programs.
+    written.run(5, shell, "called");
+}
+
+fn read_by_tcl(written: &Written) {
+    if Command::new("tclsh").stdin(std::process::Stdio::null()).output().is_err() {
+        eprintln!("skipped: tclsh is missing");
+        return;
+    }
+    let stubs = written.root.path().join("stubs.tcl");
+    fs::write(&stubs, STUBS).unwrap();
+    for script in ["build.tcl", "program.tcl"] {
+        let tcl = |folder: &Path| {
+            let mut command = Command::new("tclsh");
+            command.arg(&stubs).arg(folder.join(script));
+            command
+        };
+        written.run(1, tcl, "");
+    }
+}
+
+/// All boards have one reader, which one of them shows whole. Each family has scripts of its own.
+#[test]
+fn no_text_of_a_board_is_run() {
+    let mut taken = None;
+    for (name, base) in boards() {
+        let make = |table: &Table| project(name, table);
+        let complaint = |table: &Table| make(table).err().map(|error| error.to_string());
+        let schema = Schema { base, complaint: &complaint };
+        let keys: Vec<_> = schema.places().iter().map(|place| key(place).to_owned()).collect();
+        for known in ["title", "flash", "part", "standard", "tx", "pins", "set", "reset_n"] {
+            assert!(keys.iter().any(|key| key == known), "{known} is not found: {keys:?}");
+        }
+        let mut written = Written::new();
+        let tried = taken.unwrap_or_else(|| all_of(&schema));
+        taken = Some(try_all(&schema, tried, &make, &mut written));
+        assert!(written.folders.len() > 10, "titles are free");
+        written.read_by_yosys();
+        if name == "vcu118" {
+            read_by_tcl(&written);
+        } else {
+            built_by_shell(&written);
+        }
+    }
+}
+
+/// A part is an option of nextpnr, and must be no other one.
+#[test]
+fn an_option_is_no_part() {
+    for (name, mut board) in boards() {
+        board["device"]["part"] = "run".into();
+        let said = Board::from_toml(name, &board.to_string()).err().map(|error| error.to_string());
+        let is_word = ["tang-nano-20k", "vcu118"].contains(&name);
+        assert_eq!(said.is_none(), is_word, "{said:?}");
+        assert!(said.is_none_or(|said| said.contains("device.part = \"run\"")), "{name}");
+    }
+}
+
+#[test]
+fn no_text_of_a_sensor_is_run() {
+    let dir = tempfile::tempdir().unwrap();
+    let [(name, mut board), ..] = boards();
+    board.insert("sensor".to_owned(), "mine.toml".into());
+    let path = dir.path().join("here.toml");
+    fs::write(&path, board.to_string()).unwrap();
+    let make = |sensor: &Table| {
+        fs::write(dir.path().join("mine.toml"), sensor.to_string()).unwrap();
+        let board = Board::find(path.to_str().unwrap())?;
+        let design = board.config()?.validate()?;
+        Project::new(board, design)
+    };
+    let complaint = |table: &Table| make(table).err().map(|error| error.to_string());
+    let schema = Schema { base: shipped("sensors", "ov7670-qvga"), complaint: &complaint };
+    assert!(schema.places().contains(&vec![Step::Key("title".to_owned())]), "{name}");
+    let mut written = Written::new();
+    try_all(&schema, all_of(&schema), &make, &mut written);
+    written.read_by_yosys();
+    built_by_shell(&written);
+}
+
+/// The name of a file becomes that of a bitstream, in scripts.
+#[test]
+fn names_of_files_are_plain() {
+    let dir = tempfile::tempdir().unwrap();
+    let [(_, board), ..] = boards();
+    let mut sensor = board.clone();
+    fs::write(dir.path().join("mine.toml"), shipped("sensors", "ov7670-qvga").to_string()).unwrap();
+    sensor.insert("sensor".to_owned(), "mine.toml".into());
+    for text in texts() {
+        let name = if is_plain(&text) && !text.contains('/') && !["..", "."].contains(&&*text) {
+            ""
+        } else {
+            "name"
+        };
+        let said = Board::from_toml(&text, &board.to_string()).err().map(|error| error.to_string());
+        assert_eq!(said.is_none(), name.is_empty(), "{text:?}: {said:?}");
+        assert!(said.is_none_or(|said| said.contains(name) && said.len() < 1000), "{text:?}");
+        if text.is_empty() || text.contains(['/', '\0']) || text.len() > 200 {
+            continue;
+        }
+        let path = dir.path().join(format!("{text}.toml"));
+        fs::write(&path, sensor.to_string()).unwrap();
+        match Board::find(path.to_str().unwrap()) {
+            Ok(board) => assert!(is_plain(&board.name), "{text:?}"),
+            Err(error) => assert!(error.to_string().contains(name), "{error}"),
+        }
+        fs::remove_file(path).unwrap();
+    }
+}
