@@ -12,7 +12,7 @@ build=$(mktemp -d) || exit 2
 trap 'rm -rf "$build"' EXIT
 
 set --{% for file in files %} \
-    "$PWD"/'{= file =}'{% endfor %}
+    "$PWD"/{= file =}{% endfor %}
 
 verilator --cc --exe --build -j 0 -CFLAGS -Og --no-timing --top-module {= top =} --prefix V{= top =} --Mdir "$build" \
     -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique ${1:+--trace-fst} \

@@ -14,7 +14,7 @@ build=$(mktemp -d) || exit 2
 trap 'rm -rf "$build"' EXIT
 
 set --{% for file in files %} \
-    '{= file =}'{% endfor %}
+    {= file =}{% endfor %}
 
 # A simulator's exit code says no more than the verdict in its log.
 case $simulator in

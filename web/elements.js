@@ -19,6 +19,9 @@ export function say(id, text) {
   if (place.textContent !== now) place.textContent = now;
 }
 
+/** The name of a file as a path that no program takes for an option. */
+export const asPath = name => name.startsWith("-") ? `./${name}` : name;
+
 /** A count of bytes for people. */
 export function bytes(count) {
   for (const [unit, size] of [["GB", 1e9], ["MB", 1e6], ["kB", 1e3]])

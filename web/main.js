@@ -4,7 +4,7 @@
 import { Engine } from "./engine.js";
 import { Controls } from "./controls.js";
 import { withDepth } from "./depth.js";
-import { at, copy, make, plain, say } from "./elements.js";
+import { asPath, at, copy, make, plain, say } from "./elements.js";
 import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
 import { readLink, writeLink } from "./link.js";
@@ -314,7 +314,7 @@ function explain(now, asked = false) {
 /** The source as `foveate infer` takes it. */
 function inputsOfCommand() {
   if (own.source.startsWith("scene:")) return [own.source];
-  const names = own.source === "files" ? files.map(({ name }) => name) : ["clip.mp4"];
+  const names = own.source === "files" ? files.map(({ name }) => asPath(name)) : ["clip.mp4"];
   return own.size ? [...names, "--resize", own.size] : names;
 }
 

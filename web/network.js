@@ -4,7 +4,7 @@
 
 import { Boxes } from "./boxes.js";
 import { className } from "./class_names.js";
-import { at, copy, plain, say } from "./elements.js";
+import { asPath, at, copy, plain, say } from "./elements.js";
 import { NetworkControls } from "./network_controls.js";
 import { NetworkFigures } from "./network_figures.js";
 import { NetworkThread } from "./network_thread.js";
@@ -196,7 +196,7 @@ export class NetworkView {
     at("network-command").hidden = at("copy-command").disabled = !options;
     if (!options) return;
     const word = text => /^[\w.:/=,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`;
-    say("network-command", `foveate infer ${word(this.#file)} ${this.#source().map(word).join(" ")} -o out --config camera.toml ${options}`);
+    say("network-command", `foveate infer ${word(asPath(this.#file))} ${this.#source().map(word).join(" ")} -o out --config camera.toml ${options}`);
   }
 
   #fail(message) {

@@ -37,7 +37,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     match run_command(&cli, &words) {
         Ok(()) => 0,
         Err(error) => {
-            eprintln!("foveate: {error}");
+            output::say(&error);
             error.exit_code()
         }
     }

@@ -32,7 +32,7 @@ impl Serving {
         output::text(&format!("{link}\n"))?;
         while !self.interrupted.load(Ordering::Relaxed) {
             for text in news() {
-                eprintln!("foveate: {text}");
+                output::say(&text);
             }
             sleep(LOOK);
         }

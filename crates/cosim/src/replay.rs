@@ -8,6 +8,7 @@ use crate::recording::{Recording, VECTORS_FILE};
 use crate::simulate::{Dut, Outcome, Run, Simulator, WAVES_FILE};
 use askama::Template;
 use foveate_staging::{Kind, StagedFolder};
+use foveate_toolchain::text::shell_word;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -117,8 +118,7 @@ fn fill(
     let last = last.unwrap_or(about.mismatch.clock);
     let limit = last.saturating_add(MARGIN).min(recording.clocks());
     let bench = replay_bench(&dut.top, &dut.ports, &dut.parameters);
-    // As they stand between single quotes.
-    let files = dut.sources.iter().map(|(name, _)| name.replace('\'', r"'\''")).collect();
+    let files = dut.sources.iter().map(|(name, _)| shell_word(name).into_owned()).collect();
     let script = rendered(&Script {
         top: &dut.top,
         bench: bench_name(&dut.top),

@@ -37,7 +37,8 @@ impl Table {
         let mut text =
             format!("| {} |\n|{}\n", self.columns.join(" | "), " --- |".repeat(self.columns.len()));
         for row in &self.rows {
-            let cells: Vec<String> = row.iter().map(|cell| cell.replace('|', "\\|")).collect();
+            let cell = |cell: &String| cell.replace('|', "\\|").replace(['\n', '\r'], " ");
+            let cells: Vec<String> = row.iter().map(cell).collect();
             let _ = writeln!(text, "| {} |", cells.join(" | "));
         }
         text
@@ -51,8 +52,8 @@ mod tests {
     #[test]
     fn cells_are_plain() {
         let mut table = Table::new(&["a", "b"]);
-        table.rows.push(vec!["x, \"y\"".to_owned(), "1|2".to_owned()]);
-        assert_eq!(table.csv(&["of\nme".to_owned()]), "# of me\na,b\nx%2C %22y%22,1|2\n");
-        assert_eq!(table.markdown(), "| a | b |\n| --- | --- |\n| x, \"y\" | 1\\|2 |\n");
+        table.rows.push(vec!["x, \"y\"".to_owned(), "1|\n2".to_owned()]);
+        assert_eq!(table.csv(&["of\nme".to_owned()]), "# of me\na,b\nx%2C %22y%22,1|%0A2\n");
+        assert_eq!(table.markdown(), "| a | b |\n| --- | --- |\n| x, \"y\" | 1\\| 2 |\n");
     }
 }

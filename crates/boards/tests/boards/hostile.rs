@@ -100,6 +100,23 @@ impl Schema<'_> {
         places
     }
 
+    /// Every key that the base has, and every one that the reader accepts, without those above it.
+    pub(crate) fn keys(&self) -> BTreeSet<String> {
+        let mut keys = BTreeSet::new();
+        let mut open = vec![(Vec::new(), Value::Table(self.base.clone()))];
+        while let Some((above, value)) = open.pop() {
+            let Value::Table(table) = value else { continue };
+            keys.extend(self.accepted(&above));
+            for (key, value) in table {
+                let mut place = above.clone();
+                place.push(Step::Key(key.clone()));
+                keys.insert(key);
+                open.push((place, value));
+            }
+        }
+        keys
+    }
+
     /// The base with a value at a place.
     pub(crate) fn with(&self, place: &[Step], value: Value) -> Table {
         let mut root = Value::Table(self.base.clone());

@@ -271,6 +271,7 @@ fn no_text_of_a_board_is_run() {
         for known in ["title", "flash", "part", "standard", "tx", "pins", "set", "reset_n"] {
             assert!(keys.iter().any(|key| key == known), "{known} is not found: {keys:?}");
         }
+        is_on_the_page(&schema);
         let mut written = Written::new();
         let tried = taken.unwrap_or_else(|| all_of(&schema));
         taken = Some(try_all(&schema, tried, &make, &mut written));
@@ -281,6 +282,19 @@ fn no_text_of_a_board_is_run() {
         } else {
             built_by_shell(&written);
         }
+    }
+}
+
+/// The page has a row for every key of a file.
+fn is_on_the_page(schema: &Schema<'_>) {
+    let page = include_str!("../../../../docs/boards.md");
+    let (_, rows) = page.split_once("## Files of boards and sensors").unwrap();
+    for key in schema.keys() {
+        let is_table =
+            schema.base.get(&key).is_some_and(|value| value.is_table() || value.is_array());
+        let is_there =
+            [format!("`{key}`"), format!(".{key}`")].iter().any(|key| rows.contains(key));
+        assert!(is_there || is_table || key == "pins" || key == "i2c", "`{key}` has no row");
     }
 }
 
@@ -312,6 +326,7 @@ fn no_text_of_a_sensor_is_run() {
     let complaint = |table: &Table| make(table).err().map(|error| error.to_string());
     let schema = Schema { base: shipped("sensors", "ov7670-qvga"), complaint: &complaint };
     assert!(schema.places().contains(&vec![Step::Key("title".to_owned())]), "{name}");
+    is_on_the_page(&schema);
     let mut written = Written::new();
     try_all(&schema, all_of(&schema), &make, &mut written);
     written.read_by_yosys();

@@ -55,7 +55,7 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
         Verdict::Incomplete => incomplete(&summary),
     };
     if let Err(error) = written {
-        eprintln!("foveate: {error}");
+        output::say(&error);
     }
     Err(CliError::Failed(complaint))
 }
@@ -124,7 +124,7 @@ fn told_to_ci<T>(
 ) -> Result<T, CosimError> {
     result.inspect_err(|error| {
         if let Err(second) = write_junit(args, &junit_error(name, &error.to_string())) {
-            eprintln!("foveate: {second}");
+            output::say(&second);
         }
     })
 }

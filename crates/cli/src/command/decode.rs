@@ -23,12 +23,12 @@ pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
     hooks.shown.finish();
     let Decoded { summary, losses, loss_count } = decoded?;
     for loss in &losses {
-        eprintln!("foveate: {loss}");
+        output::say(loss);
     }
     let more = loss_count - losses.len() as u64;
     if more > 0 {
         let file = args.output.join("losses.csv");
-        eprintln!("foveate: and {more} more, in `{}`", file.display());
+        output::say(&format_args!("and {more} more, in `{}`", file.display()));
     }
     match (args.json, args.quiet) {
         (true, _) => output::json(&summary)?,

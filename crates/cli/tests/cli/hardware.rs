@@ -180,6 +180,43 @@ fn verilog_that_does_not_fit_is_refused() {
     fail_in(dir.path(), 2, &["cosim", "--rtl", "missing"], &["`missing`"]);
 }
 
+/// Names of files stand in scripts of Yosys, which runs what follows a `;` or a `!`.
+#[test]
+fn names_of_verilog_that_a_script_would_run_are_refused() {
+    let dir = tempfile::tempdir().unwrap();
+    let canary = dir.path().join("canary");
+    succeed_in(dir.path(), &["generate", "--preset", "bare", "-o", "core"]);
+    let rtl = dir.path().join("core/rtl");
+    fs::write(rtl.join("a.v"), "module a; endmodule\n").unwrap();
+    for name in [
+        "a.v; exec -- touch $CANARY; #.v",
+        "a.v\n!touch $CANARY\n#.v",
+        "$(touch $CANARY).v",
+        "-f.v",
+        "\u{1b}[2J.v",
+    ] {
+        let file = rtl.join(name);
+        fs::write(&file, "module b; endmodule\n").unwrap();
+        for more in [&["--netlist"][..], &[]] {
+            let args = ["cosim", "--preset", "bare", "--rtl", "core/rtl", "--level", "rcm"];
+            let output = foveate(&[&args[..], more].concat())
+                .current_dir(dir.path())
+                .env("CANARY", &canary)
+                .output()
+                .unwrap();
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.code(), Some(2), "{name}: {said}");
+            assert!(said.contains("source name") && said.contains("--rtl"), "{name}: {said}");
+            assert!(
+                !said.contains(['\u{1b}', '\n']) || said.trim_end().lines().count() == 1,
+                "{said:?}"
+            );
+        }
+        assert!(!canary.exists(), "{name} was run");
+        fs::remove_file(file).unwrap();
+    }
+}
+
 #[test]
 fn a_replay_folder_that_is_not_one_is_refused_before_anything_runs() {
     let dir = tempfile::tempdir().unwrap();

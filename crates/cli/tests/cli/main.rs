@@ -37,4 +37,5 @@ mod studies;
 mod synth;
 mod threads;
 mod units;
+mod user_texts;
 mod view;

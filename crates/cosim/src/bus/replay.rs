@@ -8,6 +8,7 @@ use crate::replay::{README, REPLAY, SCRIPT, TRAFFIC_FILE, copy_waves, make_execu
 use askama::Template;
 use foveate_staging::StagedFolder;
 use foveate_toolchain::Source;
+use foveate_toolchain::text::shell_word;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -55,8 +56,7 @@ impl Replay<'_> {
 
     fn fill(&self, dir: &Path) -> Result<(), CosimError> {
         let &Self { top, mismatch, version, seed, fingerprint, .. } = self;
-        // As they stand between single quotes.
-        let files = self.sources.iter().map(|(name, _)| name.replace('\'', r"'\''")).collect();
+        let files = self.sources.iter().map(|(name, _)| shell_word(name).into_owned()).collect();
         for (name, contents) in self.sources {
             put(dir, name, contents)?;
         }

@@ -12,6 +12,7 @@ use plotters::style::register_font;
 use super::figure::SIZE;
 use super::sheet::Page;
 use super::{Chart, ChartError, draw};
+use crate::xml;
 
 impl Chart {
     /// The chart as SVG, with `notes` as a comment.
@@ -23,9 +24,8 @@ impl Chart {
         let mut text = String::new();
         draw::draw(self, &SVGBackend::with_string(&mut text, SIZE).into_drawing_area())
             .map_err(|error| self.failed(&error))?;
-        // Two hyphens end a comment.
-        let notes = notes.join("\n").replace("--", "- -");
-        Ok(format!("<!--\n{notes}\n-->\n{text}"))
+        let notes = xml::comment(&notes.join("\n"));
+        Ok(xml::document(format!("<!--\n{notes}\n-->\n{text}")))
     }
 
     /// The chart as PNG.

@@ -2,6 +2,7 @@
 //! A page around what it shows: heading, style and script.
 
 use crate::palette::{DARK, LIGHT};
+use crate::xml;
 use askama::Template;
 
 use super::PageError;
@@ -80,6 +81,7 @@ impl Page<'_> {
         let whole = Whole { page: self, light, dark };
         whole
             .render()
+            .map(xml::document)
             .map_err(|error| PageError { page: self.title.to_owned(), problem: error.to_string() })
     }
 }

@@ -7,6 +7,7 @@ use std::path::Path;
 use foveate_cosim::{BusJob, Job, Level, Simulator, Stimulus, prefixes};
 use foveate_design::Design;
 use foveate_emit::{Prefix, SourceFile, Top};
+use foveate_toolchain::check_source_name;
 
 use super::end_to_end::PACKETS;
 use crate::args::{self, CosimArgs, SimulatorChoice};
@@ -162,6 +163,8 @@ fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
         let path = entry.map_err(CliError::io("read the folder", folder))?.path();
         let name = path.file_name().map(|name| name.to_string_lossy().into_owned());
         if let (Some(name), true) = (name, path.extension().is_some_and(|e| e == "v")) {
+            check_source_name(&name)
+                .map_err(|error| CliError::Usage(format!("{error}; rename the file of --rtl")))?;
             let contents =
                 foveate_reading::text(&path, VERILOG_LIMIT).map_err(CliError::io("read", &path))?;
             files.push(SourceFile { path: format!("rtl/{name}"), contents });

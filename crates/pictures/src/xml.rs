@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Text in XML where no template escapes it: comments, and characters that no escape makes right.
+
+/// Text inside a comment, which two hyphens would end.
+pub(crate) fn comment(text: &str) -> String {
+    let mut text = text.to_owned();
+    // Of three hyphens two are left after the first turn.
+    while text.contains("--") {
+        text = text.replace("--", "- -");
+    }
+    text
+}
+
+/// A whole document, with U+FFFD for the characters that XML cannot hold in any form; names of files may have them.
+pub(crate) fn document(text: String) -> String {
+    let is_wrong = |letter: char| matches!(letter, '\0'..='\x08' | '\x0B' | '\x0C' | '\x0E'..='\x1F' | '\u{fffe}' | '\u{ffff}');
+    if text.contains(is_wrong) { text.replace(is_wrong, "\u{fffd}") } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn hyphens_end_no_comment() {
+        assert_eq!(comment("a-b --no-area"), "a-b - -no-area");
+        for text in ["--->", "x----->", "---", "--", "<!-- -->"] {
+            assert!(!comment(text).contains("--"), "{text}");
+        }
+    }
+
+    #[test]
+    fn a_document_has_characters_of_xml_alone() {
+        assert_eq!(document("a\tb\r\n\u{e4}".to_owned()), "a\tb\r\n\u{e4}");
+        assert_eq!(document("a\0b\u{1b}[2J".to_owned()), "a\u{fffd}b\u{fffd}[2J");
+    }
+}
