@@ -40,3 +40,7 @@ run local --cores 2 >snakemake.log 2>&1
 kept out before "the space was made larger"
 [ "$(grep -cE '^(local)?rule unit:' snakemake.log)" -eq 3 ] || fail "units are done again though their designs are the same"
 [ "$(finished out | wc -l)" -eq $((42 * 3)) ] || fail "a larger space was not measured whole"
+
+# The folder's name is one word of the commands, whatever it is.
+run local --cores 1 --config 'output=my out; x' --dry-run --printshellcmds >snakemake.log 2>&1
+grep -qF -- "-o 'my out; x'/explore" snakemake.log || { tail -40 snakemake.log && fail "the name of the output is no word of a shell"; }

@@ -27,7 +27,12 @@ const CLIPS: &[&str] = &[
     "]]>&amp;%2C#\u{e4}\u{202e}.y4m",
 ];
 
-const SPACE: &str = "[vary]\n\"region.size\" = [4, 8]\n";
+/// Values that no design takes are told on the page, and so are those that a text hides in.
+const SPACE: &str = r#"
+[vary]
+"region.size" = [4, 8]
+"region.neighborhood" = ["isolated", "</script><script>alert(1)</script>", "a\u0001\n*/ ---> <svg onload=alert(1)>"]
+"#;
 
 /// A folder with a short clip of each name; their paths begin with `./`.
 fn clips() -> (tempfile::TempDir, Vec<String>) {
@@ -130,6 +135,11 @@ fn names_of_clips_are_text_in_charts_and_reports() {
     }
     run(dir.path(), &["explore", "space.toml"], &clips, &["-o", "explored", "--no-area"]);
     check(&dir.path().join("explored"));
+    let page = fs::read_to_string(dir.path().join("explored/report.html")).unwrap();
+    assert!(
+        page.contains("script&#62;alert(1)") || page.contains("script&gt;alert(1)"),
+        "it is told"
+    );
     if require_tools(&[Tool::Ffmpeg]) {
         run(dir.path(), &["link"], &clips, &["-o", "linked", "--codecs", "mjpeg"]);
         check(&dir.path().join("linked"));

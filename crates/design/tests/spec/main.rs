@@ -5,5 +5,9 @@
 mod configuration;
 mod depth;
 mod fuzz;
+#[path = "../../../boards/tests/boards/hostile.rs"]
+#[allow(dead_code, reason = "files of boards need more of it")]
+mod hostile;
 mod interface;
 mod sync;
+mod user_texts;

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! No text of a configuration reaches what is generated from it, but names that the program knows.
+
+use foveate_camera::text::AsToml;
+use foveate_design::{Config, ConfigError, Preset};
+use toml::{Table, Value};
+
+use crate::hostile::{Schema, key, texts};
+
+/// Every key that there is, and every text of a preset.
+#[test]
+fn no_text_of_a_configuration_is_taken() {
+    let problem = |config: Result<Config, ConfigError>| {
+        config.and_then(|config| config.validate()).err().map(|error| error.to_string())
+    };
+    let mut tried = 0;
+    for text in texts() {
+        let quoted = Value::String(text.clone()).to_string();
+        let shown: String = text.chars().take(40).collect();
+        let mut refused = |said: Option<String>, key: &str| {
+            let said = said.unwrap_or_else(|| panic!("{key} = {shown:?} is taken"));
+            assert!(said.contains(key), "{key} = {shown:?}: {said:.300}");
+            assert!(said.len() < 1000, "{key} = {shown:?}: {} bytes", said.len());
+            tried += 1;
+        };
+        for (name, _) in Config::keys() {
+            let change = format!("{}={quoted}", name.replace(".N.", ".0."));
+            let said =
+                problem(Config::from_toml_with(Preset::find("paper").unwrap().toml, &[change]));
+            refused(said, name.rsplit('.').next().unwrap());
+        }
+        for preset in ["paper", "raster", "serial"] {
+            let base: Table = Config::from_toml(Preset::find(preset).unwrap().toml)
+                .unwrap()
+                .to_toml()
+                .parse()
+                .unwrap();
+            let complaint = |table: &Table| problem(Config::from_toml(&table.to_string()));
+            let schema = Schema { base, complaint: &complaint };
+            for place in schema.places() {
+                let table = schema.with(&place, Value::String(text.clone()));
+                refused(complaint(&table), key(&place));
+            }
+        }
+    }
+    assert!(tried > 3000, "{tried}");
+}
