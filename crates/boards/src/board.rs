@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_design::{Config, Preset};
+use foveate_toolchain::text::shown;
 use serde::Deserialize;
 
 use crate::sensor::Level;
@@ -208,7 +209,7 @@ impl Board {
             Some((name, text)) => Self::from_toml(name, text),
             None => {
                 let known: Vec<_> = BOARDS.iter().map(|board| board.0).collect();
-                Err(BoardError::Board { name: name.to_owned(), known: known.join(", ") })
+                Err(BoardError::Board { name: shown(name), known: known.join(", ") })
             }
         }
     }
@@ -222,7 +223,7 @@ impl Board {
     }
 
     fn read(name: &str, text: &str, folder: &Path) -> Result<Self, BoardError> {
-        let invalid = |reason: String| BoardError::Invalid { name: words::shown(name), reason };
+        let invalid = |reason: String| BoardError::Invalid { name: shown(name), reason };
         words::check_name(name).map_err(invalid)?;
         let no_board = |error: toml::de::Error| invalid(error.to_string().trim_end().to_owned());
         words::check(&text.parse().map_err(no_board)?).map_err(invalid)?;

@@ -3,6 +3,7 @@
 
 use std::path::Path;
 
+use foveate_toolchain::text::shown;
 use serde::Deserialize;
 
 use crate::{BoardError, words};
@@ -147,7 +148,7 @@ impl Sensor {
             Some((name, text)) => Self::from_toml(name, text),
             None => {
                 let known: Vec<_> = SENSORS.iter().map(|sensor| sensor.0).collect();
-                Err(BoardError::Sensor { name: name.to_owned(), known: known.join(", ") })
+                Err(BoardError::Sensor { name: shown(name), known: known.join(", ") })
             }
         }
     }

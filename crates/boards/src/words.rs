@@ -2,15 +2,13 @@
 //! Which characters the texts of a file may have. They stand in scripts and pages, so that each is a plain word, unless it is
 //! one of the few that need more: a key that is new here is a plain word, too.
 
-use foveate_toolchain::text::is_hidden;
+use foveate_toolchain::text::{is_hidden, shown};
 use toml::{Table, Value};
 
 /// Most characters of a word, of a line for people, and of a change of a design.
 const WORD: usize = 64;
 const LINE: usize = 200;
 const CHANGE: usize = 1000;
-/// Most characters of a text in a message.
-const SHOWN: usize = 40;
 
 /// What a text is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -76,12 +74,6 @@ fn check_value(path: &str, key: &str, value: &Value) -> Result<(), String> {
         }),
         Value::Integer(_) | Value::Float(_) | Value::Boolean(_) | Value::Datetime(_) => Ok(()),
     }
-}
-
-/// The beginning of a text, with its control characters written out.
-pub(crate) fn shown(text: &str) -> String {
-    let more = if text.chars().nth(SHOWN).is_some() { "..." } else { "" };
-    text.chars().take(SHOWN).flat_map(char::escape_debug).chain(more.chars()).collect()
 }
 
 impl Form {

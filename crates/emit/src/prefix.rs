@@ -118,8 +118,10 @@ impl Prefix {
     /// # Errors
     /// When a name cannot begin with it, or could not be told from another core's.
     pub fn new(text: &str) -> Result<Self, EmitError> {
+        // As much of it as tells that it is too long, without control characters.
+        let shown = || text.chars().take(MOST + 1).flat_map(char::escape_debug).collect();
         let wrong = |wrong: &str| {
-            Err(EmitError::Prefix { prefix: text.to_owned(), wrong: wrong.to_owned(), most: MOST })
+            Err(EmitError::Prefix { prefix: shown(), wrong: wrong.to_owned(), most: MOST })
         };
         if !text.starts_with(|first: char| first.is_ascii_alphabetic()) {
             return wrong("does not begin with a letter");

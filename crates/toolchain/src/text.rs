@@ -80,6 +80,14 @@ pub fn markdown_text(text: &str) -> Cow<'_, str> {
     line.into()
 }
 
+/// The beginning of a text for a message, with its control characters written out.
+#[must_use]
+pub fn shown(text: &str) -> String {
+    const MOST: usize = 40;
+    let more = if text.chars().nth(MOST).is_some() { "..." } else { "" };
+    text.chars().take(MOST).flat_map(char::escape_debug).chain(more.chars()).collect()
+}
+
 /// The text with its hidden characters written out, such as `\n` and `\u{1b}`.
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
@@ -140,6 +148,9 @@ mod tests {
     #[test]
     fn tcl_reads_the_words_back() {
         if Command::new("tclsh").stdin(Stdio::null()).output().is_err() {
+            let is_strict =
+                std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
+            assert!(!is_strict, "FOVEATE_REQUIRE_TOOLS is 1, and tclsh is missing (Debian: tcl)");
             return eprintln!("skipped: tclsh is missing");
         }
         let words: Vec<_> = TEXTS.iter().map(|text| tcl_word(text)).collect();
@@ -154,6 +165,12 @@ mod tests {
         let told = Command::new("tclsh").args(["-encoding", "utf-8"]).arg(&path).output().unwrap();
         let expected: String = TEXTS.iter().map(|text| format!("<{text}>\n")).collect();
         assert_eq!(String::from_utf8(told.stdout).unwrap(), expected.repeat(2));
+    }
+
+    #[test]
+    fn a_message_shows_the_beginning_of_a_text() {
+        assert_eq!(shown("a\nb\u{1b}\u{e4}"), "a\\nb\\u{1b}\u{e4}");
+        assert_eq!(shown(&"x".repeat(1000)), "x".repeat(40) + "...");
     }
 
     #[test]

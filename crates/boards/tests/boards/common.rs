@@ -3,7 +3,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Stdio};
 
 use foveate_boards::{Board, BoardError, Project};
 use foveate_design::{Config, Preset};
@@ -46,6 +46,17 @@ pub(crate) fn array(keys: &[&str]) -> Result<Project, BoardError> {
 pub(crate) fn array_on(board: Board, keys: &[&str]) -> Result<Project, BoardError> {
     let paper = Preset::find("paper").unwrap().toml;
     Project::new(board, Config::from_toml_with(paper, keys).unwrap().validate().unwrap())
+}
+
+/// Whether there is an interpreter of Tcl; where every tool must be there, it must.
+pub(crate) fn has_tclsh() -> bool {
+    let is_there = Command::new("tclsh").stdin(Stdio::null()).output().is_ok();
+    let is_strict = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
+    assert!(
+        is_there || !is_strict,
+        "FOVEATE_REQUIRE_TOOLS is 1, and tclsh is missing (Debian: tcl)"
+    );
+    is_there
 }
 
 /// What stands in a module, and what stands there instead.

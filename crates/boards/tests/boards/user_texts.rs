@@ -13,6 +13,7 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use toml::{Table, Value};
 
+use crate::common::has_tclsh;
 use crate::hostile::{CANARY, Schema, Step, key, texts};
 use crate::projects::STUBS;
 
@@ -243,10 +244,6 @@ fn built_by_shell(written: &Written) {
 }
 
 fn read_by_tcl(written: &Written) {
-    if Command::new("tclsh").stdin(std::process::Stdio::null()).output().is_err() {
-        eprintln!("skipped: tclsh is missing");
-        return;
-    }
     let stubs = written.root.path().join("stubs.tcl");
     fs::write(&stubs, STUBS).unwrap();
     for script in ["build.tcl", "program.tcl"] {
@@ -277,7 +274,9 @@ fn no_text_of_a_board_is_run() {
         taken = Some(try_all(&schema, tried, &make, &mut written));
         assert!(written.folders.len() > 10, "titles are free");
         written.read_by_yosys();
-        if name == "vcu118" {
+        if name == "vcu118" && !has_tclsh() {
+            eprintln!("skipped: tclsh is missing");
+        } else if name == "vcu118" {
             read_by_tcl(&written);
         } else {
             built_by_shell(&written);
