@@ -6,9 +6,10 @@ use std::path::Path;
 
 use foveate_frame::Frame;
 
-use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
-use crate::input::{entries, expand, is_special};
+use crate::extension::is_image_name;
+use crate::input::{self, SkippedInput, expand, is_special, same_number, sentences};
 use crate::sets::{cifar, idx};
+use crate::source::files::ImageFile;
 use crate::{ImagesAs, InputOptions, picture};
 
 /// Warnings about the inputs, one sentence each. What [`open`](crate::open) refuses is not among them.
@@ -16,10 +17,9 @@ use crate::{ImagesAs, InputOptions, picture};
 pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let mut said = Vec::new();
     for input in inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input)) {
-        if input.is_dir() {
-            said.extend(left_out(input, options.images));
-        }
+        said.extend(sentences(input, &input::skipped(input, options.images)));
         let files = expand(input, options.images).unwrap_or_default();
+        said.extend(twice(&files, options.images));
         if options.labels.is_none() {
             let others = files.iter().filter(|file| !is_image_name(&file.path));
             let bare = others.filter(|file| idx::lacks_labels(&file.path));
@@ -33,29 +33,22 @@ pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<Strin
     said
 }
 
-/// What is in a folder and not taken.
-fn left_out(folder: &Path, images: ImagesAs) -> Option<String> {
-    let entries = entries(folder).ok()?;
-    let is_image = |path: &Path| is_image_name(path) && path.is_file();
-    let shown = folder.display();
-    if images == ImagesAs::Set {
-        let clip = entries.iter().find(|path| extension_in(path, &VIDEO_EXTENSIONS))?;
-        return Some(format!(
-            "a set consists of images: videos in `{shown}`, such as `{}`, are ignored",
-            clip.display()
-        ));
-    }
-    if !entries.iter().any(|path| is_image(path)) {
-        return None;
-    }
-    let below = |path: &&std::path::PathBuf| {
-        path.is_dir() && self::entries(path).is_ok_and(|files| files.iter().any(|p| is_image(p)))
-    };
-    let below = entries.iter().find(below)?;
+/// Entries of the folders and patterns among the inputs that are not read although they might have been meant.
+#[must_use]
+pub fn skipped<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<SkippedInput> {
+    let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
+    inputs.flat_map(|input| input::skipped(input, options.images)).collect()
+}
+
+/// Two frames of a clip with one number.
+fn twice(files: &[ImageFile], images: ImagesAs) -> Option<String> {
+    let paths: Vec<&Path> = files.iter().map(|file| file.path.as_path()).collect();
+    let (one, other) = same_number(&paths).filter(|_| images == ImagesAs::Clip)?;
     Some(format!(
-        "images in folders below `{shown}`, such as `{}`, are ignored; --images set reads them, with the \
-         names of their folders as labels",
-        below.display()
+        "`{}` and `{}` have the same number, and both are read, one after the other; remove one if they are the \
+         same frame",
+        one.display(),
+        other.display()
     ))
 }
 

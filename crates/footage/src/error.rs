@@ -9,7 +9,7 @@ use foveate_scenes::SceneError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-use crate::extension::{VIDEO_EXTENSIONS, extension_in};
+use crate::extension::is_video_name;
 use crate::limits::{Crop, MAX_FILE_GIB, MAX_SIDE};
 
 /// What the reader understands, for messages.
@@ -186,6 +186,18 @@ pub enum FootageError {
         /// The file.
         path: PathBuf,
     },
+    /// An image of a type that is known, but not read.
+    #[error(
+        "`{}` is an image of the type {name}, which is not read; convert it to PNG, for example with ImageMagick: \
+         `magick '{}' '{}'`, or many at once with `mogrify -format png`; image types are {TYPES}",
+        path.display(), path.display(), path.with_extension("png").display()
+    )]
+    ImageType {
+        /// The file.
+        path: PathBuf,
+        /// The name of the type.
+        name: &'static str,
+    },
     /// An image of a supported type in a variant that is not.
     #[error("image `{}` cannot be decoded: {problem}; export it again as a plain PNG", path.display())]
     UnsupportedFeature {
@@ -276,7 +288,7 @@ impl From<ToolError> for FootageError {
 /// To play it helps with a video that is damaged, not with what never was one.
 fn video_problem(path: &Path, problem: &str) -> String {
     let shown = path.display();
-    if extension_in(path, &VIDEO_EXTENSIONS) {
+    if is_video_name(path) {
         return format!(
             "video `{shown}` cannot be read: {problem}; play it to check that it is complete"
         );

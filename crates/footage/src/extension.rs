@@ -4,19 +4,62 @@
 use std::path::Path;
 
 /// Files with these extensions are taken from folders and patterns as images.
-const IMAGE_EXTENSIONS: [&str; 9] =
-    ["png", "jpg", "jpeg", "bmp", "pgm", "ppm", "pbm", "pnm", "pam"];
+const IMAGE_EXTENSIONS: [&str; 11] =
+    ["png", "jpg", "jpeg", "jpe", "jfif", "bmp", "pgm", "ppm", "pbm", "pnm", "pam"];
 /// And these as clips.
-pub(crate) const VIDEO_EXTENSIONS: [&str; 17] = [
+const VIDEO_EXTENSIONS: [&str; 17] = [
     "mp4", "m4v", "mov", "avi", "mkv", "webm", "mpg", "mpeg", "ts", "mts", "m2ts", "wmv", "flv",
     "ogv", "3gp", "gif", "y4m",
 ];
+/// Images of types that are not read, with the names of the types.
+const OTHER_IMAGES: [(&str, &[&str]); 14] = [
+    ("WebP", &["webp"]),
+    ("TIFF", &["tif", "tiff"]),
+    ("HEIF", &["heic", "heif", "hif"]),
+    ("AVIF", &["avif"]),
+    ("JPEG XL", &["jxl"]),
+    ("JPEG 2000", &["jp2", "j2k", "jpx", "jpf"]),
+    ("OpenEXR", &["exr"]),
+    ("Radiance HDR", &["hdr"]),
+    ("TGA", &["tga"]),
+    ("Photoshop", &["psd"]),
+    ("icon", &["ico"]),
+    ("QOI", &["qoi"]),
+    ("raw camera", &["dng", "cr2", "cr3", "nef", "arw", "raf", "orf", "rw2", "raw"]),
+    ("animated PNG", &["apng"]),
+];
+/// Videos that are read where they are named, but not looked for in folders.
+const OTHER_VIDEOS: [&str; 27] = [
+    "264", "265", "h264", "h265", "hevc", "avc", "ivf", "nut", "mxf", "vob", "asf", "rm", "rmvb", "dv",
+    "divx", "f4v", "qt", "m1v", "m2v", "mpv", "3g2", "ogm", "mjpg", "mjpeg", "mj2", "yuv", "av1",
+];
+/// Text and tables, which often stand beside images.
+const NOTES: [&str; 12] =
+    ["txt", "csv", "tsv", "json", "xml", "yaml", "yml", "toml", "md", "log", "ini", "html"];
 
-pub(crate) fn extension_in(path: &Path, known: &[&str]) -> bool {
+fn extension_in(path: &Path, known: &[&str]) -> bool {
     path.extension()
         .is_some_and(|extension| known.iter().any(|known| extension.eq_ignore_ascii_case(known)))
 }
 
 pub(crate) fn is_image_name(path: &Path) -> bool {
     extension_in(path, &IMAGE_EXTENSIONS)
+}
+
+pub(crate) fn is_video_name(path: &Path) -> bool {
+    extension_in(path, &VIDEO_EXTENSIONS)
+}
+
+/// The type of an image that is not read.
+pub(crate) fn other_image(path: &Path) -> Option<&'static str> {
+    let found = OTHER_IMAGES.iter().find(|(_, extensions)| extension_in(path, extensions));
+    found.map(|(name, _)| *name)
+}
+
+pub(crate) fn is_other_video(path: &Path) -> bool {
+    extension_in(path, &OTHER_VIDEOS)
+}
+
+pub(crate) fn is_note(path: &Path) -> bool {
+    extension_in(path, &NOTES)
 }

@@ -4,10 +4,18 @@
 //! Arguments keep the order in which they are given; the files of one folder or pattern are in natural
 //! order. What a file is follows from its content, and from its extension where content is silent.
 
+mod content;
+mod entry;
 mod find;
+mod pattern;
+mod skipped;
 mod sniff;
 
-pub(crate) use find::{entries, expand};
+pub(crate) use content::other_image;
+pub(crate) use entry::{EntryKind, entries, entry_kind};
+pub(crate) use find::expand;
+pub(crate) use skipped::{below, in_clip, same_number, sentences, skipped, unreadable};
+pub use skipped::{SkipReason, SkippedInput};
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};

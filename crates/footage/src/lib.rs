@@ -25,10 +25,10 @@ mod subject;
 mod video;
 mod y4m;
 
-pub use advice::advice;
+pub use advice::{advice, skipped};
 pub use error::FootageError;
 pub use hooks::{Hooks, Progress, Silent};
-pub use input::{is_camera, is_read_once, open};
+pub use input::{SkipReason, SkippedInput, is_camera, is_read_once, open};
 pub use limits::{Crop, MAX_SIDE};
 pub use natural::natural_order;
 pub use options::{ImagesAs, InputOptions};

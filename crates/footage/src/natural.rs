@@ -57,6 +57,25 @@ fn numbers(a: &[u8], b: &[u8]) -> Ordering {
     a.len().cmp(&b.len()).then_with(|| a.cmp(b))
 }
 
+/// Whether two names, without their extensions, differ at most in leading zeros.
+pub(crate) fn is_same_number(a: &Path, b: &Path) -> bool {
+    let stem = |path: &Path| path.with_extension("").as_os_str().as_encoded_bytes().to_owned();
+    let (a, b) = (stem(a), stem(b));
+    let (mut left, mut right) = (a.as_slice(), b.as_slice());
+    loop {
+        match (left.first(), right.first()) {
+            (None, None) => return true,
+            (Some(one), Some(other)) if one.is_ascii_digit() && other.is_ascii_digit() => {
+                if take_number(&mut left) != take_number(&mut right) {
+                    return false;
+                }
+            }
+            (one, other) if one == other => (left, right) = (&left[1..], &right[1..]),
+            _ => return false,
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -90,5 +109,12 @@ mod tests {
         assert_ne!(order, Ordering::Equal);
         assert_eq!(order, natural_order(Path::new("f1"), Path::new("f01")).reverse());
         assert_eq!(natural_order(Path::new("f1"), Path::new("f1")), Ordering::Equal);
+    }
+    #[test]
+    fn numbers_with_other_zeros_are_the_same() {
+        let same = |a: &str, b: &str| is_same_number(Path::new(a), Path::new(b));
+        assert!(same("a/f1.png", "a/f01.png") && same("a/f1.png", "a/f1.jpg") && same("2", "02"));
+        assert!(!same("a/f1.png", "b/f1.png") && !same("f1.png", "f10.png") && !same("f1", "f1a"));
+        assert!(!same("f", "f1") && !same("1f", "f1"));
     }
 }

@@ -6,9 +6,13 @@
 //! * Samples of fewer bits (1-, 2-, 4-bit PNG, PNM with another maximum than 255 or 65535) count as the
 //!   nearest of the full range of 8 or 16 bits.
 //! * Those 8 or 16 bits become P bits by [`convert_depth`].
-//! * Files that end early are refused, even where a decoder would fill up with grey.
+//! * Files that end early or are damaged are refused, even where a decoder would fill up with grey.
+//!   Each format has a check of its own for what its decoder passes over.
 
-mod complete;
+mod fault;
+mod jpeg;
+mod png;
+mod pnm;
 
 use std::fs::File;
 use std::io::{Cursor, Read};
@@ -18,7 +22,9 @@ use foveate_frame::Frame;
 use image::error::{ImageError, LimitErrorKind};
 use image::{DynamicImage, ImageFormat, ImageReader, Limits};
 
+use self::fault::PictureFault;
 use crate::FootageError;
+use crate::input::other_image;
 use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 use foveate_frame::{convert_depth, luma};
 
@@ -35,10 +41,20 @@ pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
 /// # Errors
 /// When it is too large, truncated, damaged, or no supported image.
 pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageError> {
-    let format =
-        supported(bytes).ok_or_else(|| FootageError::UnsupportedType { path: path.to_owned() })?;
-    if let Some(problem) = complete::missing(format, bytes) {
-        return Err(FootageError::Truncated { path: path.to_owned(), problem });
+    let format = supported(bytes).ok_or_else(|| match other_image(bytes) {
+        Some(name) => FootageError::ImageType { path: path.to_owned(), name },
+        None => FootageError::UnsupportedType { path: path.to_owned() },
+    })?;
+    let refused = |fault: PictureFault| match fault {
+        PictureFault::Truncated(problem) => {
+            FootageError::Truncated { path: path.to_owned(), problem }
+        }
+        PictureFault::Damaged(problem) => FootageError::Damaged { path: path.to_owned(), problem },
+    };
+    match format {
+        ImageFormat::Png => png::check(bytes).map_err(refused)?,
+        ImageFormat::Jpeg => jpeg::check(bytes).map_err(refused)?,
+        _ => {}
     }
     if format == ImageFormat::Png && has_animation(bytes) {
         return Err(FootageError::Animated { path: path.to_owned() });
@@ -50,6 +66,10 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let image = reader.decode().map_err(|error| refusal(path, &error))?;
+    // Its header was read within the limits by now.
+    if format == ImageFormat::Pnm {
+        pnm::check(bytes).map_err(refused)?;
+    }
     let (width, height) = (image.width(), image.height());
     let (samples, depth) = luma_samples(image);
     let pixels = samples.into_iter().map(|value| convert_depth(value, depth, bits)).collect();

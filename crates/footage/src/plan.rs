@@ -10,12 +10,14 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
-use crate::input::{entries, is_special};
+use crate::extension::is_image_name;
+use crate::input::{
+    EntryKind, SkipReason, SkippedInput, below, entries, entry_kind, in_clip, is_special, unreadable,
+};
 use crate::{FootageError, ImagesAs, InputOptions, picture};
 
-/// The depth to which folders are searched, so that a link to a parent folder does not lead to an endless search.
-const DEPTH: u32 = 8;
+/// The depth to which folders are searched.
+const DEPTH: usize = 8;
 
 /// A clip of a batch.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,39 +42,67 @@ pub enum ClipPlan {
 /// Decides between one clip and a batch.
 ///
 /// # Errors
-/// When a folder cannot be read, or an input cannot be one of several clips.
+/// When a folder cannot be read, an image is of a type that is not read, or an input cannot be one of several clips.
 pub fn plan<P: AsRef<Path>>(
     inputs: &[P],
     options: &InputOptions,
 ) -> Result<ClipPlan, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
-    let tree = |path: &Path| -> Result<bool, FootageError> {
+    let is_tree = |path: &Path| -> Result<bool, FootageError> {
         let whole = options.images == ImagesAs::Set || !path.is_dir();
-        Ok(!whole && !entries(path)?.iter().any(|entry| is_image_name(entry) && entry.is_file()))
+        Ok(!whole && !holds_images(&entries(path)?))
     };
     match inputs.as_slice() {
-        [one] if !tree(one)? => return Ok(ClipPlan::One),
+        [one] if !is_tree(one)? => return Ok(ClipPlan::One),
         several if several.iter().all(|path| belongs_to_a_clip(path)) => return Ok(ClipPlan::One),
         _ => {}
     }
+    let mut files = inputs.iter().filter(|path| !is_special(path));
+    if let Some((path, name)) = files.find_map(|path| Some((path, other_type(path)?))) {
+        return Err(FootageError::ImageType { path: path.to_path_buf(), name });
+    }
     let mut clips = Vec::new();
+    let mut skipped = Vec::new();
     for path in &inputs {
         if inputs.len() > 1 && (is_special(path) || belongs_to_a_clip(path)) {
             return Err(FootageError::NotAlone { input: path.display().to_string() });
         }
         let place = if inputs.len() > 1 { name_of(path) } else { PathBuf::new() };
-        if tree(path)? {
-            walk(path, &place, None, 0, &mut clips)?;
+        if is_tree(path)? {
+            let tree = tree(path)?;
+            clips.extend(tree.clips.into_iter().map(|clip| Clip { place: place.join(clip.place), ..clip }));
+            skipped.extend(tree.skipped);
         } else {
             clips.push(Clip { inputs: vec![path.to_path_buf()], place, label: None });
         }
     }
     if clips.is_empty() {
         let path = inputs.first().expect("without inputs there is one clip").to_path_buf();
-        return Err(FootageError::EmptyFolder { path });
+        return Err(no_clip(path, skipped));
     }
     set_apart(&mut clips);
     Ok(ClipPlan::Batch(clips))
+}
+
+/// What to say of folders without a clip.
+fn no_clip(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
+    let other = skipped.into_iter().find_map(|one| match one.reason {
+        SkipReason::ImageType { name } => Some(FootageError::ImageType { path: one.path, name }),
+        _ => None,
+    });
+    other.unwrap_or(FootageError::EmptyFolder { path: folder })
+}
+
+/// The type of an image that is not read.
+fn other_type(path: &Path) -> Option<&'static str> {
+    match entry_kind(path) {
+        EntryKind::Skipped(Some(SkipReason::ImageType { name })) => Some(name),
+        _ => None,
+    }
+}
+
+fn holds_images(entries: &[PathBuf]) -> bool {
+    entries.iter().any(|entry| entry_kind(entry) == EntryKind::Image)
 }
 
 /// An image file, a pattern, or something that is not there, which opening will say.
@@ -82,36 +112,89 @@ fn belongs_to_a_clip(path: &Path) -> bool {
         && (!path.exists() || is_image_name(path) || picture::is_image(path))
 }
 
-fn walk(
-    folder: &Path,
-    place: &Path,
-    label: Option<&str>,
-    depth: u32,
-    clips: &mut Vec<Clip>,
-) -> Result<(), FootageError> {
-    let entries = entries(folder)?;
-    let clip = |path: &Path, place: PathBuf| Clip {
-        inputs: vec![path.to_owned()],
-        place,
-        label: label.map(str::to_owned),
-    };
-    if depth > 0 && entries.iter().any(|entry| is_image_name(entry) && entry.is_file()) {
-        clips.push(clip(folder, place.to_owned()));
-        return Ok(());
-    }
-    for entry in &entries {
-        let place = place.join(name_of(entry));
-        if entry.is_dir() && depth < DEPTH {
-            // A folder of images names a clip; only what is above clips names a class.
-            let own = entry.file_name().map(|name| name.to_string_lossy().into_owned());
-            let frames = self::entries(entry)?.iter().any(|e| is_image_name(e) && e.is_file());
-            let below = if label.is_none() && !frames { own.as_deref() } else { label };
-            walk(entry, &place, below, depth + 1, clips)?;
-        } else if entry.is_file() && extension_in(entry, &VIDEO_EXTENSIONS) {
-            clips.push(clip(entry, place));
+/// The clips of a folder without images, and what is no clip although it might have been meant as one.
+#[derive(Default)]
+pub(crate) struct Tree {
+    clips: Vec<Clip>,
+    pub(crate) skipped: Vec<SkippedInput>,
+}
+
+/// A folder of a tree on the way down.
+struct Branch<'a> {
+    /// Where its clips go in the output.
+    place: &'a Path,
+    label: Option<&'a str>,
+    /// It and the folders above it, without links.
+    above: &'a [PathBuf],
+}
+
+/// Searches a folder without images.
+pub(crate) fn tree(folder: &Path) -> Result<Tree, FootageError> {
+    let mut tree = Tree::default();
+    let above = [real(folder)];
+    let root = Branch { place: Path::new(""), label: None, above: &above };
+    tree.search(&root, &entries(folder)?);
+    Ok(tree)
+}
+
+/// A path without links, to tell a loop of them.
+fn real(folder: &Path) -> PathBuf {
+    folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
+}
+
+impl Tree {
+    fn search(&mut self, branch: &Branch<'_>, listed: &[PathBuf]) {
+        for entry in listed {
+            match entry_kind(entry) {
+                EntryKind::Video => {
+                    self.clips.push(branch.clip(entry, branch.place.join(name_of(entry))));
+                }
+                EntryKind::Folder => self.enter(branch, entry),
+                EntryKind::Skipped(reason) => {
+                    self.skipped.extend(reason.map(|reason| SkippedInput::new(entry, reason)));
+                }
+                // Images make their folder a clip, and the top of a tree has none.
+                EntryKind::Image => {}
+            }
         }
     }
-    Ok(())
+
+    /// A folder in a folder: a clip if it holds images, else a further branch.
+    fn enter(&mut self, branch: &Branch<'_>, folder: &Path) {
+        let real = real(folder);
+        if branch.above.contains(&real) {
+            self.skipped.push(SkippedInput::new(folder, SkipReason::Loop));
+            return;
+        }
+        if branch.above.len() > DEPTH {
+            self.skipped.extend(below(folder, SkipReason::TooDeep));
+            return;
+        }
+        let listed = match entries(folder) {
+            Ok(listed) => listed,
+            Err(error) => {
+                self.skipped.push(unreadable(folder, &error));
+                return;
+            }
+        };
+        let place = branch.place.join(name_of(folder));
+        if holds_images(&listed) {
+            self.clips.push(branch.clip(folder, place));
+            in_clip(&listed, &mut self.skipped);
+            return;
+        }
+        // A folder of images names a clip; only what is above clips names a class.
+        let own = folder.file_name().map(|name| name.to_string_lossy().into_owned());
+        let above = [branch.above, &[real]].concat();
+        let label = branch.label.or(own.as_deref());
+        self.search(&Branch { place: &place, label, above: &above }, &listed);
+    }
+}
+
+impl Branch<'_> {
+    fn clip(&self, input: &Path, place: PathBuf) -> Clip {
+        Clip { inputs: vec![input.to_owned()], place, label: self.label.map(str::to_owned) }
+    }
 }
 
 /// The name of a clip: that of its file without the extension, or of its folder.

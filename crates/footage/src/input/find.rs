@@ -1,29 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The files that an argument stands for. Hidden files are passed over.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use glob::{MatchOptions, Pattern};
-
+use super::entry::{EntryKind, entries, entry_kind};
+use super::pattern::{is_pattern, pattern};
+use super::skipped::SkipReason;
 use super::sniff::{self, FileKind};
-use crate::extension::{VIDEO_EXTENSIONS, extension_in, is_image_name};
+use crate::extension::is_image_name;
 use crate::options::ImagesAs;
 use crate::source::files::ImageFile;
-use crate::{FootageError, natural_order, picture};
-
-/// The entries of a folder in natural order, without hidden ones.
-pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, FootageError> {
-    let unreadable = |error: std::io::Error| FootageError::Unreadable {
-        path: folder.to_owned(),
-        problem: error.to_string(),
-    };
-    let mut entries = Vec::new();
-    for entry in fs::read_dir(folder).map_err(unreadable)? {
-        entries.push(entry.map_err(unreadable)?.path());
-    }
-    Ok(in_order(entries))
-}
+use crate::{FootageError, picture};
 
 /// The files that one argument stands for, with labels.
 pub(crate) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, FootageError> {
@@ -38,7 +25,7 @@ pub(crate) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, F
     }
     match input.to_str() {
         Some(text) if is_url(text) => Err(FootageError::Url { url: text.to_owned() }),
-        Some(text) if text.contains(['*', '?', '[']) => pattern(text),
+        Some(text) if is_pattern(text) => pattern(text),
         _ => Err(FootageError::Missing { path: input.to_owned() }),
     }
 }
@@ -67,18 +54,17 @@ pub(super) fn split(
     Ok((images, others))
 }
 
-fn plain(path: PathBuf) -> ImageFile {
+pub(super) fn plain(path: PathBuf) -> ImageFile {
     ImageFile { path, label: None }
 }
 
 /// The images of a folder, or the one clip that it holds.
 fn folder(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
-    let files: Vec<PathBuf> = entries(path)?.into_iter().filter(|path| path.is_file()).collect();
-    let of = |known: &dyn Fn(&Path) -> bool| -> Vec<ImageFile> {
-        files.iter().filter(|path| known(path)).cloned().map(plain).collect()
+    let files = entries(path)?;
+    let of = |kind: EntryKind| -> Vec<ImageFile> {
+        files.iter().filter(|path| entry_kind(path) == kind).cloned().map(plain).collect()
     };
-    let images = of(&is_image_name);
-    let clips = of(&|path| extension_in(path, &VIDEO_EXTENSIONS));
+    let (images, clips) = (of(EntryKind::Image), of(EntryKind::Video));
     match (images.as_slice(), clips.as_slice()) {
         ([image, ..], [clip, ..]) => {
             let pattern = path.join("*").with_extension(image.path.extension().unwrap_or_default());
@@ -92,25 +78,40 @@ fn folder(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
         }
         ([_, ..], []) => Ok(images),
         ([], [_, ..]) => Ok(clips),
-        ([], []) => Err(FootageError::EmptyFolder { path: path.to_owned() }),
+        ([], []) => Err(no_footage(path, &files)),
     }
+}
+
+/// What to say of a folder with nothing to read: it is empty, or its images are of a type that is not read.
+fn no_footage(folder: &Path, files: &[PathBuf]) -> FootageError {
+    let other = files.iter().find_map(|path| match entry_kind(path) {
+        EntryKind::Skipped(Some(SkipReason::ImageType { name })) => Some((path, name)),
+        _ => None,
+    });
+    other.map_or_else(
+        || FootageError::EmptyFolder { path: folder.to_owned() },
+        |(path, name)| FootageError::ImageType { path: path.clone(), name },
+    )
 }
 
 /// The images of a folder without a label, then those of each sub-folder under its name.
 fn labelled(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     let entries_here = entries(path)?;
-    let image = |path: &Path| is_image_name(path) && path.is_file();
+    let is = |kind: EntryKind| move |path: &&PathBuf| entry_kind(path) == kind;
     let mut files: Vec<ImageFile> =
-        entries_here.iter().filter(|path| image(path)).cloned().map(plain).collect();
-    for class in entries_here.iter().filter(|path| path.is_dir()) {
+        entries_here.iter().filter(is(EntryKind::Image)).cloned().map(plain).collect();
+    let mut all = entries_here.clone();
+    for class in entries_here.iter().filter(is(EntryKind::Folder)) {
         let label = class.file_name().map(|name| name.to_string_lossy().into_owned());
-        let images = entries(class)?.into_iter().filter(|path| image(path));
+        // One that cannot be read is told with the other entries that are skipped.
+        let listed = entries(class).unwrap_or_default();
+        let images = listed.iter().filter(is(EntryKind::Image)).cloned();
         files.extend(images.map(|path| ImageFile { path, label: label.clone() }));
+        all.extend(listed);
     }
-    match (files.is_empty(), entries_here.iter().any(|path| extension_in(path, &VIDEO_EXTENSIONS)))
-    {
+    match (files.is_empty(), all.iter().any(|path| entry_kind(path) == EntryKind::Video)) {
         (false, _) => Ok(files),
-        (true, false) => Err(FootageError::EmptyFolder { path: path.to_owned() }),
+        (true, false) => Err(no_footage(path, &all)),
         (true, true) => {
             let problem = format!(
                 "folder `{}` holds clips but no images, and a set needs images; \
@@ -120,57 +121,4 @@ fn labelled(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
             Err(FootageError::Option { option: "--images set", problem })
         }
     }
-}
-
-fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
-    let invalid = |error: glob::PatternError| FootageError::Pattern {
-        pattern: text.to_owned(),
-        problem: error.to_string(),
-    };
-    Pattern::new(text).map_err(invalid)?;
-    let options = MatchOptions { require_literal_leading_dot: true, ..MatchOptions::new() };
-    let mut files = Vec::new();
-    for found in glob::glob_with(text, options).map_err(invalid)? {
-        files.push(found.map_err(|error| FootageError::Unreadable {
-            path: error.path().to_owned(),
-            problem: error.error().to_string(),
-        })?);
-    }
-    let known = |path: &PathBuf| path.is_file() && is_image_name(path);
-    let files = in_order(files);
-    let videos: Vec<&PathBuf> =
-        files.iter().filter(|path| extension_in(path, &VIDEO_EXTENSIONS)).collect();
-    let images: Vec<_> = files.iter().filter(|path| known(path)).cloned().map(plain).collect();
-    match (images.as_slice(), videos.as_slice()) {
-        ([], []) => Err(FootageError::NoMatch { pattern: text.to_owned() }),
-        ([], [video, ..]) => Err(FootageError::Option {
-            option: "the pattern",
-            problem: format!(
-                "`{text}` matches videos, such as `{}`, but a pattern is for images; name the videos or \
-                 their folder, or leave the quotation marks out",
-                video.display()
-            ),
-        }),
-        ([image, ..], [video, ..]) => Err(FootageError::Mixed {
-            place: text.to_owned(),
-            images: images.len(),
-            videos: videos.len(),
-            video: video.to_path_buf(),
-            pattern: image
-                .path
-                .with_file_name("*")
-                .with_extension(image.path.extension().unwrap_or_default())
-                .display()
-                .to_string(),
-        }),
-        ([_, ..], []) => Ok(images),
-    }
-}
-
-fn in_order(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
-    let hidden =
-        |path: &Path| path.file_name().is_some_and(|name| name.to_string_lossy().starts_with('.'));
-    paths.retain(|path| !hidden(path));
-    paths.sort_by(|a, b| natural_order(a, b));
-    paths
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a file that is no image is, by its first bytes.
+//! How a file that is no image is read, by its first bytes.
 
 use std::io::Read;
 use std::path::Path;
 
+use super::content::{Content, of_start};
 use crate::FootageError;
+use crate::extension::{is_video_name, other_image};
 use crate::sets::{cifar, idx, open_unpacked};
 use crate::y4m;
 
@@ -18,10 +20,13 @@ pub(crate) enum FileKind {
     Video,
 }
 
+/// Bytes that are looked at.
+const START: u64 = 512;
+
 pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
     let mut start = Vec::new();
     // What does not unpack is no IDX; ffmpeg will say what it thinks of it.
-    let _ = open_unpacked(path)?.take(16).read_to_end(&mut start);
+    let _ = open_unpacked(path)?.take(START).read_to_end(&mut start);
     let frameless = |problem: &str| FootageError::Frameless {
         path: path.to_owned(),
         problem: problem.to_owned(),
@@ -39,6 +44,18 @@ pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
     }
     if idx::is_other(&start) {
         return Err(frameless("it is an IDX file, but not of 8-bit images (00 00 08 03)"));
+    }
+    let other = match of_start(&start) {
+        Content::OtherImage(name) => Some(name),
+        Content::Unknown => other_image(path),
+        // ffmpeg would draw it, letter by letter.
+        Content::Text if !is_video_name(path) => {
+            return Err(FootageError::Video { path: path.to_owned(), problem: "it is text".to_owned() });
+        }
+        Content::Image | Content::Video | Content::DataSet | Content::Text => None,
+    };
+    if let Some(name) = other {
+        return Err(FootageError::ImageType { path: path.to_owned(), name });
     }
     Ok(if start.starts_with(&idx::MAGIC) {
         FileKind::Idx

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What an entry of a folder is. One function decides it, for what is read and for what is said to be
+//! skipped.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use super::content::{Content, content};
+use super::skipped::SkipReason;
+use crate::FootageError;
+use crate::extension::{is_image_name, is_note, is_other_video, is_video_name, other_image};
+use crate::natural_order;
+
+/// What an entry of a folder is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum EntryKind {
+    Image,
+    Video,
+    Folder,
+    /// It is not read; there is a reason where it might have been meant.
+    Skipped(Option<SkipReason>),
+}
+
+/// Says what an entry is.
+pub(crate) fn entry_kind(path: &Path) -> EntryKind {
+    let known = match fs::metadata(path) {
+        Ok(known) => known,
+        Err(error) => {
+            let reason = match error.kind() {
+                io::ErrorKind::NotFound => SkipReason::BrokenLink,
+                _ => SkipReason::Unreadable { problem: error.to_string() },
+            };
+            return EntryKind::Skipped(Some(reason));
+        }
+    };
+    if known.is_dir() {
+        return EntryKind::Folder;
+    }
+    let (image, video) = (is_image_name(path), is_video_name(path));
+    if !known.is_file() {
+        return EntryKind::Skipped((image || video).then_some(SkipReason::NoFile));
+    }
+    match (image, video) {
+        (true, _) => EntryKind::Image,
+        (_, true) => EntryKind::Video,
+        _ => EntryKind::Skipped(reason(path)),
+    }
+}
+
+/// Why a file that has the name of no image and no video might have been meant as one.
+fn reason(path: &Path) -> Option<SkipReason> {
+    if let Some(name) = other_image(path) {
+        return Some(SkipReason::ImageType { name });
+    }
+    if is_other_video(path) {
+        return Some(SkipReason::VideoName);
+    }
+    if is_note(path) {
+        return None;
+    }
+    match content(path) {
+        Ok(Content::Image | Content::Video) => Some(SkipReason::OtherName),
+        Ok(Content::OtherImage(name)) => Some(SkipReason::ImageType { name }),
+        Ok(Content::DataSet) => Some(SkipReason::DataSet),
+        Ok(Content::Text | Content::Unknown) => {
+            path.extension().is_none().then_some(SkipReason::NoExtension)
+        }
+        Err(error) => Some(SkipReason::Unreadable { problem: error.to_string() }),
+    }
+}
+
+/// The entries of a folder in natural order, without hidden ones and those that systems leave behind.
+pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, FootageError> {
+    let unreadable = |error: io::Error| FootageError::Unreadable {
+        path: folder.to_owned(),
+        problem: error.to_string(),
+    };
+    let mut entries = Vec::new();
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        entries.push(entry.map_err(unreadable)?.path());
+    }
+    Ok(in_order(entries))
+}
+
+/// Paths in natural order, without hidden ones and those that systems leave behind.
+pub(crate) fn in_order(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
+    paths.retain(|path| !is_hidden(path));
+    paths.sort_by(|a, b| natural_order(a, b));
+    paths
+}
+
+/// Whether an entry is nobody's footage: it is hidden, or a system left it behind.
+fn is_hidden(path: &Path) -> bool {
+    const LEFT_BEHIND: [&str; 8] = [
+        "thumbs.db",
+        "ehthumbs.db",
+        "desktop.ini",
+        "__macosx",
+        "@eadir",
+        "$recycle.bin",
+        "system volume information",
+        "lost+found",
+    ];
+    path.file_name().is_some_and(|name| {
+        let name = name.to_string_lossy();
+        name.starts_with('.') || LEFT_BEHIND.iter().any(|left| name.eq_ignore_ascii_case(left))
+    })
+}

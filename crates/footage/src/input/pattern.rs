@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Patterns of names, such as `frames/*.png`.
+
+use std::collections::HashSet;
+use std::path::PathBuf;
+
+use glob::{MatchOptions, Pattern};
+
+use super::entry::{EntryKind, entry_kind, in_order};
+use super::find::plain;
+use super::skipped::{self, SkipReason, SkippedInput};
+use crate::FootageError;
+use crate::source::files::ImageFile;
+
+/// Whether a name is a pattern where it is not that of a file.
+pub(crate) fn is_pattern(text: &str) -> bool {
+    text.contains(['*', '?', '['])
+}
+
+/// The images that a pattern names.
+pub(super) fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
+    let files = matches(text, true)?;
+    let of = |kind: EntryKind| -> Vec<&PathBuf> {
+        files.iter().filter(|path| entry_kind(path) == kind).collect()
+    };
+    let (images, videos) = (of(EntryKind::Image), of(EntryKind::Video));
+    match (images.as_slice(), videos.as_slice()) {
+        ([], []) => Err(no_match(text, &files)),
+        ([], [video, ..]) => Err(FootageError::Option {
+            option: "the pattern",
+            problem: format!(
+                "`{text}` matches videos, such as `{}`, but a pattern is for images; name the videos or \
+                 their folder, or leave the quotation marks out",
+                video.display()
+            ),
+        }),
+        ([image, ..], [video, ..]) => Err(FootageError::Mixed {
+            place: text.to_owned(),
+            images: images.len(),
+            videos: videos.len(),
+            video: video.to_path_buf(),
+            pattern: image
+                .with_file_name("*")
+                .with_extension(image.extension().unwrap_or_default())
+                .display()
+                .to_string(),
+        }),
+        ([_, ..], []) => Ok(images.into_iter().cloned().map(plain).collect()),
+    }
+}
+
+fn no_match(text: &str, files: &[PathBuf]) -> FootageError {
+    let other = files.iter().find_map(|path| match entry_kind(path) {
+        EntryKind::Skipped(Some(SkipReason::ImageType { name })) => {
+            Some(FootageError::ImageType { path: path.clone(), name })
+        }
+        _ => None,
+    });
+    other.unwrap_or_else(|| FootageError::NoMatch { pattern: text.to_owned() })
+}
+
+/// What a pattern names that is not read.
+pub(super) fn skipped(text: &str) -> Vec<SkippedInput> {
+    let Ok(files) = matches(text, true) else { return Vec::new() };
+    let mut found = Vec::new();
+    skipped::in_clip(&files, &mut found);
+    let own: HashSet<&PathBuf> = files.iter().collect();
+    let others = matches(text, false).unwrap_or_default();
+    let others = others.iter().filter(|path| !own.contains(path) && entry_kind(path) == EntryKind::Image);
+    found.extend(others.map(|path: &PathBuf| SkippedInput::new(path, SkipReason::OtherCase)));
+    found
+}
+
+/// All that has such a name.
+fn matches(text: &str, case_sensitive: bool) -> Result<Vec<PathBuf>, FootageError> {
+    let invalid = |error: glob::PatternError| FootageError::Pattern {
+        pattern: text.to_owned(),
+        problem: error.to_string(),
+    };
+    Pattern::new(text).map_err(invalid)?;
+    let options =
+        MatchOptions { case_sensitive, require_literal_leading_dot: true, ..MatchOptions::new() };
+    let mut files = Vec::new();
+    for found in glob::glob_with(text, options).map_err(invalid)? {
+        files.push(found.map_err(|error| FootageError::Unreadable {
+            path: error.path().to_owned(),
+            problem: error.error().to_string(),
+        })?);
+    }
+    Ok(in_order(files))
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The header of the frame of a JPEG: its kind, its size, and the blocks of its components.
+
+use crate::picture::fault::PictureFault;
+use crate::limits::MAX_SIDE;
+
+/// How coefficients are spread over scans.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Process {
+    Sequential,
+    Progressive,
+}
+
+/// A component of the picture, such as its luma.
+pub(super) struct Component {
+    pub(super) id: u8,
+    /// Blocks across and down in a unit of an interleaved scan.
+    pub(super) sampling: (u32, u32),
+    /// Blocks across and down that hold pixels.
+    pub(super) blocks: (u32, u32),
+    /// Blocks across in memory, those that fill up units included.
+    pub(super) stride: u32,
+    /// Coefficients that are not zero, a bit each by their order in the file; of progressive pictures.
+    pub(super) nonzero: Vec<u64>,
+    /// Lowest bit that was sent of every coefficient.
+    pub(super) sent: [Option<u8>; 64],
+}
+
+/// A frame as its header says it.
+pub(super) struct FrameHeader {
+    pub(super) process: Process,
+    /// Units of an interleaved scan across and down.
+    pub(super) units: (u32, u32),
+    pub(super) components: Vec<Component>,
+}
+
+impl FrameHeader {
+    /// Reads the segment of a marker SOF0, SOF1 or SOF2. `None` for what this check does not follow: other
+    /// depths than 8 bits, a height that comes later, and pictures beyond the limits.
+    pub(super) fn read(process: Process, segment: &[u8]) -> Result<Option<Self>, PictureFault> {
+        let wrong = || PictureFault::damaged("the header of its frame (SOF) is wrong");
+        let [depth, h1, h0, w1, w0, count, rest @ ..] = segment else { return Err(wrong()) };
+        let (height, width) = (u16::from_be_bytes([*h1, *h0]), u16::from_be_bytes([*w1, *w0]));
+        let (width, height) = (u32::from(width), u32::from(height));
+        if *depth != 8 || width.min(height) == 0 || width.max(height) > MAX_SIDE {
+            return Ok(None);
+        }
+        let parts = rest.chunks_exact(3);
+        if *count == 0 || *count > 4 || !parts.remainder().is_empty() || parts.len() != usize::from(*count) {
+            return Err(wrong());
+        }
+        let sampling = |part: &[u8]| (u32::from(part[1] >> 4), u32::from(part[1] & 15));
+        let most = parts.clone().map(sampling).fold((1, 1), |m, s| (m.0.max(s.0), m.1.max(s.1)));
+        let units = (width.div_ceil(8 * most.0), height.div_ceil(8 * most.1));
+        let mut components = Vec::new();
+        for part in parts {
+            let (across, down) = sampling(part);
+            if !(1..=4).contains(&across) || !(1..=4).contains(&down) {
+                return Err(wrong());
+            }
+            let side = |size: u32, own: u32, most: u32| (size * own).div_ceil(most).div_ceil(8);
+            let stride = units.0 * across;
+            let kept = if process == Process::Progressive { stride * units.1 * down } else { 0 };
+            components.push(Component {
+                id: part[0],
+                sampling: (across, down),
+                blocks: (side(width, across, most.0), side(height, down, most.1)),
+                stride,
+                nonzero: vec![0; kept as usize],
+                sent: [None; 64],
+            });
+        }
+        Ok(Some(Self { process, units, components }))
+    }
+}

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Follows the coded data of one scan, block by block, without computing a pixel.
+
+use super::bits::{BitReader, marker_at};
+use super::block::{Band, Block};
+use super::frame::{FrameHeader, Process};
+use super::huffman::HuffmanTable;
+use crate::picture::fault::PictureFault;
+
+/// Tables and the restart interval, as the segments before a scan left them.
+#[derive(Default)]
+pub(super) struct Tables {
+    pub(super) dc: [Option<HuffmanTable>; 4],
+    pub(super) ac: [Option<HuffmanTable>; 4],
+    /// Units between two restart markers; 0 is none.
+    pub(super) interval: u32,
+}
+
+/// A component in a scan.
+struct Part {
+    /// Its place in the frame.
+    component: usize,
+    dc: usize,
+    ac: usize,
+}
+
+/// The header of a scan.
+pub(super) struct ScanHeader {
+    parts: Vec<Part>,
+    band: Band,
+}
+
+impl ScanHeader {
+    /// Reads the segment of a marker SOS.
+    pub(super) fn read(frame: &FrameHeader, segment: &[u8]) -> Result<Self, PictureFault> {
+        let wrong = || PictureFault::damaged("the header of a scan (SOS) is wrong");
+        let (&count, rest) = segment.split_first().ok_or_else(wrong)?;
+        let count = usize::from(count);
+        if !(1..=frame.components.len()).contains(&count) || rest.len() < 2 * count + 3 {
+            return Err(wrong());
+        }
+        let (named, last) = rest.split_at(2 * count);
+        let mut parts: Vec<Part> = Vec::new();
+        for pair in named.chunks_exact(2) {
+            let component = frame.components.iter().position(|known| known.id == pair[0]);
+            let component = component.ok_or_else(wrong)?;
+            let (dc, ac) = (usize::from(pair[1] >> 4), usize::from(pair[1] & 15));
+            if dc > 3 || ac > 3 || parts.iter().any(|part| part.component == component) {
+                return Err(wrong());
+            }
+            parts.push(Part { component, dc, ac });
+        }
+        let band = match frame.process {
+            Process::Sequential => Band { first: 0, last: 63, high: 0, low: 0 },
+            Process::Progressive => {
+                let band = Band { first: last[0], last: last[1], high: last[2] >> 4, low: last[2] & 15 };
+                let of_one = if band.first == 0 { band.last == 0 } else { count == 1 };
+                let refines = band.high == 0 || band.high == band.low + 1;
+                if band.first > band.last || band.last > 63 || band.low > 13 || !of_one || !refines {
+                    return Err(wrong());
+                }
+                band
+            }
+        };
+        Ok(Self { parts, band })
+    }
+
+    /// Follows the data from `at` to the marker after it, whose place it gives.
+    pub(super) fn follow(
+        &self,
+        frame: &mut FrameHeader,
+        tables: &Tables,
+        bytes: &[u8],
+        at: usize,
+    ) -> Result<usize, PictureFault> {
+        self.note_progress(frame)?;
+        let units = match self.parts.as_slice() {
+            [alone] => frame.components[alone.component].blocks,
+            _ => frame.units,
+        };
+        let total = u64::from(units.0) * u64::from(units.1);
+        let mut bits = BitReader::new(bytes, at);
+        let mut block = Block::new(self.band, frame.process);
+        let mut done = 0;
+        let mut restarts = 0;
+        for y in 0..units.1 {
+            for x in 0..units.0 {
+                self.unit(frame, tables, (x, y), &mut block, &mut bits)?;
+                done += 1;
+                let due = tables.interval > 0 && done % u64::from(tables.interval) == 0;
+                if due && done < total {
+                    block.restart()?;
+                    let next = restart(&mut bits, bytes, restarts)?;
+                    bits.restart(next);
+                    restarts = (restarts + 1) % 8;
+                }
+            }
+        }
+        block.restart()?;
+        bits.end()
+    }
+
+    /// The blocks of one unit.
+    fn unit(
+        &self,
+        frame: &mut FrameHeader,
+        tables: &Tables,
+        (x, y): (u32, u32),
+        block: &mut Block,
+        bits: &mut BitReader<'_>,
+    ) -> Result<(), PictureFault> {
+        for (place, part) in self.parts.iter().enumerate() {
+            let component = &mut frame.components[part.component];
+            let (across, down) = if self.parts.len() == 1 { (1, 1) } else { component.sampling };
+            let tables = (tables.dc[part.dc].as_ref(), tables.ac[part.ac].as_ref());
+            for row in 0..down {
+                for column in 0..across {
+                    let at = (y * down + row) * component.stride + x * across + column;
+                    let mut none = 0;
+                    let nonzero = component.nonzero.get_mut(at as usize).unwrap_or(&mut none);
+                    block.follow(place, tables, nonzero, bits)?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Notes which bits of the coefficients this scan sends. A coefficient comes once, or, in a progressive
+    /// picture, from its high bits to its low ones.
+    fn note_progress(&self, frame: &mut FrameHeader) -> Result<(), PictureFault> {
+        let Band { first, last, high, low } = self.band;
+        for part in &self.parts {
+            let sent = &mut frame.components[part.component].sent;
+            let mut known = sent[usize::from(first)..=usize::from(last)].iter_mut();
+            let fits = |before: &Option<u8>| match high {
+                0 => before.is_none(),
+                high => *before == Some(high),
+            };
+            if !known.all(|before| {
+                let fits = fits(before);
+                *before = Some(low);
+                fits
+            }) {
+                return Err(PictureFault::damaged("a scan does not follow from those before it"));
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Passes over the restart marker with this number; gives the place after it.
+fn restart(bits: &mut BitReader<'_>, bytes: &[u8], number: u8) -> Result<usize, PictureFault> {
+    match marker_at(bytes, bits.end()?) {
+        Some((marker, next)) if marker == 0xD0 + number => Ok(next),
+        Some((marker, _)) => Err(PictureFault::damaged(format!(
+            "marker {marker:02X} stands where restart marker {:02X} should be",
+            0xD0 + number
+        ))),
+        None => Err(PictureFault::truncated("it has no end marker (EOI)")),
+    }
+}
