@@ -190,7 +190,7 @@ pub enum FootageError {
     #[error(
         "`{}` is an image of the type {name}, which is not read; convert it to PNG, for example with ImageMagick: \
          `magick '{}' '{}'`, or many at once with `mogrify -format png`; image types are {TYPES}",
-        path.display(), path.display(), path.with_extension("png").display()
+        path.display(), path.display(), converted(path).display()
     )]
     ImageType {
         /// The file.
@@ -283,6 +283,12 @@ impl From<ToolError> for FootageError {
     fn from(error: ToolError) -> Self {
         Self::Tool(Box::new(error))
     }
+}
+
+/// A name for an image after it was converted.
+fn converted(path: &Path) -> PathBuf {
+    let other = path.with_extension("png");
+    if other == path { path.with_extension("converted.png") } else { other }
 }
 
 /// To play it helps with a video that is damaged, not with what never was one.

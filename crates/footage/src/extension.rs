@@ -30,8 +30,9 @@ const OTHER_IMAGES: [(&str, &[&str]); 14] = [
 ];
 /// Videos that are read where they are named, but not looked for in folders.
 const OTHER_VIDEOS: [&str; 27] = [
-    "264", "265", "h264", "h265", "hevc", "avc", "ivf", "nut", "mxf", "vob", "asf", "rm", "rmvb", "dv",
-    "divx", "f4v", "qt", "m1v", "m2v", "mpv", "3g2", "ogm", "mjpg", "mjpeg", "mj2", "yuv", "av1",
+    "264", "265", "h264", "h265", "hevc", "avc", "ivf", "nut", "mxf", "vob", "asf", "rm", "rmvb",
+    "dv", "divx", "f4v", "qt", "m1v", "m2v", "mpv", "3g2", "ogm", "mjpg", "mjpeg", "mj2", "yuv",
+    "av1",
 ];
 /// Text and tables, which often stand beside images.
 const NOTES: [&str; 12] =

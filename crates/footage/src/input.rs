@@ -14,8 +14,8 @@ mod sniff;
 pub(crate) use content::other_image;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
 pub(crate) use find::expand;
-pub(crate) use skipped::{below, in_clip, same_number, sentences, skipped, unreadable};
 pub use skipped::{SkipReason, SkippedInput};
+pub(crate) use skipped::{below, in_clip, same_number, sentences, skipped, unreadable};
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};

@@ -9,6 +9,7 @@
 //! * Files that end early or are damaged are refused, even where a decoder would fill up with grey.
 //!   Each format has a check of its own for what its decoder passes over.
 
+mod bmp;
 mod fault;
 mod jpeg;
 mod png;
@@ -66,9 +67,11 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let image = reader.decode().map_err(|error| refusal(path, &error))?;
-    // Its header was read within the limits by now.
-    if format == ImageFormat::Pnm {
-        pnm::check(bytes).map_err(refused)?;
+    // These headers were read within the limits by now.
+    match format {
+        ImageFormat::Pnm => pnm::check(bytes).map_err(refused)?,
+        ImageFormat::Bmp => bmp::check(bytes).map_err(refused)?,
+        _ => {}
     }
     let (width, height) = (image.width(), image.height());
     let (samples, depth) = luma_samples(image);

@@ -12,7 +12,8 @@ use std::path::{Path, PathBuf};
 
 use crate::extension::is_image_name;
 use crate::input::{
-    EntryKind, SkipReason, SkippedInput, below, entries, entry_kind, in_clip, is_special, unreadable,
+    EntryKind, SkipReason, SkippedInput, below, entries, entry_kind, in_clip, is_special,
+    unreadable,
 };
 use crate::{FootageError, ImagesAs, InputOptions, picture};
 
@@ -70,7 +71,9 @@ pub fn plan<P: AsRef<Path>>(
         let place = if inputs.len() > 1 { name_of(path) } else { PathBuf::new() };
         if is_tree(path)? {
             let tree = tree(path)?;
-            clips.extend(tree.clips.into_iter().map(|clip| Clip { place: place.join(clip.place), ..clip }));
+            clips.extend(
+                tree.clips.into_iter().map(|clip| Clip { place: place.join(clip.place), ..clip }),
+            );
             skipped.extend(tree.skipped);
         } else {
             clips.push(Clip { inputs: vec![path.to_path_buf()], place, label: None });

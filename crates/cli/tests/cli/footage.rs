@@ -103,11 +103,14 @@ fn images_and_videos_side_by_side_are_a_question() {
     fail_in(dir.path(), 2, &["simulate", "mixed/*.mp4", "-o", "out"], &videos);
     assert_eq!(said(dir.path(), &["simulate", "mixed/*.png"]), "");
     let set = said(dir.path(), &["dataset", "mixed"]);
-    assert!(set.contains("warning: a set consists of images: videos in `mixed`"), "{set}");
+    assert!(
+        set.contains("warning: a set consists of images: videos in `mixed`, 1 in all"),
+        "{set}"
+    );
     fs::remove_file(dir.path().join("mixed/clip.mp4")).unwrap();
     let clip = said(dir.path(), &["simulate", "mixed"]);
     assert!(
-        clip.contains("warning: images in folders below `mixed`, such as `mixed/cat`"),
+        clip.contains("warning: images and videos in folders below `mixed`, such as `mixed/cat`"),
         "{clip}"
     );
     assert_eq!(said(dir.path(), &["dataset", "mixed"]), "");
@@ -168,7 +171,8 @@ fn every_command_that_reads_clips_says_what_it_leaves_out() {
         pgm(&dir.path().join(name), (16, 16), |x, y| (x * y).to_le_bytes()[0]);
     }
     fs::write(dir.path().join("space.toml"), "[vary]\nregion.size = [8]\n").unwrap();
-    let warning = "foveate: warning: images in folders below `clip`, such as `clip/more`";
+    let warning =
+        "foveate: warning: images and videos in folders below `clip`, such as `clip/more`";
     for args in [
         &["simulate", "clip"][..],
         &["analyze", "temporal", "clip"],

@@ -80,15 +80,21 @@ fn is_image(start: &[u8]) -> bool {
     match image::guess_format(start) {
         Ok(ImageFormat::Png | ImageFormat::Jpeg) => true,
         Ok(ImageFormat::Bmp) => {
-            matches!(start.get(6..18), Some([0, 0, 0, 0, .., 12 | 40 | 52 | 56 | 64 | 108 | 124, 0, 0, 0]))
+            matches!(
+                start.get(6..18),
+                Some([0, 0, 0, 0, .., 12 | 40 | 52 | 56 | 64 | 108 | 124, 0, 0, 0])
+            )
         }
-        Ok(ImageFormat::Pnm) => start.get(2).is_some_and(|byte| byte.is_ascii_whitespace() || *byte == b'#'),
+        Ok(ImageFormat::Pnm) => {
+            start.get(2).is_some_and(|byte| byte.is_ascii_whitespace() || *byte == b'#')
+        }
         _ => false,
     }
 }
 
 fn is_video(start: &[u8]) -> bool {
-    let at = |place: usize, mark: &[u8]| start.get(place..).is_some_and(|rest| rest.starts_with(mark));
+    let at =
+        |place: usize, mark: &[u8]| start.get(place..).is_some_and(|rest| rest.starts_with(mark));
     let starts: [&[u8]; 8] = [
         b"GIF8",
         b"OggS",
@@ -116,7 +122,8 @@ fn is_text(start: &[u8]) -> bool {
         }
         Err(_) => return false,
     };
-    !text.is_empty() && !text.contains(|c: char| c.is_control() && !c.is_whitespace() && c != '\x1B')
+    !text.is_empty()
+        && !text.contains(|c: char| c.is_control() && !c.is_whitespace() && c != '\x1B')
 }
 
 #[cfg(test)]

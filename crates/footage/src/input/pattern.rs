@@ -66,7 +66,8 @@ pub(super) fn skipped(text: &str) -> Vec<SkippedInput> {
     skipped::in_clip(&files, &mut found);
     let own: HashSet<&PathBuf> = files.iter().collect();
     let others = matches(text, false).unwrap_or_default();
-    let others = others.iter().filter(|path| !own.contains(path) && entry_kind(path) == EntryKind::Image);
+    let others =
+        others.iter().filter(|path| !own.contains(path) && entry_kind(path) == EntryKind::Image);
     found.extend(others.map(|path: &PathBuf| SkippedInput::new(path, SkipReason::OtherCase)));
     found
 }

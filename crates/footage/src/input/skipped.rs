@@ -76,7 +76,9 @@ pub(crate) fn skipped(input: &Path, images: ImagesAs) -> Vec<SkippedInput> {
             _ if has_images => in_clip(&listed, &mut found),
             _ => found = tree(input).map(|tree| tree.skipped).unwrap_or_default(),
         }
-    } else if !input.exists() && let Some(text) = input.to_str().filter(|text| pattern::is_pattern(text)) {
+    } else if !input.exists()
+        && let Some(text) = input.to_str().filter(|text| pattern::is_pattern(text))
+    {
         found = pattern::skipped(text);
     }
     found
@@ -140,7 +142,9 @@ fn holds_footage(folder: &Path, depth: u32) -> Result<bool, FootageError> {
     let is_footage = |path: &PathBuf| {
         matches!(
             entry_kind(path),
-            EntryKind::Image | EntryKind::Video | EntryKind::Skipped(Some(SkipReason::ImageType { .. }))
+            EntryKind::Image
+                | EntryKind::Video
+                | EntryKind::Skipped(Some(SkipReason::ImageType { .. }))
         )
     };
     let deeper = |path: &PathBuf| {
@@ -154,7 +158,8 @@ pub(crate) fn sentences(place: &Path, skipped: &[SkippedInput]) -> Vec<String> {
     let mut groups: Vec<Vec<&SkippedInput>> = Vec::new();
     for one in skipped {
         let kind = std::mem::discriminant(&one.reason);
-        let same = |group: &&mut Vec<&SkippedInput>| std::mem::discriminant(&group[0].reason) == kind;
+        let same =
+            |group: &&mut Vec<&SkippedInput>| std::mem::discriminant(&group[0].reason) == kind;
         match groups.iter_mut().find(same) {
             Some(group) => group.push(one),
             None => groups.push(vec![one]),

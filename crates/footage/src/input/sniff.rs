@@ -50,7 +50,10 @@ pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
         Content::Unknown => other_image(path),
         // ffmpeg would draw it, letter by letter.
         Content::Text if !is_video_name(path) => {
-            return Err(FootageError::Video { path: path.to_owned(), problem: "it is text".to_owned() });
+            return Err(FootageError::Video {
+                path: path.to_owned(),
+                problem: "it is text".to_owned(),
+            });
         }
         Content::Image | Content::Video | Content::DataSet | Content::Text => None,
     };

@@ -14,7 +14,7 @@ mod huffman;
 mod scan;
 
 use self::bits::marker_at;
-use self::frame::{FrameHeader, Process};
+use self::frame::{Component, FrameHeader, Process};
 use self::huffman::HuffmanTable;
 use self::scan::{ScanHeader, Tables};
 use super::fault::PictureFault;
@@ -50,8 +50,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
             }
             0xC0..=0xC2 => {
                 let progressive = marker == 0xC2;
-                let process =
-                    if progressive { Process::Progressive } else { Process::Sequential };
+                let process = if progressive { Process::Progressive } else { Process::Sequential };
                 frame = FrameHeader::read(process, segment)?;
                 if frame.is_none() {
                     return Ok(());
@@ -107,10 +106,13 @@ fn huffman_tables(mut segment: &[u8], tables: &mut Tables) -> Result<(), Picture
     Ok(())
 }
 
-/// Whether every component has been sent when the end marker comes.
+/// Whether every component has been sent, to its lowest bits, when the end marker comes.
 fn whole(frame: Option<&FrameHeader>) -> Result<(), PictureFault> {
     let frame = frame.ok_or_else(|| PictureFault::damaged("it has no frame (SOF)"))?;
-    if frame.components.iter().any(|component| component.sent[0].is_none()) {
+    let lacks = |component: &Component| {
+        component.sent[0].is_none() || component.sent.iter().flatten().any(|&low| low > 0)
+    };
+    if frame.components.iter().any(lacks) {
         return Err(PictureFault::damaged("a scan is missing before its end (EOI)"));
     }
     Ok(())

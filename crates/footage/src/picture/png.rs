@@ -87,7 +87,10 @@ fn raw_length(header: &[u8]) -> Option<u64> {
     match interlaced {
         0 => Some(length(width, height)),
         1 => Some(
-            PASSES.iter().map(|&[x, dx, y, dy]| length(part(width, x, dx), part(height, y, dy))).sum(),
+            PASSES
+                .iter()
+                .map(|&[x, dx, y, dy]| length(part(width, x, dx), part(height, y, dy)))
+                .sum(),
         ),
         _ => None,
     }
@@ -100,9 +103,9 @@ fn inflate(pixels: &[&[u8]], length: u64) -> Result<(), PictureFault> {
     // One byte more shows that there are too many.
     let unpacked = io::copy(&mut rows.by_ref().take(length + 1), &mut io::sink());
     match unpacked {
-        Ok(found) if found < length => {
-            Err(PictureFault::truncated(format!("it has {found} bytes of pixels, and needs {length}")))
-        }
+        Ok(found) if found < length => Err(PictureFault::truncated(format!(
+            "it has {found} bytes of pixels, and needs {length}"
+        ))),
         Ok(found) if found > length => {
             Err(PictureFault::damaged(format!("it has more than the {length} bytes of its pixels")))
         }

@@ -34,7 +34,9 @@ fn binary(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
         usize::try_from(length).ok().and_then(|length| raster.split_at_checked(length))
     else {
         let found = raster.len();
-        return Err(PictureFault::truncated(format!("it has {found} bytes of pixels, and needs {length}")));
+        return Err(PictureFault::truncated(format!(
+            "it has {found} bytes of pixels, and needs {length}"
+        )));
     };
     let beyond = |value: &u64| *value > header.largest;
     let sample = match (header.kind, header.largest) {
@@ -61,7 +63,9 @@ fn text(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
         let digits = str::from_utf8(&rest[..length]).unwrap_or_default();
         let Ok(value) = digits.parse::<u64>() else {
             return match rest.first() {
-                None => Err(PictureFault::truncated(format!("it has {found} samples, and needs {needed}"))),
+                None => Err(PictureFault::truncated(format!(
+                    "it has {found} samples, and needs {needed}"
+                ))),
                 Some(byte) => Err(PictureFault::damaged(format!(
                     "`{}` stands among its samples, where numbers are expected",
                     byte.escape_ascii()
@@ -78,7 +82,9 @@ fn text(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
 fn refuse_sample(header: &Header, sample: Option<u64>) -> Result<(), PictureFault> {
     let largest = header.largest;
     sample.map_or(Ok(()), |value| {
-        Err(PictureFault::damaged(format!("it has a sample of {value}, and its maximum is {largest}")))
+        Err(PictureFault::damaged(format!(
+            "it has a sample of {value}, and its maximum is {largest}"
+        )))
     })
 }
 
@@ -111,7 +117,8 @@ fn header(bytes: &[u8]) -> Option<(Header, &[u8])> {
 /// A header within the limits.
 fn known(header: Header, raster: &[u8]) -> Option<(Header, &[u8])> {
     let sides = header.width.max(header.height) <= u64::from(MAX_SIDE);
-    (sides && header.samples <= 4 && (1..=65_535).contains(&header.largest)).then_some((header, raster))
+    (sides && header.samples <= 4 && (1..=65_535).contains(&header.largest))
+        .then_some((header, raster))
 }
 
 /// A number after white space and comments.
@@ -149,12 +156,7 @@ fn arbitrary(mut rest: &[u8]) -> Option<(Header, &[u8])> {
         }
     }
     let [width, height, samples, largest] = values;
-    let header = Header {
-        kind: b'7',
-        width: width?,
-        height: height?,
-        samples: samples?,
-        largest: largest?,
-    };
+    let header =
+        Header { kind: b'7', width: width?, height: height?, samples: samples?, largest: largest? };
     known(header, rest)
 }

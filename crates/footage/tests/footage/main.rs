@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod clips;
+mod damage;
 mod fuzz;
 mod memory;
 mod pictures;

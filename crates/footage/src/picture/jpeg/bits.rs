@@ -80,9 +80,9 @@ impl<'a> BitReader<'a> {
         match self.marker() {
             None => PictureFault::truncated("its coded pixels end before the last row"),
             Some(0xD9) => PictureFault::damaged("coded pixels are missing before its end (EOI)"),
-            Some(marker) => {
-                PictureFault::damaged(format!("coded pixels are missing before marker {marker:02X}"))
-            }
+            Some(marker) => PictureFault::damaged(format!(
+                "coded pixels are missing before marker {marker:02X}"
+            )),
         }
     }
 

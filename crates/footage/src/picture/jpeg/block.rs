@@ -102,7 +102,9 @@ impl Block {
         let mean = &mut self.predicted[place];
         *mean += change;
         if (*mean << self.band.low).abs() > LARGEST_DC {
-            return Err(PictureFault::damaged("the mean of a block is beyond that of 8-bit pixels"));
+            return Err(PictureFault::damaged(
+                "the mean of a block is beyond that of 8-bit pixels",
+            ));
         }
         Ok(())
     }

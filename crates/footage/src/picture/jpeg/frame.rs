@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The header of the frame of a JPEG: its kind, its size, and the blocks of its components.
 
-use crate::picture::fault::PictureFault;
 use crate::limits::MAX_SIDE;
+use crate::picture::fault::PictureFault;
 
 /// How coefficients are spread over scans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,7 +46,11 @@ impl FrameHeader {
             return Ok(None);
         }
         let parts = rest.chunks_exact(3);
-        if *count == 0 || *count > 4 || !parts.remainder().is_empty() || parts.len() != usize::from(*count) {
+        if *count == 0
+            || *count > 4
+            || !parts.remainder().is_empty()
+            || parts.len() != usize::from(*count)
+        {
             return Err(wrong());
         }
         let sampling = |part: &[u8]| (u32::from(part[1] >> 4), u32::from(part[1] & 15));

@@ -53,10 +53,12 @@ impl ScanHeader {
         let band = match frame.process {
             Process::Sequential => Band { first: 0, last: 63, high: 0, low: 0 },
             Process::Progressive => {
-                let band = Band { first: last[0], last: last[1], high: last[2] >> 4, low: last[2] & 15 };
+                let band =
+                    Band { first: last[0], last: last[1], high: last[2] >> 4, low: last[2] & 15 };
                 let of_one = if band.first == 0 { band.last == 0 } else { count == 1 };
                 let refines = band.high == 0 || band.high == band.low + 1;
-                if band.first > band.last || band.last > 63 || band.low > 13 || !of_one || !refines {
+                if band.first > band.last || band.last > 63 || band.low > 13 || !of_one || !refines
+                {
                     return Err(wrong());
                 }
                 band
