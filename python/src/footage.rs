@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Footage of the command line, frame by frame through a camera of its own.
 
+use std::ffi::CString;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
 use foveate_engine::Engine;
-use foveate_footage::{ClipPlan, Kind, Source, open, plan};
+use foveate_footage::{ClipPlan, InputOptions, Kind, Source, open, plan, skipped_in_words};
 use foveate_frame::{Plane, Raster};
 use foveate_simulator::SimulatorError;
 use numpy::ndarray::Axis;
@@ -35,6 +36,19 @@ pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
             "inputs are a path, a pattern or scene:NAME, or a list of these; arrays go to Camera.step",
         )
     })
+}
+
+/// Warns of files and folders among the inputs that are not read although they might have been meant.
+pub(crate) fn warn_of_skipped(
+    py: Python<'_>,
+    inputs: &[PathBuf],
+    options: &InputOptions,
+) -> PyResult<()> {
+    for sentence in py.detach(|| skipped_in_words(inputs, options)) {
+        let text = CString::new(sentence).unwrap_or_default();
+        PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
+    }
+    Ok(())
 }
 
 /// A run over footage, made by `simulate`: an iterator of outcomes that holds one frame at a time.
@@ -110,7 +124,7 @@ impl Run {
         let Some(Step { taken, frame, screen }) = next else {
             let problem = self.problem(py);
             if let Some(problem) = problem {
-                let text = std::ffi::CString::new(problem).unwrap_or_default();
+                let text = CString::new(problem).unwrap_or_default();
                 PyErr::warn(py, &py.get_type::<PyUserWarning>(), &text, 1)?;
             }
             return Ok(None);
@@ -207,6 +221,7 @@ pub(crate) fn simulate(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<Run> {
     let (inputs, options) = (paths(inputs)?, input_options("simulate", &[], options)?);
+    warn_of_skipped(py, &inputs, &options)?;
     let config = config::read(camera, None)?;
     at_once(py, move || -> PyResult<Run> {
         if let ClipPlan::Batch(clips) = plan(&inputs, &options).map_err(raise)? {

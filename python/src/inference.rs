@@ -18,7 +18,7 @@ use pyo3::types::PyDict;
 
 use crate::config;
 use crate::error::raise;
-use crate::footage::paths;
+use crate::footage::{paths, warn_of_skipped};
 use crate::frame::{Grey, untyped};
 use crate::options::input_options;
 use crate::study::json;
@@ -179,6 +179,9 @@ pub(crate) fn infer(
     let input = input_options("infer", &OWN, Some(&options))?;
     let config = config::read(camera, None)?;
     let shown = shown(inputs, config.camera.frame.pixel_bits)?;
+    if let Shown::Paths(paths) = &shown {
+        warn_of_skipped(py, paths, &input)?;
+    }
     let summary = interruptible(py, |cancel| {
         let inference = match shown {
             Shown::Paths(paths) => {

@@ -10,7 +10,7 @@ use pyo3::types::PyDict;
 
 use crate::config;
 use crate::error::{raise, value_error};
-use crate::footage::paths;
+use crate::footage::{paths, warn_of_skipped};
 use crate::options::input_options;
 use crate::work::{at_once, interruptible};
 
@@ -31,6 +31,7 @@ pub(crate) fn explain(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(String, String)> {
     let (inputs, options) = (paths(inputs)?, input_options("explain", &[], options)?);
+    warn_of_skipped(py, &inputs, &options)?;
     let config = config::read(camera, None)?;
     let explanation = at_once(py, move || {
         let source = open(&inputs, &config.camera, &options).map_err(raise)?;
@@ -50,6 +51,7 @@ pub(crate) fn fidelity(
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<(String, Option<String>)> {
     let (inputs, options) = (paths(inputs)?, input_options("fidelity", &["ideal"], options)?);
+    warn_of_skipped(py, &inputs, &options)?;
     let config = config::read(camera, None)?;
     let ideal =
         ideal.map_or_else(|| Ok(config.clone()), |ideal| config::read(Some(ideal), None))?;

@@ -231,6 +231,16 @@ def test_footage_that_cannot_be_read_is_refused_as_on_the_command_line(tmp_path)
         fv.events([*fv.simulate("scene:street", max_frames=1), *fv.simulate("scene:street", "mad", max_frames=1)])
 
 
+def test_a_file_that_is_skipped_is_told(tmp_path):
+    for number in range(2):
+        (tmp_path / f"{number}.pgm").write_bytes(b"P5 8 8 255\n" + bytes([number]) * 64)
+    assert len(list(fv.simulate(tmp_path))) == 2
+    (tmp_path / "2.tif").write_bytes(b"II*\0" + bytes(8))
+    with pytest.warns(UserWarning, match="2.tif` is skipped: images of the type TIFF are not read"):
+        run = fv.simulate(tmp_path)
+    assert len(list(run)) == 2
+
+
 def test_a_damaged_video_gives_what_there_is_and_warns(frames, tmp_path):
     path = tmp_path / "clip.y4m"
     header = b"YUV4MPEG2 W83 H60 F30:1 Cmono\n"

@@ -40,6 +40,13 @@ pub fn skipped<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<Skip
     inputs.flat_map(|input| input::skipped(input, options.images)).collect()
 }
 
+/// What is said of [`skipped`] entries: a sentence for each reason, with how many there are and one of them.
+#[must_use]
+pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
+    let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
+    inputs.flat_map(|input| sentences(input, &input::skipped(input, options.images))).collect()
+}
+
 /// Two frames of a clip with one number.
 fn twice(files: &[ImageFile], images: ImagesAs) -> Option<String> {
     let paths: Vec<&Path> = files.iter().map(|file| file.path.as_path()).collect();

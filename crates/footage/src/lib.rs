@@ -25,7 +25,7 @@ mod subject;
 mod video;
 mod y4m;
 
-pub use advice::{advice, skipped};
+pub use advice::{advice, skipped, skipped_in_words};
 pub use error::FootageError;
 pub use hooks::{Hooks, Progress, Silent};
 pub use input::{SkipReason, SkippedInput, is_camera, is_read_once, open};

@@ -5,7 +5,7 @@ pub(crate) mod cifar;
 pub(crate) mod idx;
 
 use std::fs::File;
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use flate2::bufread::MultiGzDecoder;
@@ -41,7 +41,19 @@ fn damaged(path: &Path, problem: impl Into<String>) -> FootageError {
 
 fn cut(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
     |error| match error.kind() {
-        io::ErrorKind::UnexpectedEof => damaged(path, "it ends before its last image"),
-        _ => damaged(path, error.to_string()),
+        io::ErrorKind::UnexpectedEof => damaged(path, "its compressed data have no end"),
+        _ => damaged(path, format!("its compressed data are damaged ({error})")),
     }
+}
+
+/// Reads to the end of a file, where nothing may be left; a gzipped one has its checksum there.
+fn end(input: &mut dyn BufRead, path: &Path, after: &str) -> Result<(), FootageError> {
+    let left = io::copy(&mut input.take(u64::MAX), &mut io::sink()).map_err(cut(path))?;
+    if left > 0 {
+        return Err(damaged(
+            path,
+            format!("{left} bytes follow {after} that its header announces"),
+        ));
+    }
+    Ok(())
 }

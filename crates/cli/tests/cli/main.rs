@@ -32,6 +32,7 @@ mod serial;
 mod served;
 mod signals;
 mod simulation;
+mod skipped;
 mod stress;
 mod studies;
 mod synth;

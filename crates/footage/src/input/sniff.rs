@@ -45,6 +45,15 @@ pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
     if idx::is_other(&start) {
         return Err(frameless("it is an IDX file, but not of 8-bit images (00 00 08 03)"));
     }
+    if start.starts_with(&idx::MAGIC) {
+        return Ok(FileKind::Idx);
+    }
+    if start.starts_with(y4m::MAGIC) {
+        return Ok(FileKind::Y4m);
+    }
+    if binary && cifar::labels_in_batch(length).is_some() {
+        return Ok(FileKind::CifarBatch);
+    }
     let other = match of_start(&start) {
         Content::OtherImage(name) => Some(name),
         Content::Unknown => other_image(path),
@@ -57,16 +66,8 @@ pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
         }
         Content::Image | Content::Video | Content::DataSet | Content::Text => None,
     };
-    if let Some(name) = other {
-        return Err(FootageError::ImageType { path: path.to_owned(), name });
+    match other {
+        Some(name) => Err(FootageError::ImageType { path: path.to_owned(), name }),
+        None => Ok(FileKind::Video),
     }
-    Ok(if start.starts_with(&idx::MAGIC) {
-        FileKind::Idx
-    } else if start.starts_with(y4m::MAGIC) {
-        FileKind::Y4m
-    } else if binary && cifar::labels_in_batch(length).is_some() {
-        FileKind::CifarBatch
-    } else {
-        FileKind::Video
-    })
 }

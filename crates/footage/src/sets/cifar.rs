@@ -55,11 +55,24 @@ impl Batch {
 
 impl Feed for Batch {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
-        match self.file.read_exact(&mut self.record) {
-            Err(error) if error.kind() == ErrorKind::UnexpectedEof => return Ok(None),
-            read => read.map_err(unreadable(&self.path))?,
+        if self.next == self.total {
+            return Ok(None);
         }
+        self.file.read_exact(&mut self.record).map_err(|error| match error.kind() {
+            // Its length was right when it was opened.
+            ErrorKind::UnexpectedEof => damaged(&self.path, "it ends before its last image"),
+            _ => unreadable(&self.path)(error),
+        })?;
         let (labels, planes) = self.record.split_at(self.record.len() - 3 * AREA);
+        let classes: &[u8] = if labels.len() == 1 { &[10] } else { &[20, 100] };
+        if let Some((label, classes)) =
+            labels.iter().zip(classes).find(|(label, most)| label >= most)
+        {
+            let image = self.next;
+            let problem =
+                format!("the label {label} of image {image} is not one of {classes} classes");
+            return Err(damaged(&self.path, problem));
+        }
         let (red, rest) = planes.split_at(AREA);
         let (green, blue) = rest.split_at(AREA);
         let mix = |((&r, &g), &b): ((&u8, &u8), &u8)| {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! IDX files of 8-bit images (MNIST), plain or gzipped, with the labels of the file beside them.
 
-use std::io::{BufRead, Read};
+use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
 
-use super::{cut, damaged, is_packed, open_unpacked};
+use super::{cut, damaged, end, is_packed, open_unpacked};
 use crate::samples::Layout;
 use crate::source::feed::Feed;
 use crate::source::form::{IdxFile, Labels, SetFiles, SetForm};
@@ -66,6 +66,7 @@ impl Idx {
 impl Feed for Idx {
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         if self.next == self.total {
+            end(&mut *self.input, &self.path, "the last image")?;
             return Ok(None);
         }
         let (width, height) = self.size;
@@ -156,10 +157,11 @@ fn labels_of(path: &Path, images: u32) -> Result<Vec<u8>, FootageError> {
         ));
     }
     let mut labels = Vec::new();
-    input.take(total.into()).read_to_end(&mut labels).map_err(cut(path))?;
+    (&mut *input).take(total.into()).read_to_end(&mut labels).map_err(cut(path))?;
     if labels.len() < total as usize {
         return Err(damaged(path, "it ends before its last label"));
     }
+    end(&mut *input, path, "the last label")?;
     Ok(labels)
 }
 
@@ -172,6 +174,9 @@ fn read<const SIZE: usize>(
     path: &Path,
 ) -> Result<[u8; SIZE], FootageError> {
     let mut bytes = [0; SIZE];
-    input.read_exact(&mut bytes).map_err(|_| damaged(path, "it ends inside its header"))?;
+    input.read_exact(&mut bytes).map_err(|error| match error.kind() {
+        io::ErrorKind::UnexpectedEof => damaged(path, "it ends inside its header"),
+        _ => cut(path)(error),
+    })?;
     Ok(bytes)
 }

@@ -28,6 +28,8 @@ fn damaged_files_are_refused_in_one_line() {
         ("1,1,1,1,1,1,1,1,1\n1,1,5,5,1,1,0,1,1\n", vec!["line 2", "second box in frame 1"]),
         ("file,x0,y0,x1\na,1,2,3\n", vec!["line 1", "no column `y1`"]),
         ("file,x0,y0,x1,y1\na,1,2,3\n", vec!["line 2", "4 columns; expected 5"]),
+        ("file,x0,y0,x1,y1\na,b.png,1,2,3,4\n", vec!["line 2", "6 columns; expected 5"]),
+        ("file,x0,y0,x1,y1,x0\na,1,2,3,4,5\n", vec!["line 1", "`x0` is there twice"]),
         ("file,x0,y0,x1,y1\na,1,2,3,4\nb,5,2,3,4\n", vec!["line 3", "ends before it begins"]),
         ("file,x0,y0,x1,y1\n,1,2,3,4\n", vec!["line 2", "name of the image"]),
         ("file,x0,y0,x1,y1\na,,2,3,4\n", vec!["line 2", "`` is no x0"]),
@@ -62,6 +64,7 @@ fn text_that_is_no_text_is_refused() {
 
 #[test]
 fn a_damaged_file_of_a_yolo_folder_names_itself() {
+    let long = format!("{:<4096}{}", "0 0.5 0.5 1 1", "0 0.1 0.1 0.1 0.1").into_bytes();
     let folder = tempfile::tempdir().unwrap();
     let long = "0 0.5 0.5 1 1\n".to_owned() + &" ".repeat(4096) + "0 0.5 0.5 1 1\n";
     for (text, parts) in [
@@ -70,6 +73,8 @@ fn a_damaged_file_of_a_yolo_folder_names_itself() {
         (b"0 0.5 0.5 1 1.5\n", ["line 1", "1.5 is no share"]),
         (b"0.5 0.5 0.5 1 1\n", ["line 1", "`0.5` is no class"]),
         (b"0 0.5 \xff 1 1\n", ["line 1", "UTF-8"]),
+        // Cut at its limit, the line would be two boxes.
+        (&long, ["line 1", "more than 4096 characters"]),
     ] {
         file(folder.path(), "a.txt", text);
         let boxes = Boxes::read(folder.path()).unwrap();

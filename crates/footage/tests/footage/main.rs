@@ -8,4 +8,5 @@ mod fuzz;
 mod memory;
 mod pictures;
 mod seek;
+mod sets;
 mod video;

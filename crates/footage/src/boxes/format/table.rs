@@ -31,6 +31,12 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxErr
             in_line(path, &headers, problem)
         })?;
     }
+    for column in COLUMNS {
+        if headers.iter().filter(|header| *header == column).count() > 1 {
+            let problem = format!("the column `{column}` is there twice; leave one out");
+            return Err(in_line(path, &headers, problem));
+        }
+    }
     let mut images: HashMap<String, Vec<Labelled>> = HashMap::new();
     for (number, record) in file.records().enumerate() {
         let record = record.map_err(|error| unreadable(path, error))?;
@@ -38,12 +44,14 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxErr
         if number == MAX_BOXES {
             return Err(wrong(limits::too_many()));
         }
+        if record.len() != headers.len() {
+            // A comma in a name without quotation marks moves all that follows by a column.
+            let (found, expected) = (record.len(), headers.len());
+            return Err(wrong(format!("the row has {found} columns; expected {expected}")));
+        }
         let mut fields = [""; COLUMNS.len()];
         for (field, place) in fields.iter_mut().zip(places) {
-            *field = record.get(place).ok_or_else(|| {
-                let (found, expected) = (record.len(), headers.len());
-                wrong(format!("the row has {found} columns; expected {expected}"))
-            })?;
+            *field = record.get(place).unwrap_or_default();
         }
         let [name, corners @ ..] = fields;
         let names = [COLUMNS[1], COLUMNS[2], COLUMNS[3], COLUMNS[4]];
