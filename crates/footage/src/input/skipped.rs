@@ -199,7 +199,7 @@ impl fmt::Display for SkipReason {
                 f.write_str("it has no extension; rename it if it is an image or a video")
             }
             Self::OtherName => f.write_str(
-                "it is an image or a video, but its extension is that of neither; rename it",
+                "it is an image or a video, but has the extension of neither; rename it",
             ),
             Self::VideoName => f.write_str(
                 "videos with this extension are not looked for in folders; name it on its own",

@@ -27,8 +27,9 @@ pub(super) struct Object {
 pub(super) struct Truth {
     boxes: Arc<Boxes>,
     crop: Option<Crop>,
-    /// Whether any frame had an entry.
-    found: bool,
+    /// Frames in all, and those with an entry.
+    frames: u64,
+    found: u64,
     /// Boxes that lie mostly outside of the frame, over all frames.
     outside: u64,
     /// Centres of the tracks in the frame before.
@@ -39,7 +40,7 @@ pub(super) struct Truth {
 impl Truth {
     pub(super) fn new(boxes: Arc<Boxes>, crop: Option<Crop>) -> Self {
         let (before, objects) = (HashMap::new(), Vec::new());
-        Self { boxes, crop, found: false, outside: 0, before, objects }
+        Self { boxes, crop, frames: 0, found: 0, outside: 0, before, objects }
     }
 
     pub(super) fn objects(&self) -> &[Object] {
@@ -48,15 +49,17 @@ impl Truth {
 
     /// An error where the boxes have nothing to do with the clip.
     pub(super) fn check(&self, clip: &str) -> Result<(), BoxError> {
-        if self.found { Ok(()) } else { Err(self.boxes.none_fit(clip)) }
+        if self.found > 0 { Ok(()) } else { Err(self.boxes.none_fit(clip)) }
     }
 
     /// Where the objects are from.
     pub(super) fn note(&self, clip: &str) -> String {
         let (path, format) = (self.boxes.path().display(), self.boxes.format().name());
-        let outside = self.outside;
+        let Self { outside, frames, found, .. } = self;
+        let without = frames - found;
         format!(
-            "{clip}: boxes {path} ({format}); {outside} lie mostly outside of the frame, left out"
+            "{clip}: boxes {path} ({format}); {outside} lie mostly outside of the frame, left out; \
+             {without} of {frames} frames have no entry and count as frames without objects"
         )
     }
 }
@@ -66,7 +69,8 @@ impl Guide for Truth {
         self.objects.clear();
         let origin = source.origin().expect("an input knows where its frames are from");
         let labelled = self.boxes.at(&Place::of(frame, &origin))?;
-        self.found |= labelled.is_some();
+        self.frames += 1;
+        self.found += u64::from(labelled.is_some());
         let labelled = labelled.unwrap_or_default();
         // In a set an object is in one image.
         let has_tracks = source.kind() == Kind::Clip;
