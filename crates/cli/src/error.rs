@@ -151,6 +151,7 @@ fn simulator_code(error: &SimulatorError) -> u8 {
 fn footage_code(error: &FootageError) -> u8 {
     match error {
         FootageError::Tool(error) => tool_code(error),
+        FootageError::Interrupted => interrupt::exit_code(),
         _ => INPUT,
     }
 }

@@ -1,20 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Signals that ask to stop: Ctrl-C, SIGTERM (containers, Slurm, systemd) and SIGHUP (a terminal that is
-//! closed). Every command looks at one flag, so that nothing half-done is left behind.
+//! closed). A thread hears them, whatever the command waits for.
+//!
+//! * A command that has nothing to keep yet ends at once, and so does every tool that it runs.
+//! * From [`flag`] on, the first signal only makes a request, at which the command keeps what is done and ends by itself.
+//! * A further signal ends it at once, if it is not the same that another sender repeats.
 
 use std::io;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, LazyLock, Mutex, MutexGuard, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
-use foveate_toolchain::Toolchain;
+use foveate_toolchain::{Interrupt, Toolchain, end_all_families};
 use signal_hook::consts::{SIGINT, SIGTERM};
-use signal_hook::flag::{register, register_conditional_shutdown, register_usize};
+use signal_hook::iterator::Signals;
 use thiserror::Error;
 
+use crate::output;
+
 /// What shells add to the number of the signal that ended a program.
-const OF_SIGNALS: u8 = 128;
-/// The number of Ctrl-C everywhere.
-const KEYBOARD: u8 = 2;
+const OF_SIGNALS: i32 = 128;
+/// A second Ctrl-C that comes sooner is the first, which `timeout` or a shell passes on.
+const SAME_KEY: Duration = Duration::from_millis(100);
+/// Other signals may come more than once without a person behind them (`timeout` sends two, systemd SIGTERM and SIGHUP).
+const SAME_REQUEST: Duration = Duration::from_secs(1);
 
 /// The system does not let signals be heard.
 #[derive(Debug, Error)]
@@ -23,23 +32,50 @@ pub(crate) struct DeafError {
     reason: String,
 }
 
-static SIGNAL: OnceLock<Arc<AtomicUsize>> = OnceLock::new();
+/// What was heard, and what it means to the command.
+struct Heard {
+    /// The first signal, and when it came.
+    first: Option<(i32, Instant)>,
+    /// Whether the command ends by itself.
+    has_results: bool,
+}
 
-/// A flag that the first signal sets. A second Ctrl-C ends the process at once; SIGTERM and SIGHUP may come
-/// more than once without a person behind it (`timeout` sends two).
+static REQUEST: LazyLock<Interrupt> = LazyLock::new(Interrupt::default);
+static HEARD: Mutex<Heard> = Mutex::new(Heard { first: None, has_results: false });
+
+fn heard() -> MutexGuard<'static, Heard> {
+    HEARD.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+/// Hears signals from here on. Until [`flag`] is asked for, the first ends the process.
+pub(crate) fn listen() -> Result<(), DeafError> {
+    static LISTENING: OnceLock<Result<(), String>> = OnceLock::new();
+    let listening = LISTENING.get_or_init(|| start().map_err(|error| error.to_string()));
+    listening.clone().map_err(|reason| DeafError { reason })
+}
+
+/// A flag that the first signal sets, for a command that has begun work of which something is kept, and looks at the
+/// flag.
 pub(crate) fn flag() -> Result<Arc<AtomicBool>, DeafError> {
-    static LISTENING: OnceLock<Result<Arc<AtomicBool>, String>> = OnceLock::new();
-    LISTENING
-        .get_or_init(|| listen().map_err(|error| error.to_string()))
-        .clone()
-        .map_err(|reason| DeafError { reason })
+    listen()?;
+    heard().has_results = true;
+    Ok(REQUEST.flag())
+}
+
+/// The same for everything that waits; by itself it does not mean that there is something to keep.
+pub(crate) fn request() -> Interrupt {
+    REQUEST.clone()
 }
 
 /// The exit code of a command that was told to stop: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
 pub(crate) fn exit_code() -> u8 {
-    let signal = SIGNAL.get().map_or(0, |signal| signal.load(Ordering::Relaxed));
     // Where a tool was interrupted without us there is no number.
-    OF_SIGNALS + u8::try_from(signal).ok().filter(|&signal| signal != 0).unwrap_or(KEYBOARD)
+    let signal = heard().first.map_or(SIGINT, |(signal, _)| signal);
+    code_of(signal).try_into().unwrap_or(u8::MAX)
+}
+
+fn code_of(signal: i32) -> i32 {
+    OF_SIGNALS + signal
 }
 
 /// The tools of this machine, stopped by the same signals.
@@ -47,25 +83,36 @@ pub(crate) fn toolchain() -> Result<Toolchain, DeafError> {
     Ok(Toolchain::system().cancelled_by(flag()?))
 }
 
-fn listen() -> io::Result<Arc<AtomicBool>> {
-    let flag = Arc::<AtomicBool>::default();
-    let number = Arc::clone(SIGNAL.get_or_init(Arc::default));
-    for signal in heeded() {
-        if signal == SIGINT {
-            // Before the flag of the first Ctrl-C, so that only a second one finds it set.
-            let pressed = Arc::<AtomicBool>::default();
-            let code = i32::from(OF_SIGNALS + KEYBOARD);
-            register_conditional_shutdown(signal, code, Arc::clone(&pressed))?;
-            register(signal, pressed)?;
+fn start() -> io::Result<()> {
+    let mut signals = Signals::new(heeded())?;
+    let listener = std::thread::Builder::new().name("signals".to_owned());
+    listener.spawn(move || signals.forever().for_each(hear)).map(drop)
+}
+
+fn hear(signal: i32) {
+    let mut heard = heard();
+    match heard.first {
+        None => {
+            heard.first = Some((signal, Instant::now()));
+            REQUEST.flag().store(true, Ordering::Relaxed);
+            if !heard.has_results {
+                output::say("interrupted; nothing was written");
+                exit(signal);
+            }
         }
-        register_usize(
-            signal,
-            Arc::clone(&number),
-            usize::try_from(signal).expect("a signal has a positive number"),
-        )?;
-        register(signal, Arc::clone(&flag))?;
+        Some((first, when)) => {
+            let same = if (first, signal) == (SIGINT, SIGINT) { SAME_KEY } else { SAME_REQUEST };
+            if when.elapsed() >= same {
+                exit(signal);
+            }
+        }
     }
-    Ok(flag)
+}
+
+/// Ends the process, and every tool with it, without a look at what it does.
+fn exit(signal: i32) -> ! {
+    end_all_families();
+    signal_hook::low_level::exit(code_of(signal))
 }
 
 /// All but those that are ignored since the start: `nohup` does so, and a shell for what it starts in the

@@ -19,6 +19,7 @@ use std::ffi::OsString;
 
 use args::{Cli, Command};
 use clap::Parser;
+use foveate_toolchain::end_all_families;
 
 /// Runs the command with these words, of which the first is its name. Returns its exit code. Listens for
 /// signals from then on, so it is for processes that do nothing else.
@@ -29,21 +30,24 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => {
             let error = hint::with_hint(error);
-            // Help goes to standard output, which may be closed.
-            let _ = error.print();
+            output::usage(&error);
             return u8::try_from(error.exit_code()).expect("clap ends with 0 or 2");
         }
     };
-    match run_command(&cli, &words) {
+    let code = match run_command(&cli, &words) {
         Ok(()) => 0,
         Err(error) => {
             output::say(&error);
             error.exit_code()
         }
-    }
+    };
+    // A thread that still waits for a tool does not end it.
+    end_all_families();
+    code
 }
 
 fn run_command(cli: &Cli, words: &[OsString]) -> Result<(), error::CliError> {
+    interrupt::listen()?;
     if let Some(threads) = cli.command.threads() {
         threads.start()?;
     }

@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, Write};
 
+use foveate_footage::redacted;
 use serde::Serialize;
 use terminal_size::Width;
 
@@ -43,14 +44,27 @@ fn print(text: &str) -> Result<(), CliError> {
     }
 }
 
-/// Says on standard error what the user should know.
-pub(crate) fn say(text: &impl Display) {
-    eprintln!("foveate: {}", printable(&text.to_string()));
+/// Says on standard error what the user should know. Nothing that is said has the secrets of an address, wherever it comes from,
+/// and none of it moves the cursor of a terminal.
+pub(crate) fn say(text: &(impl Display + ?Sized)) {
+    // A terminal that was closed hears nothing, and that changes no exit code.
+    let _ = writeln!(io::stderr(), "foveate: {}", printable(&redacted(&text.to_string())));
 }
 
 /// Says on standard error what the user should know although the command goes on.
 pub(crate) fn warn(text: &str) {
     say(&format_args!("warning: {text}"));
+}
+
+/// Prints help, or what is wrong with the words of the command line.
+pub(crate) fn usage(error: &clap::Error) {
+    let plain = error.render().to_string();
+    if error.use_stderr() && redacted(&plain) != plain {
+        let _ = write!(io::stderr(), "{}", redacted(&plain));
+        return;
+    }
+    // Help goes to standard output, which may be closed.
+    let _ = error.print();
 }
 
 /// Prints `value` as indented JSON.

@@ -151,7 +151,10 @@ pub enum ExploreError {
 
 impl From<FootageError> for ExploreError {
     fn from(error: FootageError) -> Self {
-        Self::Footage(Box::new(error))
+        match error {
+            FootageError::Interrupted => Self::Cancelled,
+            error => Self::Footage(Box::new(error)),
+        }
     }
 }
 

@@ -9,7 +9,9 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use foveate_camera::{Camera, CameraConfig};
 use foveate_fidelity::{ErrorTally, Figures};
 use foveate_footage::boxes::{Boxes, Clip, assign};
-use foveate_footage::{InputOptions, Source, SourceFrame, Subject, is_read_once, open, subjects};
+use foveate_footage::{
+    InputOptions, Source, SourceFrame, Subject, is_read_once, open, shown_input, subjects,
+};
 use foveate_frame::Rect;
 
 use crate::measure::{self, Measured};
@@ -62,7 +64,7 @@ impl<'a> Footage<'a> {
         hooks: &'a dyn Hooks,
     ) -> Result<Self, ExploreError> {
         if let Some(once) = inputs.iter().find(|input| is_read_once(input)) {
-            return Err(ExploreError::ReadOnce { input: once.display().to_string() });
+            return Err(ExploreError::ReadOnce { input: shown_input(once) });
         }
         let subjects = subjects(inputs, input)?;
         let mut first: Option<(&str, (u32, u32))> = None;

@@ -8,6 +8,7 @@ use std::fs;
 use std::ops::Range;
 use std::path::Path;
 
+use foveate_footage::shown_input;
 use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 use serde::{Deserialize, Serialize};
@@ -114,7 +115,7 @@ fn parts<'a>(work: &'a Work<'_>, output: &'a Path) -> impl Iterator<Item = Part>
             let unit = Unit {
                 unit,
                 clip: subject.name.clone(),
-                inputs: subject.inputs.iter().map(|path| path.display().to_string()).collect(),
+                inputs: subject.inputs.iter().map(|path| shown_input(path)).collect(),
                 combinations: points[looks.clone()].iter().map(|point| point.combination).collect(),
                 file: file.display().to_string(),
             };

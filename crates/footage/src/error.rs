@@ -169,6 +169,16 @@ pub enum FootageError {
         /// Width and height of the frame.
         size: (u32, u32),
     },
+    /// A device that is none that frames come from.
+    #[error(
+        "`{}` is a device, but frames come from files, pipes and cameras; name a camera as `v4l2:{}`",
+        path.display(),
+        path.display()
+    )]
+    Device {
+        /// The device.
+        path: PathBuf,
+    },
     /// ffmpeg is missing or cannot be started.
     #[error(transparent)]
     Tool(Box<ToolError>),
@@ -268,6 +278,9 @@ pub enum FootageError {
         /// What it says.
         reason: String,
     },
+    /// The user has asked to stop.
+    #[error("interrupted")]
+    Interrupted,
     /// The configuration does not fit.
     #[error(transparent)]
     Design(#[from] ConfigError),
@@ -281,7 +294,7 @@ pub enum FootageError {
 
 impl From<ToolError> for FootageError {
     fn from(error: ToolError) -> Self {
-        Self::Tool(Box::new(error))
+        if error.is_interrupted() { Self::Interrupted } else { Self::Tool(Box::new(error)) }
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How a run over the frames of a source reports what is done, and hears that it is to stop.
 
+use foveate_toolchain::Interrupt;
+
 /// Progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
@@ -17,6 +19,11 @@ pub trait Hooks {
 
     /// Returns whether to stop. The result is then what was done so far, marked as incomplete.
     fn cancelled(&self) -> bool;
+
+    /// The same as a request that waits look at; hooks without one let a wait last as long as it does.
+    fn interrupt(&self) -> Interrupt {
+        Interrupt::default()
+    }
 }
 
 /// Hooks that report nothing and never stop.

@@ -22,14 +22,16 @@ use std::path::{Path, PathBuf};
 
 use foveate_camera::CameraConfig;
 use foveate_scenes::{Scene, SceneSize};
+use foveate_toolchain::{InterruptibleReader, standard_input};
 
+use crate::address::{Address, shown_input};
 use crate::options::{ImagesAs, InputOptions};
 use crate::sets::cifar::{Batch, Sheet};
 use crate::sets::idx::Idx;
-use crate::sets::open_unpacked;
+use crate::sets::{open_pipe, open_unpacked};
 use crate::source::feed::{Adjustment, Feed, Input};
 use crate::source::files::{ImageFile, ImageFiles, SceneFeed};
-use crate::video::{Medium, Video, without_password};
+use crate::video::{Medium, Video};
 use crate::y4m::Y4m;
 use crate::{FootageError, Kind, Source, picture};
 
@@ -48,7 +50,7 @@ pub fn open<P: AsRef<Path>>(
 ) -> Result<Box<dyn Source>, FootageError> {
     let inputs: Vec<&Path> = inputs.iter().map(AsRef::as_ref).collect();
     let feed = feed(&inputs, config, options)?;
-    let names = inputs.iter().map(|input| shown(input)).collect();
+    let names = inputs.iter().map(|input| shown_input(input)).collect();
     Ok(Box::new(Input::new(names, feed, Adjustment::of(options))?))
 }
 
@@ -57,15 +59,14 @@ fn after<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
     input.to_str()?.strip_prefix(prefix)
 }
 
-/// The address of a camera in the network.
-fn network(input: &Path) -> Option<&str> {
-    let is_camera = |text: &&str| text.starts_with("rtsp://") || text.starts_with("rtsps://");
-    input.to_str().filter(is_camera)
+/// Whether an input is neither a file nor a folder, but bytes that come once: a FIFO, a socket, `/dev/stdin`.
+fn is_pipe(input: &Path) -> bool {
+    std::fs::metadata(input).is_ok_and(|known| !known.is_file() && !known.is_dir())
 }
 
-/// An input as results may name it.
-fn shown(input: &Path) -> String {
-    network(input).map_or_else(|| input.display().to_string(), without_password)
+/// Whether it is a camera by its name on this machine.
+fn is_camera_device(input: &Path) -> bool {
+    input.to_str().is_some_and(|name| name.starts_with("/dev/video"))
 }
 
 /// Whether an input is a source by itself that is no file.
@@ -73,16 +74,16 @@ pub(crate) fn is_special(input: &Path) -> bool {
     is_read_once(input) || after("scene:", input).is_some()
 }
 
-/// Whether an input cannot be read a second time: standard input, a camera.
+/// Whether an input cannot be read a second time: standard input, a pipe, a camera.
 #[must_use]
 pub fn is_read_once(input: &Path) -> bool {
-    input == Path::new("-") || is_camera(input)
+    input == Path::new("-") || is_camera(input) || is_pipe(input)
 }
 
 /// Whether an input is a camera, on this machine or in the network: its frames come when they come, and do not wait.
 #[must_use]
 pub fn is_camera(input: &Path) -> bool {
-    after("v4l2:", input).is_some() || network(input).is_some()
+    after("v4l2:", input).is_some() || Address::of_camera(input).is_some()
 }
 
 fn feed(
@@ -91,11 +92,11 @@ fn feed(
     options: &InputOptions,
 ) -> Result<Box<dyn Feed>, FootageError> {
     if let (Some(special), 2..) = (inputs.iter().find(|input| is_special(input)), inputs.len()) {
-        return Err(FootageError::NotAlone { input: special.display().to_string() });
+        return Err(FootageError::NotAlone { input: shown_input(special) });
     }
     // A depth out of range is refused here, with the name of its key, not by a frame.
     let bits = config.validate()?.pixel_bits();
-    let rate = options.frame_rate;
+    let (rate, interrupt) = (options.frame_rate, &options.interrupt);
     if let [input] = inputs {
         if let (Some(labels), true) = (&options.labels, is_special(input)) {
             return Err(no_images_for(labels));
@@ -104,14 +105,15 @@ fn feed(
             return scene(name, config, options);
         }
         if let Some(device) = after("v4l2:", input) {
-            return Ok(Box::new(Video::open(Medium::Camera(device.into()), bits, rate, 0)?));
+            let camera = Medium::Camera(device.into());
+            return Ok(Box::new(Video::open(camera, bits, rate, 0, interrupt)?));
         }
-        if let Some(url) = network(input) {
-            return Ok(Box::new(Video::open(Medium::Network(url.to_owned()), bits, rate, 0)?));
+        if let Some(address) = Address::of_camera(input) {
+            let camera = Medium::Network(address);
+            return Ok(Box::new(Video::open(camera, bits, rate, 0, interrupt)?));
         }
-        if *input == Path::new("-") {
-            let stdin = Box::new(BufReader::new(std::io::stdin()));
-            return Ok(Box::new(Y4m::new("standard input".to_owned(), stdin, bits, rate)?));
+        if *input == Path::new("-") || is_pipe(input) {
+            return Ok(Box::new(stream(input, bits, options)?));
         }
     }
     let mut images = Vec::new();
@@ -139,6 +141,25 @@ fn feed(
         (false, []) => pictures(images, bits, options),
         (_, [(path, _), ..]) => Err(FootageError::NotAlone { input: path.display().to_string() }),
     }
+}
+
+/// A stream of raw frames that comes once, from standard input or a pipe.
+fn stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4m, FootageError> {
+    let (rate, interrupt) = (options.frame_rate, &options.interrupt);
+    if is_camera_device(input) {
+        return Err(FootageError::Device { path: input.to_owned() });
+    }
+    if input != Path::new("-") {
+        let pipe = open_pipe(input, interrupt)?;
+        return Y4m::new(input.display().to_string(), pipe, bits, rate, interrupt);
+    }
+    let name = "standard input".to_owned();
+    let stdin = standard_input().map_err(|error| FootageError::Unreadable {
+        path: name.clone().into(),
+        problem: error.to_string(),
+    })?;
+    let stdin = Box::new(BufReader::new(InterruptibleReader::new(stdin, interrupt)));
+    Y4m::new(name, stdin, bits, rate, interrupt)
 }
 
 fn no_images_for(labels: &Path) -> FootageError {
@@ -176,13 +197,15 @@ fn file(
         sniff::FileKind::CifarBatch => Box::new(Batch::open(path, bits)?),
         sniff::FileKind::Y4m => {
             let name = path.display().to_string();
-            Box::new(Y4m::new(name, open_unpacked(path)?, bits, options.frame_rate)?)
+            let (file, rate) = (open_unpacked(path)?, options.frame_rate);
+            Box::new(Y4m::new(name, file, bits, rate, &options.interrupt)?)
         }
         sniff::FileKind::Video => {
             let sought = options.selection.start_us.filter(|_| !options.numbered);
             let start = sought.unwrap_or(0);
             let medium = Medium::File(path.to_owned());
-            Box::new(Video::open(medium, bits, options.frame_rate, start)?)
+            let (rate, interrupt) = (options.frame_rate, &options.interrupt);
+            Box::new(Video::open(medium, bits, rate, start, interrupt)?)
         }
     })
 }

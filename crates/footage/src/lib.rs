@@ -6,6 +6,7 @@
 //! reads on a separate thread. [`boxes`] reads where objects are in the frames. Memory does not grow with the number of frames. This crate does not
 //! know what happens to the frames.
 
+mod address;
 mod advice;
 pub mod boxes;
 mod error;
@@ -25,6 +26,7 @@ mod subject;
 mod video;
 mod y4m;
 
+pub use address::{redacted, shown_input};
 pub use advice::{advice, skipped, skipped_in_words};
 pub use error::FootageError;
 pub use hooks::{Hooks, Progress, Silent};

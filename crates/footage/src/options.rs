@@ -3,6 +3,8 @@
 
 use std::path::PathBuf;
 
+use foveate_toolchain::Interrupt;
+
 use crate::FrameRate;
 use crate::limits::Crop;
 use crate::source::select::Selection;
@@ -38,4 +40,6 @@ pub struct InputOptions {
     pub labels: Option<PathBuf>,
     /// Whether the number of every frame must be known: then a late start is decoded to, not sought.
     pub numbered: bool,
+    /// Ends every wait for frames with [`FootageError::Interrupted`](crate::FootageError::Interrupted).
+    pub interrupt: Interrupt,
 }

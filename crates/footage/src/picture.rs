@@ -16,7 +16,7 @@ mod png;
 mod pnm;
 
 use std::fs::File;
-use std::io::{Cursor, Read};
+use std::io::{BufReader, Cursor, Read};
 use std::path::Path;
 
 use foveate_frame::Frame;
@@ -84,11 +84,7 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
 
 fn bytes_of(path: &Path) -> Result<Vec<u8>, FootageError> {
     let unreadable = |problem: String| FootageError::Unreadable { path: path.to_owned(), problem };
-    let file = File::open(path).map_err(|error| unreadable(error.to_string()))?;
-    let known = file.metadata().map_err(|error| unreadable(error.to_string()))?;
-    if !known.is_file() {
-        return Err(unreadable("it is not a file".to_owned()));
-    }
+    let file = open_file(path).map_err(|error| unreadable(error.to_string()))?;
     let mut bytes = Vec::new();
     let limit = MAX_FILE_GIB << 30;
     let length = file.take(limit + 1).read_to_end(&mut bytes);
@@ -99,16 +95,25 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, FootageError> {
     }
 }
 
+/// Opens a file. Whatever else has a name, such as a FIFO, might be waited for without end.
+fn open_file(path: &Path) -> std::io::Result<File> {
+    if !std::fs::metadata(path)?.is_file() {
+        return Err(std::io::Error::other("it is not a file"));
+    }
+    File::open(path)
+}
+
 /// Whether a file starts as an image of a supported type does.
 pub(crate) fn is_image(path: &Path) -> bool {
     let mut start = Vec::new();
-    let read = File::open(path).map(|file| file.take(16).read_to_end(&mut start));
+    let read = open_file(path).map(|file| file.take(16).read_to_end(&mut start));
     matches!(read, Ok(Ok(_))) && supported(&start).is_some()
 }
 
 /// Width of an image, by its header.
 pub(crate) fn width(path: &Path) -> Option<u32> {
-    let reader = ImageReader::open(path).ok()?.with_guessed_format().ok()?;
+    let reader =
+        ImageReader::new(BufReader::new(open_file(path).ok()?)).with_guessed_format().ok()?;
     reader.into_dimensions().ok().map(|(width, _)| width)
 }
 
@@ -117,7 +122,7 @@ pub(crate) fn is_animated(path: &Path) -> bool {
     // What says so stands before the pixels; what can stand before it is small.
     const HEAD: u64 = 1 << 20;
     let mut start = Vec::new();
-    let read = File::open(path).map(|file| file.take(HEAD).read_to_end(&mut start));
+    let read = open_file(path).map(|file| file.take(HEAD).read_to_end(&mut start));
     matches!(read, Ok(Ok(_))) && has_animation(&start)
 }
 

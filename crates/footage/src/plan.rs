@@ -10,6 +10,7 @@
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
+use crate::address::shown_input;
 use crate::extension::is_image_name;
 use crate::input::{
     EntryKind, SkipReason, SkippedInput, below, entries, entry_kind, in_clip, is_special,
@@ -66,7 +67,7 @@ pub fn plan<P: AsRef<Path>>(
     let mut skipped = Vec::new();
     for path in &inputs {
         if inputs.len() > 1 && (is_special(path) || belongs_to_a_clip(path)) {
-            return Err(FootageError::NotAlone { input: path.display().to_string() });
+            return Err(FootageError::NotAlone { input: shown_input(path) });
         }
         let place = if inputs.len() > 1 { name_of(path) } else { PathBuf::new() };
         if is_tree(path)? {

@@ -9,13 +9,20 @@ use foveate_frame::{FrameError, Raster, convert_depth, luma};
 pub(crate) struct Layout {
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// Bits per sample; above 8 they are words, low bytes first.
+    /// Bits per sample; above 8 they are words.
     pub(crate) depth: u32,
     /// Red, green and blue instead of one value.
     pub(crate) colour: bool,
+    /// Whether words have their high bytes first.
+    pub(crate) big_endian: bool,
 }
 
 impl Layout {
+    /// One value for each pixel, low bytes first.
+    pub(crate) fn flat(width: u32, height: u32, depth: u32) -> Self {
+        Self { width, height, depth, colour: false, big_endian: false }
+    }
+
     /// Bytes of a frame.
     pub(crate) fn bytes(self) -> usize {
         let channels = if self.colour { 3 } else { 1 };
@@ -24,12 +31,16 @@ impl Layout {
 
     /// The frame of `bits` bits per pixel; samples beyond their depth count as its largest value.
     pub(crate) fn raster(self, bytes: Vec<u8>, bits: u32) -> Result<Raster, FrameError> {
-        let Self { width, height, depth, colour } = self;
+        let Self { width, height, depth, colour, big_endian } = self;
         if depth == bits && depth == 8 && !colour {
             return Raster::from_bytes(width, height, bits, bytes);
         }
         let max = u16::MAX >> (16 - depth);
-        let words = bytes.chunks_exact(2).map(|b| u16::from_le_bytes([b[0], b[1]]).min(max));
+        let word = |b: &[u8]| match big_endian {
+            true => u16::from_be_bytes([b[0], b[1]]),
+            false => u16::from_le_bytes([b[0], b[1]]),
+        };
+        let words = bytes.chunks_exact(2).map(|b| word(b).min(max));
         let flat = bytes.iter().map(|&byte| u16::from(byte).min(max));
         let pixels = match (colour, depth > 8) {
             (false, false) => flat.map(|value| convert_depth(value, depth, bits)).collect(),

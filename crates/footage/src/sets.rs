@@ -9,6 +9,7 @@ use std::io::{self, BufRead, BufReader, Read};
 use std::path::Path;
 
 use flate2::bufread::MultiGzDecoder;
+use foveate_toolchain::{Interrupt, InterruptibleReader, open_interruptibly};
 
 use crate::FootageError;
 
@@ -17,11 +18,28 @@ const GZIP: [u8; 2] = [0x1F, 0x8B];
 
 /// Opens a file, unpacked if it is gzipped.
 pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, FootageError> {
-    let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
-    if file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP) {
-        return Ok(Box::new(BufReader::new(MultiGzDecoder::new(file))));
+    unpacked(File::open(path).map_err(unreadable(path))?).map_err(unreadable(path))
+}
+
+/// Opens a FIFO or another pipe, which is read once, unpacked if it is gzipped.
+pub(crate) fn open_pipe(
+    path: &Path,
+    interrupt: &Interrupt,
+) -> Result<Box<dyn BufRead + Send>, FootageError> {
+    let pipe = open_interruptibly(path, interrupt)
+        .and_then(|pipe| unpacked(InterruptibleReader::new(pipe, interrupt)));
+    pipe.map_err(|error| match interrupt.is_set() {
+        true => FootageError::Interrupted,
+        false => unreadable(path)(error),
+    })
+}
+
+fn unpacked(input: impl Read + Send + 'static) -> io::Result<Box<dyn BufRead + Send>> {
+    let mut input = BufReader::new(input);
+    if input.fill_buf()?.starts_with(&GZIP) {
+        return Ok(Box::new(BufReader::new(MultiGzDecoder::new(input))));
     }
-    Ok(Box::new(file))
+    Ok(Box::new(input))
 }
 
 /// Whether a file is gzipped.

@@ -4,6 +4,7 @@
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
+use crate::address::shown_input;
 use crate::{ClipPlan, FootageError, ImagesAs, InputOptions, plan};
 
 /// A clip or set with a name.
@@ -42,6 +43,9 @@ pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<Subjec
 
 /// The name of a file without folder and extension, or of a scene.
 fn name_of(path: &Path) -> String {
+    // The name of an address is what may be shown of it.
+    let address = path.to_string_lossy().contains("://").then(|| shown_input(path));
+    let path = address.as_ref().map_or(path, Path::new);
     let text = path.to_string_lossy();
     if let Some(scene) = text.strip_prefix("scene:") {
         return scene.to_owned();

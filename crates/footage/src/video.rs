@@ -6,11 +6,14 @@
 //! * ffmpeg's `showinfo` filter says size, format and time of a frame on the standard error before the
 //!   frame itself comes through the pipe, so that times are the container's, and a change of size in
 //!   mid-stream is seen. `-fps_mode passthrough` keeps ffmpeg from repeating or dropping frames.
+//! * Only [`formats`] that hold their frames themselves are read: a file that is a list of others is refused.
 //! * A late start is sought where that gives the same frames, see [`seek`].
 //! * Rotation is ignored, as EXIF is.
 
 mod decoder;
+mod formats;
 mod log;
+mod pixels;
 mod probe;
 mod seek;
 mod truncated;
@@ -18,11 +21,12 @@ mod truncated;
 use std::path::{Path, PathBuf};
 
 use foveate_frame::Raster;
-use foveate_toolchain::{Tool, Toolchain};
+use foveate_toolchain::{Interrupt, Tool, Toolchain};
 
 use self::decoder::{Decoder, Ffmpeg, Start};
 use self::log::Shown;
 use self::probe::Probe;
+use crate::address::Address;
 use crate::source::feed::Feed;
 use crate::{FootageError, FrameRate, SourceFrame};
 
@@ -36,46 +40,46 @@ pub(crate) enum Medium {
     /// A Video4Linux device.
     Camera(PathBuf),
     /// A camera in the network, by its address.
-    Network(String),
+    Network(Address),
 }
 
 impl Medium {
-    /// As ffmpeg takes it: nothing else than what it is, whatever the name looks like.
+    /// As ffmpeg takes it: nothing else than what it is, whatever the name looks like, and nothing that reads other
+    /// files or addresses.
     fn arguments(&self) -> Vec<std::ffi::OsString> {
         let name = |prefix: &str, path: &Path| {
             let mut name = std::ffi::OsString::from(prefix);
             name.push(path);
             name
         };
-        match self {
-            Self::File(path) => vec![
-                "-protocol_whitelist".into(),
-                "file,pipe".into(),
-                "-i".into(),
-                name("file:", path),
-            ],
+        let words = |words: &[&str]| words.iter().map(Into::into).collect::<Vec<_>>();
+        let (mut options, input) = match self {
+            Self::File(path) => {
+                let allowed = formats::allowed();
+                let only = ["-protocol_whitelist", "file", "-format_whitelist", &allowed];
+                (words(&only), name("file:", path))
+            }
             Self::Camera(path) => {
-                vec!["-f".into(), "v4l2".into(), "-i".into(), name("", path)]
+                let only = ["-format_whitelist", "video4linux2,v4l2", "-f", "v4l2"];
+                (words(&only), name("", path))
             }
             // Over TCP no packet is lost, and every router lets it through.
-            Self::Network(url) => [
-                ["-protocol_whitelist", "rtsp,tcp,tls,udp,rtp"],
-                ["-rtsp_transport", "tcp"],
-                ["-timeout", NETWORK_TIMEOUT_US],
-                ["-i", url],
-            ]
-            .concat()
-            .into_iter()
-            .map(Into::into)
-            .collect(),
-        }
+            Self::Network(address) => {
+                let only =
+                    ["-protocol_whitelist", "rtsp,tcp,tls,udp,rtp", "-format_whitelist", "rtsp"];
+                let tcp = ["-f", "rtsp", "-rtsp_transport", "tcp"];
+                (words(&[only, tcp].concat()), address.url().into())
+            }
+        };
+        options.extend(["-i".into(), input]);
+        options
     }
 
     /// As it may be shown: without a password.
     fn name(&self) -> String {
         match self {
             Self::File(path) | Self::Camera(path) => path.display().to_string(),
-            Self::Network(url) => without_password(url),
+            Self::Network(address) => address.shown(),
         }
     }
 
@@ -94,19 +98,14 @@ impl Medium {
     }
 }
 
-/// An address without the user and the password that it may hold, even if it is written wrongly.
-pub(crate) fn without_password(url: &str) -> String {
-    let Some((scheme, rest)) = url.split_once("://") else { return url.to_owned() };
-    let before_query = rest.find('?').unwrap_or(rest.len());
-    let host = rest[..before_query].rfind('@').map_or(0, |at| at + 1);
-    format!("{scheme}://{}", &rest[host..])
-}
-
 /// The frames of a video.
 pub(crate) struct Video {
     medium: Medium,
     decoder: Decoder,
     total: Option<u64>,
+    /// Of its coded frames, as far as is known.
+    pixel_format: String,
+    interrupt: Interrupt,
     bits: u32,
     rate: FrameRate,
     /// Memory for the next frame.
@@ -123,8 +122,9 @@ impl Video {
         bits: u32,
         rate: FrameRate,
         start_us: u64,
+        interrupt: &Interrupt,
     ) -> Result<Self, FootageError> {
-        let tools = Toolchain::system();
+        let tools = Toolchain::system().cancelled_by(interrupt.flag());
         // Starting a program of ffmpeg's size takes as long as decoding some dozen frames.
         let (found, probe) = std::thread::scope(|scope| {
             let found = scope.spawn(|| tools.find(Tool::Ffmpeg));
@@ -133,7 +133,9 @@ impl Video {
         });
         let found = found.unwrap_or_else(|_| tools.find(Tool::Ffmpeg))?;
         let probe = probe?;
-        let ffmpeg = Ffmpeg { found, medium: medium.clone(), conversion: probe.conversion() };
+        let conversion = pixels::conversion(&probe.pixel_format);
+        let interrupt = interrupt.clone();
+        let ffmpeg = Ffmpeg { found, medium: medium.clone(), conversion, interrupt };
         let sought = seek::start(&tools, &ffmpeg, &probe, start_us)?;
         let (decoder, first_pts) = match sought {
             Some(sought) => (sought.decoder, Some(sought.first_pts)),
@@ -143,6 +145,8 @@ impl Video {
             medium,
             decoder,
             total: probe.frames,
+            pixel_format: probe.pixel_format,
+            interrupt: ffmpeg.interrupt,
             bits,
             rate,
             bytes: Vec::new(),
@@ -167,14 +171,16 @@ impl Video {
 
     /// What is to be said once there are no more frames.
     fn conclude(&mut self) -> Result<(), FootageError> {
-        let mut problem = self.decoder.conclude();
+        let mut problem = self.decoder.conclude()?;
         match &self.medium {
             Medium::File(path) => problem = truncated::problem(path).or(problem),
-            // ffmpeg repeats the address as it was given.
-            Medium::Network(url) => {
-                problem = problem.map(|text| text.replace(url, &self.medium.name()));
-            }
+            // ffmpeg repeats the address and its parts.
+            Medium::Network(address) => problem = problem.map(|text| address.redact(&text)),
             Medium::Camera(_) => {}
+        }
+        if let Some(said) = problem.as_mut().filter(|said| said.contains("Impossible to convert")) {
+            *said =
+                format!("ffmpeg cannot convert its pixel format `{}` ({said})", self.pixel_format);
         }
         if self.frames == 0 && self.first_pts.is_none() {
             let problem = problem.unwrap_or_else(|| "it holds no frame".to_owned());
@@ -190,7 +196,7 @@ impl Feed for Video {
         if self.problem.is_some() {
             return Ok(None);
         }
-        let Some(shown) = self.decoder.announced() else {
+        let Some(shown) = self.decoder.announced()? else {
             self.conclude()?;
             return Ok(None);
         };
@@ -201,6 +207,7 @@ impl Feed for Video {
                 self.frames += 1;
                 Ok(Some(SourceFrame { name, time_us, label: None, frame }))
             }
+            Err(_) if self.interrupt.is_set() => Err(FootageError::Interrupted),
             Err(problem) if self.frames == 0 => Err(self.medium.refused(problem)),
             Err(problem) => {
                 self.problem = Some(problem);
@@ -227,22 +234,5 @@ impl Feed for Video {
 
     fn is_stream(&self) -> bool {
         true
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::without_password;
-
-    #[test]
-    fn a_password_is_shown_nowhere() {
-        for (url, shown) in [
-            ("rtsp://me:se/cret@10.0.0.7:554/live", "rtsp://10.0.0.7:554/live"),
-            ("rtsp://me:secret@10.0.0.7:554/live?x=a@b", "rtsp://10.0.0.7:554/live?x=a@b"),
-            ("rtsp://me:s@cret@camera", "rtsp://camera"),
-            ("rtsp://camera/live", "rtsp://camera/live"),
-        ] {
-            assert_eq!(without_password(url), shown);
-        }
     }
 }

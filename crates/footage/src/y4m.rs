@@ -8,6 +8,7 @@ mod header;
 use std::io::{self, BufRead, Read};
 
 use foveate_frame::Raster;
+use foveate_toolchain::Interrupt;
 
 use self::header::{Header, line};
 use crate::samples::Layout;
@@ -28,6 +29,7 @@ pub(crate) struct Y4m {
     bytes: Vec<u8>,
     frames: u64,
     problem: Option<String>,
+    interrupt: Interrupt,
 }
 
 impl Y4m {
@@ -37,11 +39,16 @@ impl Y4m {
         mut input: Box<dyn BufRead + Send>,
         bits: u32,
         rate: FrameRate,
+        interrupt: &Interrupt,
     ) -> Result<Self, FootageError> {
         let header = line(&mut *input).and_then(|text| Header::parse(&text));
-        let header = header.map_err(|problem| FootageError::Y4m { name: name.clone(), problem })?;
+        let header = header.map_err(|problem| match interrupt.is_set() {
+            true => FootageError::Interrupted,
+            false => FootageError::Y4m { name: name.clone(), problem },
+        })?;
         let rate = header.rate.unwrap_or(rate);
-        Ok(Self { name, input, header, rate, bits, bytes: Vec::new(), frames: 0, problem: None })
+        let (bytes, interrupt) = (Vec::new(), interrupt.clone());
+        Ok(Self { name, input, header, rate, bits, bytes, frames: 0, problem: None, interrupt })
     }
 
     fn frame(&mut self) -> Result<Option<Raster>, String> {
@@ -54,7 +61,7 @@ impl Y4m {
         }
         let Header { width, height, depth, others, .. } = self.header;
         let wide = depth > 8;
-        let layout = Layout { width, height, depth, colour: false };
+        let layout = Layout::flat(width, height, depth);
         let mut bytes = std::mem::take(&mut self.bytes);
         bytes.resize(layout.bytes(), 0);
         self.input.read_exact(&mut bytes).map_err(|error| cut(&error))?;
@@ -78,6 +85,7 @@ impl Feed for Y4m {
                 self.frames += 1;
                 SourceFrame { name: self.name.clone(), time_us, label: None, frame }
             })),
+            Err(_) if self.interrupt.is_set() => Err(FootageError::Interrupted),
             Err(problem) if self.frames == 0 => {
                 Err(FootageError::Y4m { name: self.name.clone(), problem })
             }
@@ -118,7 +126,8 @@ mod tests {
 
     fn read(bytes: &[u8], bits: u32) -> Result<(Vec<SourceFrame>, Option<String>), FootageError> {
         let input = Box::new(io::Cursor::new(bytes.to_vec()));
-        let mut stream = Y4m::new("-".to_owned(), input, bits, FrameRate::default())?;
+        let mut stream =
+            Y4m::new("-".to_owned(), input, bits, FrameRate::default(), &Interrupt::default())?;
         let mut frames = Vec::new();
         while let Some(frame) = stream.next()? {
             frames.push(frame);

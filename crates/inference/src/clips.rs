@@ -7,7 +7,7 @@ use foveate_design::Config;
 use foveate_footage::boxes::{Boxes, Clip, assign};
 use foveate_footage::{
     FootageError, Hooks, InputOptions, Progress, Source, Subject, is_read_once, open, read_ahead,
-    subjects,
+    shown_input, subjects,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -74,7 +74,7 @@ impl Clips {
         };
         for subject in subjects {
             if let Some(once) = subject.inputs.iter().find(|input| several && is_read_once(input)) {
-                return Err(InferenceError::ReadOnce { input: once.display().to_string() });
+                return Err(InferenceError::ReadOnce { input: shown_input(once) });
             }
             let source = open(&subject.inputs, &config.camera, input)?;
             let size = source.size();
@@ -141,7 +141,7 @@ impl Clips {
     /// The inputs of every clip as they were named.
     pub(crate) fn inputs(&self) -> Vec<String> {
         let all = self.subjects.iter().flat_map(|subject| &subject.inputs);
-        all.map(|input| input.display().to_string()).collect()
+        all.map(|input| shown_input(input)).collect()
     }
 
     fn open(&mut self, clip: usize) -> Result<Box<dyn Source>, InferenceError> {
@@ -168,12 +168,19 @@ impl Showing<'_> {
             if self.done > 0 && hooks.cancelled() {
                 return Ok(false);
             }
-            let mut source = self.clips.open(clip)?;
+            let mut source = match self.clips.open(clip) {
+                Err(InferenceError::Cancelled) if self.done > 0 => return Ok(false),
+                source => source?,
+            };
             let kind = source.kind();
             let mut camera = Camera::new(self.shown, kind);
             audience.begin(&self.clips.subjects[clip].name, camera.black());
             let before = self.done;
-            let ended = self.watch(clip, source.as_mut(), &mut camera, hooks, audience)?;
+            let ended = match self.watch(clip, source.as_mut(), &mut camera, hooks, audience) {
+                // The wait for a frame was given up.
+                Err(InferenceError::Cancelled) => false,
+                ended => ended?,
+            };
             match (ended, self.done - before) {
                 (false, 0) if before == 0 => return Err(InferenceError::Cancelled),
                 (true, 0) => {

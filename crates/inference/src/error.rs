@@ -38,7 +38,7 @@ pub enum InferenceError {
     },
     /// An input cannot be read.
     #[error(transparent)]
-    Footage(#[from] FootageError),
+    Footage(FootageError),
     /// Ground-truth boxes that cannot be read, or that do not fit the clips.
     #[error(transparent)]
     Boxes(#[from] BoxError),
@@ -134,4 +134,13 @@ pub enum InferenceError {
     /// The user stopped it before there was a result.
     #[error("interrupted; nothing was written")]
     Cancelled,
+}
+
+impl From<FootageError> for InferenceError {
+    fn from(error: FootageError) -> Self {
+        match error {
+            FootageError::Interrupted => Self::Cancelled,
+            error => Self::Footage(error),
+        }
+    }
 }

@@ -151,7 +151,7 @@ impl<'a> Encoder<'a> {
 
     /// What the receiver sees of it.
     fn quality(&self, quantizer: u32) -> Result<Quality, LinkError> {
-        let mut decoder = Stream::start(&self.decoding()?)?;
+        let mut decoder = Stream::start(&self.decoding()?, &self.tools.interrupt())?;
         let path = &self.footage.path;
         let original = File::open(path).map_err(scratch("read", path))?;
         let mut original = BufReader::new(original);
@@ -166,7 +166,7 @@ impl<'a> Encoder<'a> {
             original.read_exact(expected).map_err(scratch("read", path))?;
             likeness.add(seen, expected)?;
         }
-        let said = decoder.next_line().unwrap_or_else(|| "ffmpeg said nothing".to_owned());
+        let said = decoder.next_line()?.unwrap_or_else(|| "ffmpeg said nothing".to_owned());
         self.all(quantizer, likeness.frames(), &said)?;
         Ok(Quality::of(&likeness))
     }

@@ -21,7 +21,7 @@ use thiserror::Error;
 pub enum LinkError {
     /// An input cannot be read.
     #[error(transparent)]
-    Footage(#[from] FootageError),
+    Footage(FootageError),
     /// The configuration is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
@@ -171,5 +171,14 @@ pub enum LinkError {
 impl From<ToolError> for LinkError {
     fn from(error: ToolError) -> Self {
         if error.is_interrupted() { Self::Cancelled } else { Self::Tool(error) }
+    }
+}
+
+impl From<FootageError> for LinkError {
+    fn from(error: FootageError) -> Self {
+        match error {
+            FootageError::Interrupted => Self::Cancelled,
+            error => Self::Footage(error),
+        }
     }
 }

@@ -12,6 +12,7 @@ use std::sync::{Mutex, PoisonError};
 
 use foveate_design::Config;
 use foveate_staging::StagedFolder;
+use foveate_toolchain::Interrupt;
 
 use crate::output::INTERRUPTED;
 use crate::simulation::SIMULATION;
@@ -116,6 +117,7 @@ impl Batch<'_> {
             };
             let summary = match self.simulate(clip) {
                 Ok(summary) => ClipSummary::done(clip, summary),
+                Err(SimulatorError::Cancelled) => ClipSummary::failed(clip, INTERRUPTED.to_owned()),
                 Err(error) => ClipSummary::failed(clip, error.to_string()),
             };
             *slot.lock().unwrap_or_else(PoisonError::into_inner) = Some(summary);
@@ -174,5 +176,9 @@ impl Hooks for Frames<'_> {
 
     fn cancelled(&self) -> bool {
         self.0.hooks.cancelled()
+    }
+
+    fn interrupt(&self) -> Interrupt {
+        self.0.input.interrupt.clone()
     }
 }

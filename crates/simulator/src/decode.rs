@@ -10,6 +10,7 @@ use foveate_design::{Config, Design};
 use foveate_footage::{SetForm, SourceFrame};
 use foveate_packets::{Loss, PacketError};
 use foveate_staging::StagedFolder;
+use foveate_toolchain::Interrupt;
 
 use crate::losses::Losses;
 use crate::output::{INTERRUPTED, Recorder};
@@ -58,6 +59,7 @@ impl Recording<'_> {
         let mut writer = Writer {
             folder: staging.folder(),
             options,
+            interrupt: hooks.interrupt(),
             losses: Losses::new(staging.folder()),
             recorder: None,
         };
@@ -65,8 +67,8 @@ impl Recording<'_> {
         let mut is_cancelled = false;
         loop {
             let read = match self.stream.read(&mut chunk) {
-                // The system asks to try again, perhaps because the user stops the run.
-                Err(source) if source.kind() == ErrorKind::Interrupted => None,
+                // The system asks to try again, or the wait was given up because the user stops the run.
+                Err(source) if source.kind() == ErrorKind::Interrupted || hooks.cancelled() => None,
                 Err(source) => {
                     return Err(SimulatorError::ReadStream {
                         stream: self.name.to_owned(),
@@ -91,12 +93,7 @@ impl Recording<'_> {
         let Writer { losses, recorder, .. } = writer;
         let Some(recorder) = recorder else {
             let none = PacketError::NoFrame { stream: self.name.to_owned(), bytes };
-            let is_none = stream.design().is_none();
-            return Err(if is_cancelled && is_none {
-                SimulatorError::Cancelled
-            } else {
-                none.into()
-            });
+            return Err(if is_cancelled { SimulatorError::Cancelled } else { none.into() });
         };
         let problem = match (is_cancelled, losses.count()) {
             (true, _) => Some(INTERRUPTED.to_owned()),
@@ -132,6 +129,7 @@ fn possible(options: &RunOptions) -> Result<(), SimulatorError> {
 struct Writer<'a> {
     folder: &'a Path,
     options: &'a RunOptions,
+    interrupt: Interrupt,
     losses: Losses,
     recorder: Option<Recorder>,
 }
@@ -172,8 +170,14 @@ impl Writer<'_> {
                     return Err(SimulatorError::NotInStream { output: "heat maps", why });
                 }
                 let form = SetForm::default();
-                let created =
-                    Recorder::create(self.folder, design, &form, self.options, has_scores)?;
+                let created = Recorder::create(
+                    self.folder,
+                    design,
+                    &form,
+                    self.options,
+                    has_scores,
+                    &self.interrupt,
+                )?;
                 none.insert(created)
             }
         };

@@ -20,7 +20,7 @@ use thiserror::Error;
 pub enum SimulatorError {
     /// The footage cannot be opened or read.
     #[error(transparent)]
-    Footage(#[from] FootageError),
+    Footage(FootageError),
     /// A clip of a batch without a result.
     #[error("none of the {clips} clips could be simulated; the first failed with: {first}")]
     NoClip {
@@ -134,6 +134,15 @@ pub enum SimulatorError {
     /// The model refused a frame.
     #[error(transparent)]
     Model(#[from] ModelError),
+}
+
+impl From<FootageError> for SimulatorError {
+    fn from(error: FootageError) -> Self {
+        match error {
+            FootageError::Interrupted => Self::Cancelled,
+            error => Self::Footage(error),
+        }
+    }
 }
 
 impl SimulatorError {

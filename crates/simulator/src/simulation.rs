@@ -53,9 +53,19 @@ impl Simulation {
             return Err(SimulatorError::NotASet { inputs: self.source.inputs().join(", ") });
         }
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
-        let mut recorder =
-            Recorder::create(staging.folder(), &self.design, &self.source.form(), options, true)?;
-        let end = self.record(&mut recorder, hooks);
+        let mut recorder = Recorder::create(
+            staging.folder(),
+            &self.design,
+            &self.source.form(),
+            options,
+            true,
+            &hooks.interrupt(),
+        )?;
+        let end = match self.record(&mut recorder, hooks) {
+            // The wait for a frame was given up.
+            Err(SimulatorError::Cancelled) => Ok(End::Cancelled),
+            end => end,
+        };
         let problem = match (end, recorder.frames()) {
             (Ok(End::Cancelled), 0) => return Err(SimulatorError::Cancelled),
             (Ok(End::Source), 0) => {

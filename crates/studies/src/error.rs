@@ -102,6 +102,9 @@ pub enum StudyError {
 
 impl From<FootageError> for StudyError {
     fn from(error: FootageError) -> Self {
-        Self::Footage(Box::new(error))
+        match error {
+            FootageError::Interrupted => Self::Cancelled,
+            error => Self::Footage(Box::new(error)),
+        }
     }
 }

@@ -11,6 +11,7 @@ mod error;
 mod family;
 mod files;
 mod host;
+mod interrupt;
 mod invocation;
 pub mod iverilog;
 mod key;
@@ -30,8 +31,10 @@ pub mod yosys;
 
 pub use cache::{Cache, Entry};
 pub use error::ToolError;
+pub use family::end_all_families;
 pub use files::{Source, check_source_name};
 pub use host::{Host, SystemHost};
+pub use interrupt::{Interrupt, InterruptibleReader, open_interruptibly, standard_input};
 pub use invocation::{Input, Invocation, Output};
 pub use key::{Key, KeyBuilder, sha256_hex, sources_sha256};
 pub use located::Located;

@@ -5,13 +5,14 @@
 
 use std::fs::File;
 use std::io::{Read as _, Seek as _, Write as _};
-use std::process::{Child, Command, ExitStatus, Stdio};
+use std::process::{Command, ExitStatus, Stdio};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
 use crate::error::ToolError;
-use crate::family;
+use crate::family::Family;
+use crate::interrupt::soon;
 use crate::invocation::{Input, Invocation, Output};
 
 /// Runs to the end, or to the time limit.
@@ -33,9 +34,8 @@ pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<Output
     if let Some(dir) = &invocation.dir {
         command.current_dir(dir);
     }
-    family::found(&mut command);
-    let mut child = command.spawn().map_err(ToolError::io("run", program))?;
-    let status = wait(&mut child, invocation, cancel)?;
+    let mut family = Family::start(&mut command).map_err(ToolError::io("run", program))?;
+    let status = wait(&mut family, invocation, cancel)?;
     Ok(Output {
         code: status.code(),
         status: status.to_string(),
@@ -45,7 +45,7 @@ pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<Output
 }
 
 fn wait(
-    child: &mut Child,
+    family: &mut Family,
     invocation: &Invocation,
     cancel: &AtomicBool,
 ) -> Result<ExitStatus, ToolError> {
@@ -53,30 +53,21 @@ fn wait(
         |source| ToolError::Io { action: "wait for", path: invocation.program.clone(), source };
     let start = Instant::now();
     loop {
-        if let Some(status) = child.try_wait().map_err(failed)? {
+        if let Some(status) = family.try_wait().map_err(failed)? {
             let stopped = !status.success() && (asked_to_stop(status) || soon(cancel));
             return if stopped { Err(ToolError::Interrupted) } else { Ok(status) };
         }
         if cancel.load(Ordering::Relaxed) {
-            family::end(child);
+            family.end();
             return Err(ToolError::Interrupted);
         }
         if let Some(limit) = invocation.timeout.filter(|&limit| start.elapsed() >= limit) {
-            family::end(child);
+            family.end();
             return Err(ToolError::TimedOut { command: invocation.command_line(), limit });
         }
         // Looking ever more rarely, a short run is not made longer by much.
         sleep((start.elapsed() / 16).clamp(Duration::from_micros(500), Duration::from_millis(10)));
     }
-}
-
-/// Whoever stops a job may tell every process of it, and the child may be gone before the flag is set.
-fn soon(cancel: &AtomicBool) -> bool {
-    let start = Instant::now();
-    while !cancel.load(Ordering::Relaxed) && start.elapsed() < Duration::from_millis(20) {
-        sleep(Duration::from_millis(1));
-    }
-    cancel.load(Ordering::Relaxed)
 }
 
 #[cfg(unix)]

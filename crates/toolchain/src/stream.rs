@@ -4,31 +4,38 @@
 //!
 //! It cannot block: a thread always empties the standard error, and a pipe may fill up only while
 //! nobody reads it. It does not outlive its [`Stream`] or [`Feeder`], and Ctrl-C in the terminal does
-//! not reach it, so that its other side decides how to end.
+//! not reach it, so that its other side decides how to end. Every wait for it ends with an [`Interrupt`].
 
 use std::io::{self, BufRead, BufReader, Read, Write};
-use std::process::{Child, ChildStderr, ChildStdin, ChildStdout, Command, Stdio};
-use std::sync::mpsc::{self, Receiver, Sender};
+use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
+use std::sync::mpsc::{self, Receiver, RecvTimeoutError, Sender};
+use std::time::Duration;
 
 use crate::error::ToolError;
-use crate::family;
+use crate::family::Family;
+use crate::interrupt::{Interrupt, InterruptibleReader, Patience, STEP};
 use crate::invocation::Invocation;
 
-/// Longest line that is kept whole.
+/// Bytes of a line that are kept; what follows them is dropped, so that it cannot pass for a line of its own.
 const LINE: u64 = 1 << 14;
+/// How long a program that is fed may take no further input once an interrupt has come.
+const INPUT_GRACE: Duration = Duration::from_secs(1);
+/// How long it may take to complete its output then. Encoders hold back some dozen frames.
+const ENDING_GRACE: Duration = Duration::from_secs(10);
 
 /// A running program and what it says.
 #[derive(Debug)]
 struct Running {
-    child: Child,
+    family: Family,
     lines: Receiver<String>,
+    interrupt: Interrupt,
 }
 
 /// A running program whose standard output is read.
 #[derive(Debug)]
 pub struct Stream {
     running: Running,
-    stdout: ChildStdout,
+    stdout: InterruptibleReader<ChildStdout>,
 }
 
 /// A running program whose standard input is written.
@@ -44,30 +51,38 @@ impl Stream {
     ///
     /// # Errors
     /// When it cannot be started.
-    pub fn start(invocation: &Invocation) -> Result<Self, ToolError> {
-        let mut running = Running::start(invocation, Stdio::null(), Stdio::piped())?;
-        let stdout = running.child.stdout.take().ok_or_else(|| lost_pipe(invocation))?;
+    pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
+        let mut running = Running::start(invocation, interrupt, Stdio::null(), Stdio::piped())?;
+        let stdout = running.family.head.stdout.take().ok_or_else(|| lost_pipe(invocation))?;
         widen(&stdout);
-        Ok(Self { running, stdout })
+        Ok(Self { running, stdout: InterruptibleReader::new(stdout, interrupt) })
     }
 
     /// The next line of the standard error; waits for it. `None` when there will be no more.
-    pub fn next_line(&self) -> Option<String> {
-        self.running.lines.recv().ok()
+    ///
+    /// # Errors
+    /// [`ToolError::Interrupted`] on an interrupt.
+    pub fn next_line(&self) -> Result<Option<String>, ToolError> {
+        self.running.next_line()
     }
 
     /// Waits for the end, after the output has been read: whether the exit code was zero, and the
     /// exit code or signal in words.
     ///
     /// # Errors
-    /// When the system does not tell.
-    pub fn finish(&mut self) -> io::Result<(bool, String)> {
-        self.running.wait()
+    /// [`ToolError::Interrupted`] on an interrupt, also where the program has heard of it first, and when the system
+    /// does not tell.
+    pub fn finish(&mut self) -> Result<(bool, String), ToolError> {
+        let status = self.running.wait(Duration::ZERO)?;
+        if !status.success() && self.running.interrupt.is_set_soon() {
+            return Err(ToolError::Interrupted);
+        }
+        Ok((status.success(), status.to_string()))
     }
 
     /// Ends the program, whatever it was about to write.
     pub fn stop(&mut self) {
-        family::end(&mut self.running.child);
+        self.running.family.end();
     }
 }
 
@@ -82,29 +97,52 @@ impl Feeder {
     ///
     /// # Errors
     /// When it cannot be started.
-    pub fn start(invocation: &Invocation) -> Result<Self, ToolError> {
-        let mut running = Running::start(invocation, Stdio::piped(), Stdio::null())?;
-        let stdin = running.child.stdin.take().ok_or_else(|| lost_pipe(invocation))?;
+    pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
+        let mut running = Running::start(invocation, interrupt, Stdio::piped(), Stdio::null())?;
+        let stdin = running.family.head.stdin.take().ok_or_else(|| lost_pipe(invocation))?;
         widen(&stdin);
+        never_wait(&stdin).map_err(ToolError::io("run", &invocation.program))?;
         Ok(Self { running, stdin: Some(stdin) })
     }
 
     /// Ends the input and waits for the end of the program: whether the exit code was zero, and the
-    /// last line that it said, if it said anything.
+    /// last line that it said, if it said anything. Once an interrupt has come, it has ten seconds left.
     ///
     /// # Errors
-    /// When the system does not tell.
-    pub fn finish(&mut self) -> io::Result<(bool, Option<String>)> {
+    /// When the program does not end in time, or the system does not tell.
+    pub fn finish(&mut self) -> Result<(bool, Option<String>), ToolError> {
         drop(self.stdin.take());
-        let (success, _) = self.running.wait()?;
+        let success = self.running.wait(ENDING_GRACE)?.success();
         let said = self.running.lines.iter().filter(|line| !line.trim().is_empty());
         Ok((success, said.last()))
     }
 }
 
+impl Feeder {
+    /// After a write that has failed: ends the program if it has not ended, and returns the last line that it said.
+    ///
+    /// # Errors
+    /// When the system does not tell.
+    pub fn fail(&mut self) -> Result<Option<String>, ToolError> {
+        drop(self.stdin.take());
+        if self.running.interrupt.is_set() {
+            self.running.family.end();
+        }
+        Ok(self.finish()?.1)
+    }
+}
+
 impl Write for Feeder {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.stdin.as_mut().ok_or(io::ErrorKind::BrokenPipe)?.write(bytes)
+        let stdin = self.stdin.as_mut().ok_or(io::ErrorKind::BrokenPipe)?;
+        loop {
+            match stdin.write(bytes) {
+                Err(error) if error.kind() == io::ErrorKind::WouldBlock => {
+                    wait_for_room(stdin, &self.running.interrupt)?;
+                }
+                written => return written,
+            }
+        }
     }
 
     fn flush(&mut self) -> io::Result<()> {
@@ -113,7 +151,12 @@ impl Write for Feeder {
 }
 
 impl Running {
-    fn start(invocation: &Invocation, stdin: Stdio, stdout: Stdio) -> Result<Self, ToolError> {
+    fn start(
+        invocation: &Invocation,
+        interrupt: &Interrupt,
+        stdin: Stdio,
+        stdout: Stdio,
+    ) -> Result<Self, ToolError> {
         let mut command = Command::new(&invocation.program);
         command
             .args(&invocation.args)
@@ -125,26 +168,47 @@ impl Running {
         if let Some(dir) = &invocation.dir {
             command.current_dir(dir);
         }
-        family::found(&mut command);
-        let child = command.spawn().map_err(ToolError::io("run", &invocation.program))?;
+        let started = Family::start(&mut command);
+        let family = started.map_err(ToolError::io("run", &invocation.program))?;
         let (sender, lines) = mpsc::channel();
-        // From here on the child ends with what holds it.
-        let mut running = Self { child, lines };
-        let stderr = running.child.stderr.take().ok_or_else(|| lost_pipe(invocation))?;
+        let mut running = Self { family, lines, interrupt: interrupt.clone() };
+        let stderr = running.family.head.stderr.take().ok_or_else(|| lost_pipe(invocation))?;
         let collector = std::thread::Builder::new().name("stderr of a tool".to_owned());
         let collector = collector.spawn(move || collect(stderr, &sender));
         collector.map_err(ToolError::io("run", &invocation.program))?;
         Ok(running)
     }
 
-    fn wait(&mut self) -> io::Result<(bool, String)> {
-        self.child.wait().map(|status| (status.success(), status.to_string()))
+    fn next_line(&self) -> Result<Option<String>, ToolError> {
+        loop {
+            if self.interrupt.is_set() {
+                return Err(ToolError::Interrupted);
+            }
+            match self.lines.recv_timeout(STEP) {
+                Ok(line) => return Ok(Some(line)),
+                Err(RecvTimeoutError::Disconnected) => return Ok(None),
+                Err(RecvTimeoutError::Timeout) => {}
+            }
+        }
     }
-}
 
-impl Drop for Running {
-    fn drop(&mut self) {
-        family::end(&mut self.child);
+    /// Waits for the end; when an interrupt is older than `grace`, the program is ended.
+    fn wait(&mut self, grace: Duration) -> Result<ExitStatus, ToolError> {
+        let failed =
+            |source| ToolError::Io { action: "wait for", path: "the end of a tool".into(), source };
+        let mut patience = Patience::new(&self.interrupt, grace);
+        let mut pause = Duration::from_micros(200);
+        loop {
+            if let Some(status) = self.family.try_wait().map_err(failed)? {
+                return Ok(status);
+            }
+            if patience.is_over() {
+                self.family.end();
+                return Err(ToolError::Interrupted);
+            }
+            std::thread::sleep(pause);
+            pause = (pause * 2).min(Duration::from_millis(10));
+        }
     }
 }
 
@@ -165,12 +229,39 @@ fn widen(pipe: &impl std::os::fd::AsFd) {
 #[cfg(not(target_os = "linux"))]
 fn widen<T>(_: &T) {}
 
+/// Lets writes return at once where the pipe is full. The other side is a description of its own and stays as it is.
+#[cfg(unix)]
+fn never_wait(pipe: &ChildStdin) -> io::Result<()> {
+    Ok(rustix::io::ioctl_fionbio(pipe, true)?)
+}
+
+#[cfg(unix)]
+fn wait_for_room(pipe: &ChildStdin, interrupt: &Interrupt) -> io::Result<()> {
+    let writable = rustix::event::PollFlags::OUT;
+    crate::interrupt::wait_until(writable, pipe, interrupt, INPUT_GRACE)
+}
+
+/// Elsewhere a write waits until it is done.
+#[cfg(not(unix))]
+fn never_wait(_: &ChildStdin) -> io::Result<()> {
+    Ok(())
+}
+
+#[cfg(not(unix))]
+fn wait_for_room(_: &ChildStdin, _: &Interrupt) -> io::Result<()> {
+    Err(crate::interrupt::interrupted())
+}
+
 fn collect(stderr: ChildStderr, lines: &Sender<String>) {
     let mut reader = BufReader::new(stderr);
-    let mut line = Vec::new();
+    let (mut line, mut is_continued) = (Vec::new(), false);
     while matches!(reader.by_ref().take(LINE).read_until(b'\n', &mut line), Ok(1..)) {
-        // When nobody listens any more, the pipe is still emptied.
-        let _ = lines.send(String::from_utf8_lossy(&line).trim_end().to_owned());
+        let ends = line.ends_with(b"\n");
+        if !is_continued {
+            // When nobody listens any more, the pipe is still emptied.
+            let _ = lines.send(String::from_utf8_lossy(&line).trim_end().to_owned());
+        }
+        is_continued = !ends;
         line.clear();
     }
 }
@@ -187,20 +278,21 @@ mod tests {
     fn output_and_lines_are_apart_and_neither_blocks_the_other() {
         let script = "head -c 1000000 /dev/zero | tr '\\0' x >&2; echo >&2; \
                       head -c 3000000 /dev/zero; echo last >&2; exit 3";
-        let mut stream = Stream::start(&shell(script)).unwrap();
+        let mut stream = Stream::start(&shell(script), &Interrupt::default()).unwrap();
         let mut bytes = Vec::new();
         stream.read_to_end(&mut bytes).unwrap();
         assert_eq!(bytes.len(), 3_000_000);
-        let lines: Vec<String> = std::iter::from_fn(|| stream.next_line()).collect();
+        let lines: Vec<String> = std::iter::from_fn(|| stream.next_line().unwrap()).collect();
         assert_eq!(lines.last().map(String::as_str), Some("last"));
-        assert!(lines.iter().all(|line| line.len() <= 1 << 14));
+        assert_eq!(lines.iter().map(String::len).collect::<Vec<_>>(), [1 << 14, 4]);
         assert_eq!(stream.finish().unwrap(), (false, "exit status: 3".to_owned()));
     }
 
     #[test]
     fn a_stream_that_is_dropped_ends_its_program() {
-        let stream = Stream::start(&shell("echo $$ >&2; exec sleep 60")).unwrap();
-        let pid = stream.next_line().unwrap();
+        let stream =
+            Stream::start(&shell("echo $$ >&2; exec sleep 60"), &Interrupt::default()).unwrap();
+        let pid = stream.next_line().unwrap().unwrap();
         drop(stream);
         let alive = Command::new("kill").args(["-0", &pid]).stderr(Stdio::null()).status();
         assert!(!alive.unwrap().success());
@@ -211,12 +303,12 @@ mod tests {
         let dir = tempfile::tempdir().unwrap();
         let copy = dir.path().join("copy");
         let script = format!("cat > '{}'; echo first >&2; echo last >&2; exit 3", copy.display());
-        let mut feeder = Feeder::start(&shell(&script)).unwrap();
+        let mut feeder = Feeder::start(&shell(&script), &Interrupt::default()).unwrap();
         feeder.write_all(&[7; 3_000_000]).unwrap();
         assert_eq!(feeder.finish().unwrap(), (false, Some("last".to_owned())));
         assert_eq!(std::fs::metadata(copy).unwrap().len(), 3_000_000);
         assert!(feeder.write_all(b"more").is_err());
-        let mut early = Feeder::start(&shell("exit 0")).unwrap();
+        let mut early = Feeder::start(&shell("exit 0"), &Interrupt::default()).unwrap();
         let refused = (0..100).any(|_| early.write_all(&[7; 1 << 20]).is_err());
         assert!(refused, "nobody reads");
         assert_eq!(early.finish().unwrap(), (true, None));
@@ -224,7 +316,39 @@ mod tests {
 
     #[test]
     fn a_program_that_is_not_there_is_named() {
-        let error = Stream::start(&Invocation::new("/nonexistent/tool")).unwrap_err();
+        let error = Stream::start(&Invocation::new("/nonexistent/tool"), &Interrupt::default())
+            .unwrap_err();
         assert!(error.to_string().starts_with("cannot run `/nonexistent/tool`"), "{error}");
+    }
+
+    /// A program that does nothing is given up: while it is read, at once; while it is fed, after its grace.
+    #[test]
+    fn an_interrupt_ends_every_wait() {
+        let interrupt = Interrupt::default();
+        let set = || interrupt.flag().store(true, std::sync::atomic::Ordering::Relaxed);
+        let (line, bytes, end) = ["sleep 60", "sleep 60", "exec >&- 2>&-; sleep 60"]
+            .map(|script| Stream::start(&shell(script), &interrupt).unwrap())
+            .into();
+        let mut feeder = Feeder::start(&shell("sleep 60"), &interrupt).unwrap();
+        let start = std::time::Instant::now();
+        std::thread::scope(|scope| {
+            let waits = [
+                scope.spawn(move || line.next_line().unwrap_err().is_interrupted()),
+                scope.spawn(move || {
+                    let mut bytes = bytes;
+                    bytes.read(&mut [0]).is_err()
+                }),
+                scope.spawn(move || {
+                    let mut end = end;
+                    end.finish().unwrap_err().is_interrupted()
+                }),
+                scope.spawn(move || feeder.write_all(&[7; 3_000_000]).is_err()),
+            ];
+            std::thread::sleep(Duration::from_millis(300));
+            assert!(waits.iter().all(|wait| !wait.is_finished()), "all of them wait");
+            set();
+            assert!(waits.into_iter().all(|wait| wait.join().unwrap()));
+        });
+        assert!(start.elapsed() < Duration::from_secs(5), "{:?}", start.elapsed());
     }
 }

@@ -10,6 +10,7 @@ use std::time::Duration;
 
 use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
+use crate::interrupt::Interrupt;
 use crate::invocation::{Invocation, Output};
 use crate::located::Located;
 use crate::tool::{Tool, Version};
@@ -72,6 +73,12 @@ impl Toolchain {
     #[must_use]
     pub fn cancel_flag(&self) -> &AtomicBool {
         &self.cancel
+    }
+
+    /// The same, for what waits.
+    #[must_use]
+    pub fn interrupt(&self) -> Interrupt {
+        Interrupt::of(Arc::clone(&self.cancel))
     }
 
     /// Finds a tool by its environment variable or in `PATH`, and checks its version.

@@ -4,10 +4,11 @@
 use foveate_design::Design;
 use foveate_footage::{InputOptions, open};
 use foveate_frame::Frame;
-use foveate_simulator::{Simulation, SimulatorError};
+use foveate_simulator::SimulatorError;
 
 use super::{DesignArgs, warn_of};
 use crate::error::CliError;
+use crate::interrupt;
 
 impl DesignArgs {
     /// The frames of the inputs, at most so many, and the design with their size; without inputs the
@@ -21,11 +22,13 @@ impl DesignArgs {
             return Ok((self.design()?, Vec::new()));
         }
         let config = self.read()?;
-        let options = InputOptions { frames: Some(at_most), ..InputOptions::default() };
+        let (frames, interrupt) = (Some(at_most), interrupt::request());
+        let options = InputOptions { frames, interrupt, ..InputOptions::default() };
         warn_of(inputs, &options);
-        let simulation = Simulation::new(&config, open(inputs, &config.camera, &options)?)?;
-        let design = simulation.design().clone();
+        // Opened once: standard input and cameras do not come again.
         let mut source = open(inputs, &config.camera, &options)?;
+        let (width, height) = source.size();
+        let design = config.for_frames(width, height)?;
         let mut frames = Vec::new();
         while let Some(next) = source.next_frame()? {
             frames.push(next.frame.to_frame().map_err(SimulatorError::from)?);

@@ -9,7 +9,7 @@ use foveate_footage::{
 };
 
 use super::at_least_one;
-use crate::output;
+use crate::{interrupt, output};
 
 /// How inputs are read.
 #[derive(Args, Debug)]
@@ -76,6 +76,7 @@ impl InputArgs {
             },
             labels: self.labels.clone(),
             numbered: false,
+            interrupt: interrupt::request(),
         }
     }
 }

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate decode`: a recorded stream of packets in; arrays, tables, pictures and video out.
 
-use std::fs::File;
-use std::io::{self, Read};
+use std::io::Read;
 use std::path::Path;
 
 use foveate_simulator::{Decoded, Recording, RunOptions};
+use foveate_toolchain::{InterruptibleReader, open_interruptibly, standard_input};
 
 use super::simulate::{Terminal, text};
 use crate::args::DecodeArgs;
 use crate::error::CliError;
-use crate::output;
+use crate::{interrupt, output};
 
 pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
     let config = args.design.read()?;
@@ -39,16 +39,18 @@ pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
 }
 
 fn open(path: &Path) -> Result<Box<dyn Read>, CliError> {
+    let interrupt = interrupt::request();
     if path == Path::new("-") {
-        return Ok(Box::new(io::stdin()));
+        let stdin = standard_input().map_err(CliError::io("read the packets", path))?;
+        return Ok(Box::new(InterruptibleReader::new(stdin, &interrupt)));
     }
     let cannot = || CliError::io("read the packets", path);
-    let file = File::open(path).map_err(cannot())?;
+    let file = open_interruptibly(path, &interrupt).map_err(cannot())?;
     if file.metadata().map_err(cannot())?.is_dir() {
         return Err(CliError::Usage(format!(
             "`{}` is a folder; give the file with the packets, such as packets.bin in it",
             path.display()
         )));
     }
-    Ok(Box::new(file))
+    Ok(Box::new(InterruptibleReader::new(file, &interrupt)))
 }

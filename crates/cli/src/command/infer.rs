@@ -5,7 +5,7 @@ use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foveate_footage::ImagesAs;
+use foveate_footage::{ImagesAs, shown_input};
 use foveate_inference::{Clip, Found, Inference, Options, Sight, Summary, Tuning};
 use indicatif::DecimalBytes;
 
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> 
 
 /// The words of the command line, for the page.
 fn command(words: &[OsString]) -> Vec<String> {
-    let words = words.iter().skip(1).map(|word| word.to_string_lossy().into_owned());
+    let words = words.iter().skip(1).map(|word| shown_input(Path::new(word)));
     std::iter::once("foveate".to_owned()).chain(words).collect()
 }
 

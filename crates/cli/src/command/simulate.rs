@@ -12,6 +12,8 @@ use foveate_simulator::{
     Simulation, Summary, Traffic, run_batch,
 };
 
+use foveate_toolchain::Interrupt;
+
 use crate::args::{SimulateArgs, warn_of};
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
@@ -108,6 +110,10 @@ impl Hooks for Terminal {
 
     fn cancelled(&self) -> bool {
         self.interrupted.load(Ordering::Relaxed)
+    }
+
+    fn interrupt(&self) -> Interrupt {
+        interrupt::request()
     }
 }
 

@@ -51,7 +51,7 @@ impl Lines {
                 }
                 let stage = locked(&stage).clone();
                 if let Some(line) = line(&bar, &stage, start, Instant::now()) {
-                    eprintln!("foveate: {line}");
+                    output::say(&line);
                 }
             }
         };

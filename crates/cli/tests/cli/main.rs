@@ -40,3 +40,4 @@ mod threads;
 mod units;
 mod user_texts;
 mod view;
+mod waiting;

@@ -14,7 +14,7 @@ use serde_json::Value;
 use crate::common::listening;
 
 /// The codes of 128 and the number of the signal.
-const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
+pub(crate) const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
 
 fn start(folder: &Path, args: &[&str]) -> Child {
     listening()
@@ -34,12 +34,12 @@ fn stop(child: Child, signal: &str) -> Output {
     child.wait_with_output().unwrap()
 }
 
-fn kill(pid: u32, signal: &str) {
+pub(crate) fn kill(pid: u32, signal: &str) {
     let kill = Command::new("kill").args([format!("-{signal}"), pid.to_string()]).status();
     assert!(kill.unwrap().success());
 }
 
-fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
+pub(crate) fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
     let patience = Instant::now() + Duration::from_secs(120);
     while !there() {
         assert!(Instant::now() < patience, "no {what}");
@@ -172,7 +172,7 @@ fn a_comparison_of_links_leaves_nothing() {
 }
 
 /// Nothing has this number any more, or only its parent has not noticed yet.
-fn ended(pid: &str) -> bool {
+pub(crate) fn ended(pid: &str) -> bool {
     let state = Command::new("ps").args(["-o", "stat=", "-p", pid]).output();
     match state {
         Ok(output) => output.stdout.is_empty() || output.stdout.starts_with(b"Z"),

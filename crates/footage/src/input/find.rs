@@ -7,6 +7,7 @@ use super::entry::{EntryKind, entries, entry_kind};
 use super::pattern::{is_pattern, pattern};
 use super::skipped::SkipReason;
 use super::sniff::{self, FileKind};
+use crate::address::shown_input;
 use crate::extension::is_image_name;
 use crate::options::ImagesAs;
 use crate::source::files::ImageFile;
@@ -24,9 +25,9 @@ pub(crate) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, F
         return Ok(vec![plain(input.to_owned())]);
     }
     match input.to_str() {
-        Some(text) if is_url(text) => Err(FootageError::Url { url: text.to_owned() }),
+        Some(text) if is_url(text) => Err(FootageError::Url { url: shown_input(input) }),
         Some(text) if is_pattern(text) => pattern(text),
-        _ => Err(FootageError::Missing { path: input.to_owned() }),
+        _ => Err(FootageError::Missing { path: shown_input(input).into() }),
     }
 }
 

@@ -74,7 +74,7 @@ impl Feed for Idx {
         let size = u64::from(width) * u64::from(height);
         // Memory grows with what is there, not with what the header says.
         (&mut *self.input).take(size).read_to_end(&mut bytes).map_err(cut(&self.path))?;
-        let layout = Layout { width, height, depth: 8, colour: false };
+        let layout = Layout::flat(width, height, 8);
         let frame = layout
             .raster(bytes, self.bits)
             .map_err(|_| damaged(&self.path, "it ends before its last image"))?;

@@ -4,10 +4,10 @@
 
 use std::io::{self, Read};
 
-use foveate_toolchain::{Invocation, Located, Stream, ToolError};
+use foveate_toolchain::{Interrupt, Invocation, Located, Stream, ToolError};
 
-use super::Medium;
 use super::log::{FfmpegLog, Info, Shown};
+use super::{Medium, NETWORK_TIMEOUT_US};
 use crate::samples::Layout;
 
 /// How a video is decoded.
@@ -15,7 +15,8 @@ pub(super) struct Ffmpeg {
     pub(super) found: Located,
     pub(super) medium: Medium,
     /// The filter that leaves luma, or the colours that luma is made of.
-    pub(super) conversion: &'static str,
+    pub(super) conversion: String,
+    pub(super) interrupt: Interrupt,
 }
 
 impl Ffmpeg {
@@ -24,6 +25,14 @@ impl Ffmpeg {
         let input = Invocation::new(&self.found.path)
             .args(["-hide_banner", "-nostdin", "-nostats", "-loglevel", "repeat+level+info"])
             .arg("-noautorotate");
+        let input = match self.medium {
+            // The option had another name before ffmpeg 5.0, and this one let it wait for a caller.
+            Medium::Network(_) if self.reaches(5, 0) => {
+                input.args(["-timeout", NETWORK_TIMEOUT_US])
+            }
+            Medium::Network(_) => input.args(["-stimeout", NETWORK_TIMEOUT_US]),
+            Medium::File(_) | Medium::Camera(_) => input,
+        };
         let input = match start {
             Start::Plain => input,
             Start::First => input.arg("-copyts"),
@@ -32,11 +41,20 @@ impl Ffmpeg {
         input.args(self.medium.arguments()).args(["-map", "0:v:0"])
     }
 
+    /// Whether ffmpeg is of this version or later; builds between releases have none, and are new.
+    fn reaches(&self, major: u32, minor: u32) -> bool {
+        self.found.version.as_ref().is_none_or(|version| version.reaches(major, minor))
+    }
+
     fn decoding(&self, start: Start<'_>) -> Invocation {
-        // The option had another name before ffmpeg 5.1; builds between releases have no version.
-        let renamed = self.found.version.as_ref().is_none_or(|version| version.reaches(5, 1));
-        let passthrough = if renamed { "-fps_mode" } else { "-vsync" };
-        self.input(start)
+        self.frames(self.input(start))
+    }
+
+    /// The frames of an input into the pipe, each announced.
+    pub(super) fn frames(&self, input: Invocation) -> Invocation {
+        // The option had another name before ffmpeg 5.1.
+        let passthrough = if self.reaches(5, 1) { "-fps_mode" } else { "-vsync" };
+        input
             .arg("-vf")
             .arg(format!("{},showinfo=checksum=0", self.conversion))
             // Frames stay as large as they are, and two never fall on one tick.
@@ -69,27 +87,44 @@ pub(super) struct Decoder {
 
 impl Decoder {
     pub(super) fn start(ffmpeg: &Ffmpeg, start: Start<'_>) -> Result<Self, ToolError> {
-        let stream = Stream::start(&ffmpeg.decoding(start))?;
+        Self::of(&ffmpeg.decoding(start), &ffmpeg.interrupt)
+    }
+
+    pub(super) fn of(decoding: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
+        let stream = Stream::start(decoding, interrupt)?;
         Ok(Self { stream, log: FfmpegLog::default(), ahead: None })
     }
 
-    /// The next frame that ffmpeg announces, or `None` when it will announce no more.
-    pub(super) fn announced(&mut self) -> Option<Shown> {
+    /// The next frame that ffmpeg announces, or `None` when there are no more, or none that can be taken.
+    ///
+    /// # Errors
+    /// On an interrupt.
+    pub(super) fn announced(&mut self) -> Result<Option<Shown>, ToolError> {
         if let Some(shown) = self.ahead.take() {
-            return Some(shown);
+            return Ok(Some(shown));
         }
-        while let Some(line) = self.stream.next_line() {
-            if let Some(Info::Frame(shown)) = self.log.take(&line) {
-                return Some(shown);
+        while let Some(line) = self.stream.next_line()? {
+            match self.log.take(&line) {
+                Some(Info::Frame(shown)) => return Ok(Some(shown)),
+                Some(Info::Unknown(problem)) => {
+                    // ffmpeg would wait until somebody takes the frame.
+                    self.stream.stop();
+                    self.log.refuse(problem);
+                    return Ok(None);
+                }
+                None => {}
             }
         }
-        None
+        Ok(None)
     }
 
     /// The same, to be announced again.
-    pub(super) fn peek(&mut self) -> Option<Shown> {
-        self.ahead = self.announced();
-        self.ahead
+    ///
+    /// # Errors
+    /// On an interrupt.
+    pub(super) fn peek(&mut self) -> Result<Option<Shown>, ToolError> {
+        self.ahead = self.announced()?;
+        Ok(self.ahead)
     }
 
     /// The pixels of the frame that was announced last.
@@ -108,12 +143,16 @@ impl Decoder {
     }
 
     /// After the last frame: what was wrong.
-    pub(super) fn conclude(&mut self) -> Option<String> {
+    ///
+    /// # Errors
+    /// On an interrupt.
+    pub(super) fn conclude(&mut self) -> Result<Option<String>, ToolError> {
         let problem = self.log.problem();
         match self.stream.finish() {
-            Ok((true, _)) => problem,
-            Ok((false, status)) => problem.or(Some(format!("ffmpeg ended with {status}"))),
-            Err(error) => problem.or(Some(error.to_string())),
+            Ok((true, _)) => Ok(problem),
+            Ok((false, status)) => Ok(problem.or(Some(format!("ffmpeg ended with {status}")))),
+            Err(error) if error.is_interrupted() => Err(error),
+            Err(error) => Ok(problem.or(Some(error.to_string()))),
         }
     }
 

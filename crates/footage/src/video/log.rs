@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What ffmpeg says while it decodes: frames announced by `showinfo`, and faults.
 
+use super::pixels::{SampleFormat, samples};
+use crate::MAX_SIDE;
 use crate::samples::Layout;
 
 /// Faults that are kept in words.
@@ -18,6 +20,8 @@ pub(super) struct Shown {
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Info {
     Frame(Shown),
+    /// A frame that cannot be taken from the pipe, and why.
+    Unknown(String),
 }
 
 /// What was said so far.
@@ -27,11 +31,13 @@ pub(super) struct FfmpegLog {
     pub(super) time_base: (u32, u32),
     faults: u64,
     first_fault: Option<String>,
+    /// Why a frame that ffmpeg gives cannot be taken.
+    refusal: Option<String>,
 }
 
 impl Default for FfmpegLog {
     fn default() -> Self {
-        Self { time_base: (1, 1_000_000), faults: 0, first_fault: None }
+        Self { time_base: (1, 1_000_000), faults: 0, first_fault: None, refusal: None }
     }
 }
 
@@ -41,7 +47,7 @@ impl FfmpegLog {
             if let Some((_, base)) = line.split_once("] config in time_base: ") {
                 self.time_base = fraction(base).unwrap_or(self.time_base);
             }
-            return frame(line).map(Info::Frame);
+            return frame(line);
         }
         let said = fault(line)?;
         self.faults += 1;
@@ -52,8 +58,16 @@ impl FfmpegLog {
         None
     }
 
+    /// A frame cannot be taken, and this is why.
+    pub(super) fn refuse(&mut self, problem: String) {
+        self.refusal = Some(problem);
+    }
+
     /// The faults in one line, if there were any.
     pub(super) fn problem(&self) -> Option<String> {
+        if self.refusal.is_some() {
+            return self.refusal.clone();
+        }
         let first = self.first_fault.as_ref()?;
         Some(match self.faults {
             1 => format!("ffmpeg reports: {first}"),
@@ -86,30 +100,29 @@ fn fraction(text: &str) -> Option<(u32, u32)> {
 }
 
 /// `... n:   1 pts:    512 pts_time:0.04 ... fmt:gray sar:1/1 s:320x240 ...`
-fn frame(line: &str) -> Option<Shown> {
+fn frame(line: &str) -> Option<Info> {
     let value =
         |key: &str| line.split_once(key).and_then(|(_, rest)| rest.split_whitespace().next());
-    let (width, height) = value(" s:")?.split_once('x')?;
-    let (depth, colour) = samples(value(" fmt:")?)?;
-    Some(Shown {
-        pts: value(" pts:")?.parse().ok(),
-        layout: Layout { width: width.parse().ok()?, height: height.parse().ok()?, depth, colour },
-    })
-}
-
-/// Bits per sample, and whether there are three to a pixel.
-fn samples(format: &str) -> Option<(u32, bool)> {
-    Some(match format {
-        "gray" => (8, false),
-        "gray9le" => (9, false),
-        "gray10le" => (10, false),
-        "gray12le" => (12, false),
-        "gray14le" => (14, false),
-        "gray16le" => (16, false),
-        "rgb24" => (8, true),
-        "rgb48le" => (16, true),
-        _ => return None,
-    })
+    let (pts, format) = (value(" pts:")?, value(" fmt:")?);
+    let Some(samples) = samples(format) else {
+        return Some(Info::Unknown(format!(
+            "ffmpeg gives frames in the pixel format `{format}`, which is not known; convert it first, for example with \
+             `ffmpeg -i FILE -pix_fmt yuv420p -c:v ffv1 OUT.mkv`"
+        )));
+    };
+    let size = || {
+        let (width, height) = value(" s:")?.split_once('x')?;
+        let side = |text: &str| text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side));
+        Some((side(width)?, side(height)?))
+    };
+    let Some((width, height)) = size() else {
+        let size = value(" s:").unwrap_or("none");
+        let problem = format!("a frame of {size} pixels is announced; sides are 1..={MAX_SIDE}");
+        return Some(Info::Unknown(problem));
+    };
+    let pts = pts.parse().ok();
+    let SampleFormat { depth, colour, big_endian } = samples;
+    Some(Info::Frame(Shown { pts, layout: Layout { width, height, depth, colour, big_endian } }))
 }
 
 #[cfg(test)]
@@ -126,7 +139,7 @@ mod tests {
         let mut log = FfmpegLog::default();
         assert_eq!(log.take(CONFIG), None);
         assert_eq!(log.time_base, (1, 12_800));
-        let layout = Layout { width: 320, height: 240, depth: 8, colour: false };
+        let layout = Layout::flat(320, 240, 8);
         let shown = Shown { pts: Some(21_504), layout };
         assert_eq!(log.take(FRAME), Some(Info::Frame(shown)));
         let without = FRAME.replace("pts:  21504", "pts:NOPTS");
@@ -134,6 +147,24 @@ mod tests {
         assert_eq!(log.take("[Parsed_showinfo_1 @ 0x5a] [info] color_range:tv"), None);
         assert_eq!(log.take("[info]   title : [error] s:1x1 fmt:gray pts:1"), None);
         assert_eq!(log.problem(), None);
+    }
+
+    #[test]
+    fn a_frame_that_cannot_be_taken_is_no_silence() {
+        let mut log = FfmpegLog::default();
+        let deep = FRAME.replace("fmt:gray", "fmt:gray10be");
+        let layout = Layout { big_endian: true, ..Layout::flat(320, 240, 10) };
+        assert_eq!(log.take(&deep), Some(Info::Frame(Shown { pts: Some(21_504), layout })));
+        for (from, to, part) in [
+            ("fmt:gray", "fmt:grayf32le", "`grayf32le`"),
+            ("s:320x240", "s:320x999999999", "320x999999999"),
+            ("s:320x240", "s:", "sides are"),
+        ] {
+            let Some(Info::Unknown(problem)) = log.take(&FRAME.replace(from, to)) else {
+                panic!("{to} is passed over")
+            };
+            assert!(problem.contains(part), "{problem}");
+        }
     }
 
     #[test]

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What ffprobe says of a video before it is decoded: whether it has one, and in which colours.
 
+use std::path::Path;
 use std::time::Duration;
 
 use foveate_toolchain::{Invocation, Tool, Toolchain};
 use serde::Deserialize;
 
-use super::Medium;
+use super::{Medium, formats};
 use crate::FootageError;
 
 /// A file that keeps ffprobe busy for longer is none that can be read.
@@ -21,7 +22,8 @@ pub(super) struct Probe {
     pub(super) container: String,
     /// Name of the codec.
     pub(super) codec: String,
-    pixel_format: String,
+    /// Name of the pixel format; empty where nobody was asked.
+    pub(super) pixel_format: String,
 }
 
 #[derive(Deserialize)]
@@ -53,7 +55,8 @@ impl Probe {
         if medium.is_camera() {
             return Ok(Self::default());
         }
-        let ask = Invocation::new(tools.find(Tool::Ffprobe)?.path)
+        let ffprobe = tools.find(Tool::Ffprobe)?.path;
+        let ask = Invocation::new(&ffprobe)
             .args(["-v", "error", "-select_streams", "v:0"])
             .args(["-show_entries", "stream=pix_fmt,codec_name,nb_frames:format=format_name"])
             .args(["-of", "json"])
@@ -63,6 +66,9 @@ impl Probe {
         let refused = |problem: String| medium.refused(problem);
         if !output.is_success() {
             let said = String::from_utf8_lossy(&output.stderr).into_owned();
+            if formats::is_refusal(&said) {
+                return Err(refused(other_format(tools, &ffprobe, medium)?));
+            }
             let said =
                 said.lines().last().unwrap_or("ffprobe refuses it").replace(char::is_control, " ");
             // The name is in the message already.
@@ -82,42 +88,22 @@ impl Probe {
             pixel_format: stream.pix_fmt,
         })
     }
-
-    /// The filter that leaves luma, or the colours that luma is made of.
-    pub(super) fn conversion(&self) -> &'static str {
-        let name = self.pixel_format.as_str();
-        let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
-        let deep_planes = name.starts_with("gbr") && name.contains(|c: char| c.is_ascii_digit());
-        if starts(&["rgb48", "bgr48", "rgba64", "bgra64", "x2", "xyz", "bayer"]) || deep_planes {
-            "format=rgb48le"
-        } else if starts(&["rgb", "bgr", "gbr", "argb", "abgr", "0rgb", "0bgr", "pal8"]) {
-            "format=rgb24"
-        } else if starts(&["mono"]) {
-            "format=gray"
-        } else {
-            // Formats that the filter does not know become planar ones of the same kind first.
-            "extractplanes=y"
-        }
-    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn colours_decide_what_is_asked_for() {
-        let conversion =
-            |name: &str| Probe { pixel_format: name.to_owned(), ..Probe::default() }.conversion();
-        for name in ["yuv420p", "yuvj422p", "nv12", "p010le", "gray", "gray12le", "ya8", ""] {
-            assert_eq!(conversion(name), "extractplanes=y", "{name}");
-        }
-        for name in ["rgb24", "bgr0", "bgra", "gbrp", "pal8", "rgb555le", "0rgb"] {
-            assert_eq!(conversion(name), "format=rgb24", "{name}");
-        }
-        for name in ["gbrp10le", "gbrap12le", "rgb48be", "rgba64le", "x2rgb10le"] {
-            assert_eq!(conversion(name), "format=rgb48le", "{name}");
-        }
-        assert_eq!(conversion("monow"), "format=gray");
-    }
+/// Names the format of a file that is not read. ffprobe says it only when it says everything; the list of formats holds
+/// then, too, so that no other file is opened.
+fn other_format(
+    tools: &Toolchain,
+    ffprobe: &Path,
+    medium: &Medium,
+) -> Result<String, FootageError> {
+    let ask =
+        Invocation::new(ffprobe).args(["-v", "debug"]).args(medium.arguments()).timeout(LIMIT);
+    let said = tools.run(&ask)?.stderr;
+    let said = String::from_utf8_lossy(&said);
+    let name = formats::refused(&said).unwrap_or("unknown").replace(char::is_control, " ");
+    Ok(format!(
+        "its format is `{name}`, whatever its name is, and only formats that hold their frames themselves are read; \
+         make a plain video of it first, for example with `ffmpeg -i FILE -c:v ffv1 OUT.mkv`"
+    ))
 }

@@ -46,12 +46,12 @@ pub(super) fn start(
     if !starts_cleanly(tools, ffmpeg, &probe.codec, &place)? {
         return Ok(None);
     }
-    let first = Decoder::start(ffmpeg, Start::First)?.peek();
+    let first = Decoder::start(ffmpeg, Start::First)?.peek()?;
     let Some(first_pts) = first.and_then(|first| first.pts) else { return Ok(None) };
     let mut decoder = Decoder::start(ffmpeg, Start::At(&place))?;
     // A place that is too late would lose frames; none at all may be the end, or a fault.
     let early = decoder
-        .peek()
+        .peek()?
         .and_then(|shown| shown.pts)
         .is_some_and(|pts| pts >= first_pts && decoder.time_us(first_pts, pts) <= start_us);
     Ok(early.then_some(Sought { decoder, first_pts }))

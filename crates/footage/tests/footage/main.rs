@@ -4,9 +4,11 @@
 
 mod clips;
 mod damage;
+mod formats;
 mod fuzz;
 mod memory;
 mod pictures;
 mod seek;
 mod sets;
 mod video;
+mod waiting;

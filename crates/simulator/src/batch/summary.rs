@@ -4,7 +4,7 @@
 use serde::Serialize;
 
 use crate::Summary;
-use foveate_footage::Clip;
+use foveate_footage::{Clip, shown_input};
 
 /// Changes when a key of the summary changes its meaning or goes.
 pub(super) const FORMAT_VERSION: u32 = 1;
@@ -65,7 +65,7 @@ impl ClipSummary {
 
     pub(super) fn failed(clip: &Clip, problem: String) -> Self {
         Self {
-            inputs: clip.inputs.iter().map(|input| input.display().to_string()).collect(),
+            inputs: clip.inputs.iter().map(|input| shown_input(input)).collect(),
             label: clip.label.clone(),
             output: None,
             complete: false,

@@ -4,6 +4,7 @@
 use std::path::{Path, PathBuf};
 
 use foveate_camera::Camera;
+use foveate_toolchain::Interrupt;
 
 use super::Medium;
 use super::canvas::Canvas;
@@ -34,17 +35,21 @@ pub(super) struct Gallery {
 
 impl Gallery {
     /// The frames that are on the screen.
-    pub(super) fn rendered(folder: &Path, medium: Medium) -> Result<Self, SimulatorError> {
-        Ok(Self { painter: None, series: Series::create(folder, "rendered", medium)? })
+    pub(super) fn rendered(
+        folder: &Path,
+        medium: Medium,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SimulatorError> {
+        Ok(Self { painter: None, series: Series::create(folder, "rendered", medium, interrupt)? })
     }
 
     pub(super) fn painted(
         folder: &Path,
         name: &str,
-        medium: Medium,
+        (medium, interrupt): (Medium, &Interrupt),
         painter: impl Painter + 'static,
     ) -> Result<Self, SimulatorError> {
-        let series = Series::create(folder, name, medium)?;
+        let series = Series::create(folder, name, medium, interrupt)?;
         Ok(Self { painter: Some(Box::new(painter)), series })
     }
 }
@@ -94,11 +99,20 @@ impl Sink for Gallery {
 }
 
 impl Series {
-    fn create(folder: &Path, name: &str, medium: Medium) -> Result<Self, SimulatorError> {
+    fn create(
+        folder: &Path,
+        name: &str,
+        medium: Medium,
+        interrupt: &Interrupt,
+    ) -> Result<Self, SimulatorError> {
+        let video = |extension: &str| {
+            let path = folder.join(format!("{name}.{extension}"));
+            VideoFile::create(&path, interrupt).map(Self::Video)
+        };
         match medium {
             Medium::Png => PngSeries::create(folder.join(name)).map(Self::Folder),
-            Medium::Mkv => VideoFile::create(&folder.join(format!("{name}.mkv"))).map(Self::Video),
-            Medium::Mp4 => VideoFile::create(&folder.join(format!("{name}.mp4"))).map(Self::Video),
+            Medium::Mkv => video("mkv"),
+            Medium::Mp4 => video("mp4"),
         }
     }
 

@@ -23,6 +23,7 @@ use super::table::{FrameRow, FrameTable};
 use super::{RunOptions, Summary, events};
 use crate::SimulatorError;
 use foveate_footage::{SetForm, SourceFrame};
+use foveate_toolchain::Interrupt;
 
 /// What a summary says of a run that the user stopped.
 pub(crate) const INTERRUPTED: &str = "interrupted";
@@ -53,6 +54,7 @@ impl Recorder {
         form: &SetForm,
         options: &RunOptions,
         has_scores: bool,
+        interrupt: &Interrupt,
     ) -> Result<Self, SimulatorError> {
         let arrays = Arrays::create(folder, design, has_scores)?;
         let mut sinks: Vec<Box<dyn Sink>> = vec![Box::new(arrays)];
@@ -61,15 +63,20 @@ impl Recorder {
             sinks.push(Box::new(PacketFile::create(folder, design, packets)?));
         }
         if let Some(medium) = options.rendered {
-            sinks.push(Box::new(Gallery::rendered(folder, medium)?));
+            sinks.push(Box::new(Gallery::rendered(folder, medium, interrupt)?));
         }
         if let Some(medium) = options.overlay {
             let overlay = Overlay::default();
-            sinks.push(Box::new(Gallery::painted(folder, "overlay", medium, overlay)?));
+            sinks.push(Box::new(Gallery::painted(
+                folder,
+                "overlay",
+                (medium, interrupt),
+                overlay,
+            )?));
         }
         if let Some(medium) = options.heatmap {
             for (name, map) in Heatmap::all(design) {
-                sinks.push(Box::new(Gallery::painted(folder, &name, medium, map)?));
+                sinks.push(Box::new(Gallery::painted(folder, &name, (medium, interrupt), map)?));
             }
         }
         let table = FrameTable::create(&folder.join("frames.csv"), design)?;

@@ -6,9 +6,8 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use foveate_toolchain::{Feeder, Invocation, Tool, Toolchain};
+use foveate_toolchain::{Feeder, Interrupt, Invocation, Tool, ToolError, Toolchain};
 
-use super::cannot_write;
 use super::picture::{RawImage, Samples};
 use crate::SimulatorError;
 
@@ -16,6 +15,7 @@ use crate::SimulatorError;
 pub(super) struct VideoFile {
     path: PathBuf,
     ffmpeg: PathBuf,
+    interrupt: Interrupt,
     state: State,
 }
 
@@ -30,10 +30,14 @@ enum State {
 
 impl VideoFile {
     /// A file whose extension says what it is.
-    pub(super) fn create(path: &Path) -> Result<Self, SimulatorError> {
-        let found = Toolchain::system().find(Tool::Ffmpeg);
-        let ffmpeg = found.map_err(|error| SimulatorError::NoVideo(Box::new(error)))?.path;
-        Ok(Self { path: path.to_owned(), ffmpeg, state: State::Empty })
+    pub(super) fn create(path: &Path, interrupt: &Interrupt) -> Result<Self, SimulatorError> {
+        let found = Toolchain::system().cancelled_by(interrupt.flag()).find(Tool::Ffmpeg);
+        let ffmpeg = found.map_err(|error| match error.is_interrupted() {
+            true => SimulatorError::Cancelled,
+            false => SimulatorError::NoVideo(Box::new(error)),
+        });
+        let (path, interrupt) = (path.to_owned(), interrupt.clone());
+        Ok(Self { path, ffmpeg: ffmpeg?.path, interrupt, state: State::Empty })
     }
 
     pub(super) fn path(&self) -> &Path {
@@ -70,9 +74,10 @@ impl VideoFile {
             self.state = self.feed(feeder, first)?;
         }
         if let State::Running(feeder) = &mut self.state {
-            let (success, said) = feeder.finish().map_err(cannot_write(&self.path))?;
-            if !success {
-                self.state = State::failed(said);
+            match feeder.finish() {
+                Ok((true, _)) => {}
+                Ok((false, said)) => self.state = State::failed(said),
+                Err(error) => self.state = State::given_up(&error),
             }
         }
         self.check()
@@ -91,8 +96,9 @@ impl VideoFile {
             .args(["-pixel_format", format, "-video_size", &size, "-framerate", rate])
             .args(["-i", "pipe:0", "-an"])
             .args(self.codec(picture.samples))
-            .arg(&self.path);
-        Feeder::start(&invocation).map_err(|error| SimulatorError::Tool(Box::new(error)))
+            .arg(local(&self.path));
+        Feeder::start(&invocation, &self.interrupt)
+            .map_err(|error| SimulatorError::Tool(Box::new(error)))
     }
 
     fn codec(&self, samples: Samples) -> &'static [&'static str] {
@@ -121,16 +127,27 @@ impl VideoFile {
         if feeder.write_all(&picture.bytes).is_ok() {
             return Ok(State::Running(feeder));
         }
-        let (_, said) = feeder.finish().map_err(cannot_write(&self.path))?;
-        Ok(State::failed(said))
+        // It has ended, or takes nothing since an interrupt.
+        Ok(feeder.fail().map_or_else(|error| State::given_up(&error), State::failed))
     }
 }
 
 impl State {
+    fn given_up(error: &ToolError) -> Self {
+        Self::Failed(format!("ffmpeg was given up: {error}"))
+    }
+
     fn failed(said: Option<String>) -> Self {
         let said = said.map(|line| line.trim().to_owned());
         Self::Failed(said.unwrap_or_else(|| "ffmpeg ended too early".to_owned()))
     }
+}
+
+/// A file as ffmpeg takes it: a name with a colon is no protocol.
+fn local(path: &Path) -> std::ffi::OsString {
+    let mut name = std::ffi::OsString::from("file:");
+    name.push(path);
+    name
 }
 
 /// The rate that an interval between frames stands for: whole, or whole * 1000/1001, where rounding

@@ -13,6 +13,7 @@ use serde::Serialize;
 use super::super::simulate::Terminal;
 use crate::args::CosimArgs;
 use crate::error::CliError;
+use crate::interrupt;
 
 /// What is in the folder: the packets, what a receiver makes of them, and what the model says.
 pub(super) const PACKETS: &str = "packets.bin";
@@ -73,7 +74,8 @@ pub(super) fn compare(args: &CosimArgs, folder: &Path) -> Result<EndToEnd, CliEr
 }
 
 fn simulation(args: &CosimArgs, config: &Config) -> Result<Simulation, CliError> {
-    let input = InputOptions { frames: Some(args.frames), ..InputOptions::default() };
+    let (frames, interrupt) = (Some(args.frames), interrupt::request());
+    let input = InputOptions { frames, interrupt, ..InputOptions::default() };
     Ok(Simulation::new(config, open(&args.inputs, &config.camera, &input)?)?)
 }
 

@@ -1,0 +1,312 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Signals while the program waits: for ffmpeg, a FIFO, standard input, a camera in the network. It ends within a second with
+//! what is complete, by the right code, and no ffmpeg remains.
+#![cfg(unix)]
+
+use std::fs::{self, File};
+use std::io::Write;
+use std::net::TcpListener;
+use std::path::{Path, PathBuf};
+use std::process::{Child, Command, Output, Stdio};
+use std::time::{Duration, Instant};
+
+use foveate_toolchain::Tool;
+use foveate_toolchain::testing::require_tools;
+use serde_json::Value;
+
+use crate::common::listening;
+use crate::signals::{SIGNALS, ended, kill, wait_for};
+
+/// Longer than the program may take, for a machine that does much else.
+const PATIENCE: Duration = Duration::from_secs(4);
+
+/// A folder with an ffmpeg of our own: a script that writes down its number and does what it is to do in place of the real
+/// one, or after it.
+struct Stub {
+    dir: tempfile::TempDir,
+}
+
+impl Stub {
+    /// `script` is what it does when it is not asked for its version; `$REAL` is the real ffmpeg.
+    fn new(script: &str) -> Self {
+        let dir = tempfile::tempdir().unwrap();
+        let real = Command::new("sh").args(["-c", "command -v ffmpeg"]).output().unwrap();
+        let real = String::from_utf8(real.stdout).unwrap();
+        let text = format!(
+            "#!/bin/sh\nREAL={}\n[ \"$1\" = -version ] && exec $REAL -version\necho $$ >> '{}'\n{script}\n",
+            real.trim(),
+            dir.path().join("pids").display(),
+        );
+        let path = dir.path().join("ffmpeg");
+        fs::write(&path, text).unwrap();
+        assert!(Command::new("chmod").arg("+x").arg(&path).status().unwrap().success());
+        Self { dir }
+    }
+
+    /// Clips of five frames.
+    fn clips(&self, names: &[&str]) {
+        for name in names {
+            let made = Command::new("ffmpeg")
+                .args([
+                    "-v",
+                    "error",
+                    "-f",
+                    "lavfi",
+                    "-i",
+                    "testsrc=size=64x48:rate=10:duration=0.5",
+                ])
+                .args(["-c:v", "ffv1"])
+                .arg(self.at(name))
+                .status();
+            assert!(made.unwrap().success());
+        }
+    }
+
+    fn at(&self, name: &str) -> PathBuf {
+        self.dir.path().join(name)
+    }
+
+    fn command(&self, args: &[&str]) -> Command {
+        let mut command = listening();
+        command
+            .args(args)
+            .current_dir(self.dir.path())
+            .env("FOVEATE_FFMPEG", self.at("ffmpeg"))
+            .env("FOVEATE_PROGRESS", "0")
+            .stdin(Stdio::null())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
+        command
+    }
+
+    fn start(&self, args: &[&str]) -> Child {
+        self.command(args).spawn().unwrap()
+    }
+
+    /// The numbers of all that were started.
+    fn pids(&self) -> Vec<String> {
+        let text = fs::read_to_string(self.at("pids")).unwrap_or_default();
+        text.lines().map(str::to_owned).collect()
+    }
+
+    /// Waits until the stub runs, stops the program, and looks that it ends soon and alone.
+    fn stopped(&self, child: Child, signal: &str, code: i32) -> String {
+        wait_for("ffmpeg", || !self.pids().is_empty());
+        std::thread::sleep(Duration::from_millis(300));
+        let output = stopped(child, signal, code);
+        assert!(self.pids().iter().all(|pid| ended(pid)), "an ffmpeg remains");
+        let _ = fs::remove_file(self.at("pids"));
+        String::from_utf8_lossy(&output.stderr).into_owned()
+    }
+}
+
+/// Sends a signal to a program that waits, and looks that it ends soon, with this code.
+fn stopped(mut child: Child, signal: &str, code: i32) -> Output {
+    assert!(child.try_wait().unwrap().is_none(), "it does not wait");
+    let start = Instant::now();
+    kill(child.id(), signal);
+    wait_for("end of the program", || child.try_wait().unwrap().is_some());
+    let took = start.elapsed();
+    let output = child.wait_with_output().unwrap();
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(code), "{signal}: {said}");
+    assert!(took < PATIENCE, "{signal}: {took:?}: {said}");
+    output
+}
+
+fn summary(folder: &Path) -> Value {
+    serde_json::from_slice(&fs::read(folder.join("summary.json")).unwrap()).unwrap()
+}
+
+fn interrupted_after(folder: &Path, frames: u64) {
+    let summary = summary(folder);
+    assert_eq!((&summary["complete"], &summary["problem"]), (&false.into(), &"interrupted".into()));
+    assert_eq!(summary["frames"], frames);
+}
+
+fn fifo(path: &Path) {
+    assert!(Command::new("mkfifo").arg(path).status().unwrap().success());
+}
+
+fn stream(frames: usize) -> Vec<u8> {
+    let mut bytes = b"YUV4MPEG2 W64 H48 F25:1 Cmono\n".to_vec();
+    for frame in 0..frames {
+        bytes.extend(b"FRAME\n");
+        bytes.resize(bytes.len() + 64 * 48, u8::try_from(frame).unwrap());
+    }
+    bytes
+}
+
+fn has_frames(folder: &Path, frames: usize) -> bool {
+    let picture = format!("rendered/{:06}.png", frames - 1);
+    fs::read_dir(folder).unwrap().flatten().any(|entry| entry.path().join(&picture).exists())
+}
+
+const STALLED: &str = "exec sleep 600";
+/// All frames, and then neither an end nor more.
+const STALLED_LATER: &str = "$REAL \"$@\"\nsleep 600";
+
+#[test]
+fn an_ffmpeg_that_stalls_ends_with_every_command() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let stub = Stub::new(STALLED);
+    stub.clips(&["a.mkv", "b.mkv"]);
+    let activity = ["analyze", "activity", "a.mkv", "b.mkv", "-o", "out"];
+    let commands: [&[&str]; 8] = [
+        &["simulate", "a.mkv", "-o", "out"],
+        &["simulate", "a.mkv", "b.mkv", "-o", "out"],
+        &["explain", "a.mkv", "--frame", "1", "--region", "0,0"],
+        &activity,
+        &["link", "a.mkv", "-o", "out"],
+        &["live", "a.mkv"],
+        &["bench", "a.mkv"],
+        &["explore", "designs", "a.mkv", "-o", "explored", "--no-area"],
+    ];
+    for (turn, args) in commands.into_iter().enumerate() {
+        let (signal, code) = SIGNALS[turn % 3];
+        let said = stub.stopped(stub.start(args), signal, code);
+        assert!(said.contains("interrupted"), "{args:?}: {said}");
+        assert!(!stub.at("out").exists(), "{args:?}");
+    }
+}
+
+#[test]
+fn frames_before_an_ffmpeg_that_stalls_are_kept_and_so_are_finished_clips() {
+    if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
+        return;
+    }
+    let stub = Stub::new(STALLED_LATER);
+    stub.clips(&["a.mkv"]);
+    for (signal, code) in SIGNALS {
+        let child = stub.start(&["simulate", "a.mkv", "-o", "out"]);
+        wait_for("frames", || has_frames(stub.dir.path(), 5));
+        stub.stopped(child, signal, code);
+        interrupted_after(&stub.at("out"), 5);
+        fs::remove_dir_all(stub.at("out")).unwrap();
+    }
+    let batch = Stub::new("case \"$*\" in *b.mkv*) exec sleep 600;; esac\nexec $REAL \"$@\"");
+    batch.clips(&["a.mkv", "b.mkv", "c.mkv"]);
+    let clips = ["simulate", "a.mkv", "b.mkv", "c.mkv", "-o", "out", "--threads", "2"];
+    let child = batch.start(&clips);
+    let done = |name: &str| {
+        let inside = |entry: fs::DirEntry| entry.path().join(name).join("summary.json").exists();
+        fs::read_dir(batch.dir.path()).unwrap().flatten().any(inside)
+    };
+    wait_for("clips", || done("a") && done("c"));
+    batch.stopped(child, "TERM", 143);
+    let whole = summary(&batch.at("out"));
+    assert_eq!((&whole["complete"], &whole["problem"]), (&false.into(), &"interrupted".into()));
+    let clips = whole["clips"].as_array().unwrap();
+    let complete: Vec<_> = clips.iter().map(|clip| clip["complete"].as_bool().unwrap()).collect();
+    assert_eq!(complete, [true, false, true], "{clips:?}");
+    assert_eq!(clips[1]["problem"], "interrupted");
+}
+
+#[test]
+fn pipes_that_stall_end_with_the_program() {
+    let dir = tempfile::tempdir().unwrap();
+    let at = |name: &str| dir.path().join(name);
+    fifo(&at("in"));
+    let start = |args: &[&str], stdin: Stdio| {
+        let mut command = listening();
+        command.args(args).current_dir(dir.path()).stdin(stdin).stdout(Stdio::null());
+        command.stderr(Stdio::piped()).spawn().unwrap()
+    };
+    for (signal, code) in SIGNALS {
+        // Nobody writes.
+        for args in [
+            &["simulate", "in", "-o", "out"][..],
+            &["decode", "in", "-o", "out"],
+            &["check", "--config", "in"],
+        ] {
+            let child = start(args, Stdio::null());
+            std::thread::sleep(Duration::from_millis(300));
+            stopped(child, signal, code);
+        }
+        for args in [
+            &["simulate", "-", "-o", "out"][..],
+            &["decode", "-", "-o", "out"],
+            &["check", "--config", "-"],
+        ] {
+            let mut child = start(args, Stdio::piped());
+            let stdin = child.stdin.take();
+            std::thread::sleep(Duration::from_millis(300));
+            if child.try_wait().unwrap().is_none() {
+                stopped(child, signal, code);
+            } else {
+                assert_eq!(args[0], "check", "a configuration is a file");
+            }
+            drop(stdin);
+        }
+        // Somebody writes some frames.
+        let mut child = start(&["simulate", "-", "-o", "out"], Stdio::piped());
+        let mut stdin = child.stdin.take().unwrap();
+        stdin.write_all(&stream(3)).unwrap();
+        wait_for("frames", || has_frames(dir.path(), 3));
+        stopped(child, signal, code);
+        interrupted_after(&at("out"), 3);
+        fs::remove_dir_all(at("out")).unwrap();
+        let child = start(&["simulate", "in", "-o", "out"], Stdio::null());
+        let mut writer = File::create(at("in")).unwrap();
+        writer.write_all(&stream(4)[..3 * 3078 + 100]).unwrap();
+        wait_for("frames", || has_frames(dir.path(), 3));
+        stopped(child, signal, code);
+        interrupted_after(&at("out"), 3);
+        fs::remove_dir_all(at("out")).unwrap();
+    }
+}
+
+#[test]
+fn a_camera_in_the_network_that_never_answers_is_left() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let silent = TcpListener::bind("127.0.0.1:0").unwrap();
+    let url = format!("rtsp://me:secret@{}/live?key=secret", silent.local_addr().unwrap());
+    let stub = Stub::new("exec $REAL \"$@\"");
+    for (command, (signal, code)) in ["simulate", "analyze", "live"].into_iter().zip(SIGNALS) {
+        let args: &[&str] = match command {
+            "simulate" => &["simulate", &url, "-o", "out"],
+            "analyze" => &["analyze", "activity", &url, "-o", "out"],
+            _ => &["live", &url],
+        };
+        let child = stub.start(args);
+        let _connected = silent.accept().unwrap();
+        let said = stub.stopped(child, signal, code);
+        assert!(!said.contains("secret"), "{said}");
+        assert!(!stub.at("out").exists());
+    }
+}
+
+/// An encoder that takes every frame and never ends: the first Ctrl-C gives it time, the second none.
+#[test]
+fn a_second_ctrl_c_ends_everything_at_once() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let stub = Stub::new("cat > /dev/null\nsleep 600");
+    let args = ["simulate", "scene:street", "-o", "out", "--frames", "100000", "--rendered", "mkv"];
+    let child = stub.start(&args);
+    wait_for("encoder", || !stub.pids().is_empty());
+    kill(child.id(), "INT");
+    std::thread::sleep(Duration::from_millis(500));
+    stub.stopped(child, "INT", 130);
+}
+
+/// One that takes nothing: what else is done is kept, and the video is named.
+#[test]
+fn an_encoder_that_stalls_is_given_up() {
+    if !require_tools(&[Tool::Ffmpeg]) {
+        return;
+    }
+    let stub = Stub::new(STALLED);
+    let set = ["--set", "frame.width=640", "--set", "frame.height=480"];
+    let args = ["simulate", "scene:street", "-o", "out", "--frames", "100000", "--rendered", "mkv"];
+    let child = stub.start(&[&args[..], &set].concat());
+    stub.stopped(child, "TERM", 143);
+    let problem = summary(&stub.at("out"))["problem"].as_str().unwrap().to_owned();
+    assert!(problem.starts_with("interrupted"), "{problem}");
+    assert!(!stub.at("out/rendered.mkv").exists());
+}

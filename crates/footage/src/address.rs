@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Addresses of cameras, and how any address may be shown: without users, passwords and keys, wherever they stand.
+//!
+//! * User and password before the host are left out.
+//! * Values of a query, and of a path such as `/user=me_password=secret`, become `***`, as fragments do.
+//! * An address that is not written as it should be, so that a part of a password may pass for a host or a path, is
+//!   shown by its scheme alone.
+
+use std::fmt;
+use std::path::Path;
+
+/// What stands in place of a secret.
+const HIDDEN: &str = "***";
+/// Secrets from this length on are replaced wherever they stand, shorter ones where they are words.
+const LONG: usize = 4;
+
+/// The address of a camera in the network.
+#[derive(Clone, PartialEq, Eq)]
+pub(crate) struct Address {
+    url: String,
+}
+
+impl Address {
+    /// The address that an input is, if it is one of a camera; the scheme may be written in capitals, which ffmpeg
+    /// does not know.
+    pub(crate) fn of_camera(input: &Path) -> Option<Self> {
+        let (scheme, rest) = input.to_str()?.split_once("://")?;
+        let scheme = scheme.to_ascii_lowercase();
+        let is_camera = scheme == "rtsp" || scheme == "rtsps";
+        is_camera.then(|| Self { url: format!("{scheme}://{rest}") })
+    }
+
+    /// With all secrets, for ffmpeg.
+    pub(crate) fn url(&self) -> &str {
+        &self.url
+    }
+
+    pub(crate) fn shown(&self) -> String {
+        shown_url(&self.url)
+    }
+
+    /// What ffmpeg says, without the secrets of this address, as it was given or percent-decoded.
+    pub(crate) fn redact(&self, said: &str) -> String {
+        let mut text = said.replace(&self.url, &self.shown());
+        for secret in self.secrets() {
+            text = without(&text, &secret);
+        }
+        redacted(&text)
+    }
+
+    /// Everything that [`shown_url`] hides, the longest first.
+    fn secrets(&self) -> Vec<String> {
+        let rest = self.url.split_once("://").map_or("", |(_, rest)| rest);
+        let mut found = Vec::new();
+        if let Some((user, host)) = rest.rsplit_once('@') {
+            found.push(user.to_owned());
+            found.extend(user.split(':').map(str::to_owned));
+            // A password that holds a separator may pass for the end of the host.
+            found.extend(user.split_once(':').map(|(_, password)| password.to_owned()));
+            found.extend(values(host));
+        }
+        found.extend(values(rest));
+        let decoded: Vec<String> = found.iter().map(|secret| percent_decoded(secret)).collect();
+        found.extend(decoded);
+        found.retain(|secret| !secret.is_empty());
+        found.sort_by_key(|secret| std::cmp::Reverse(secret.len()));
+        found.dedup();
+        found
+    }
+}
+
+/// Not even for those who look for faults.
+impl fmt::Debug for Address {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.shown())
+    }
+}
+
+/// An input as results and messages may name it: an address without secrets, everything else as it is.
+#[must_use]
+pub fn shown_input(input: &Path) -> String {
+    let text = input.display().to_string();
+    if let Some(address) = Address::of_camera(input) {
+        return address.shown();
+    }
+    if input.exists() {
+        return text;
+    }
+    // An address with a slash too few is none, but it may hold a password.
+    let scheme = text.split_once(':').map(|(scheme, _)| scheme.to_ascii_lowercase());
+    let is_known = |scheme: &str| ["rtsp", "rtsps", "rtmp", "http", "https"].contains(&scheme);
+    match scheme {
+        Some(scheme) if is_known(&scheme) && !text.contains("://") => format!("{scheme}:{HIDDEN}"),
+        _ if text.contains("://") => shown_url(&text),
+        _ => text,
+    }
+}
+
+/// A text in which every address is without secrets.
+#[must_use]
+pub fn redacted(text: &str) -> String {
+    let is_scheme = |c: char| c.is_ascii_alphanumeric() || "+.-".contains(c);
+    let ends = |c: char| c.is_whitespace() || "'`\"<>".contains(c);
+    let mut shown = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find("://") {
+        let scheme = rest[..at].trim_end_matches(is_scheme).len();
+        let end = rest[at..].find(ends).map_or(rest.len(), |length| at + length);
+        shown.push_str(&rest[..scheme]);
+        shown.push_str(&shown_url(&rest[scheme..end]));
+        rest = &rest[end..];
+    }
+    shown + rest
+}
+
+/// One address without secrets.
+fn shown_url(url: &str) -> String {
+    let Some((scheme, rest)) = url.split_once("://") else { return url.to_owned() };
+    let (authority, after) = rest.split_at(rest.find(['/', '?', '#']).unwrap_or(rest.len()));
+    let host = authority.rsplit_once('@').map_or(authority, |(_, host)| host);
+    if after.contains('@') || !has_plain_port(host) {
+        return format!("{scheme}://{HIDDEN}");
+    }
+    let (path, more) = after.split_at(after.find(['?', '#']).unwrap_or(after.len()));
+    let segments: Vec<String> = path.split('/').map(hidden_value).collect();
+    let mut shown = format!("{scheme}://{host}{}", segments.join("/"));
+    let (query, fragment) = more.split_once('#').map_or((more, None), |(q, f)| (q, Some(f)));
+    if let Some(query) = query.strip_prefix('?') {
+        let pairs = query.split('&').map(|pair| match pair.split_once('=') {
+            Some((key, _)) => format!("{key}={HIDDEN}"),
+            None => HIDDEN.to_owned(),
+        });
+        shown.push('?');
+        shown.push_str(&pairs.collect::<Vec<_>>().join("&"));
+    }
+    if fragment.is_some() {
+        shown.push('#');
+        shown.push_str(HIDDEN);
+    }
+    shown
+}
+
+/// Whether what follows the host is a port, so that it is no password.
+fn has_plain_port(host: &str) -> bool {
+    let after_address = host.rsplit_once(']').map_or(host, |(_, after)| after);
+    let mut parts = after_address.split(':').skip(1);
+    parts.all(|port| port.bytes().all(|byte| byte.is_ascii_digit()))
+}
+
+/// A segment of a path: `user=me&password=secret` becomes `user=***`.
+fn hidden_value(segment: &str) -> String {
+    match segment.split_once('=') {
+        Some((key, _)) => format!("{key}={HIDDEN}"),
+        None => segment.to_owned(),
+    }
+}
+
+/// The values that stand behind an equals sign, a question mark or a hash.
+fn values(rest: &str) -> impl Iterator<Item = String> + '_ {
+    let parts = rest.split(['/', '?', '&', '#', ';']).filter_map(|part| part.split_once('='));
+    let bare = rest.split_once(['?', '#']).map(|(_, query)| query.split(['&', '#']));
+    let bare = bare.into_iter().flatten().filter(|part| !part.contains('='));
+    parts.map(|(_, value)| value.to_owned()).chain(bare.map(str::to_owned))
+}
+
+/// A text in which a secret is replaced: everywhere if it is long, else where it is a word.
+fn without(text: &str, secret: &str) -> String {
+    let mut shown = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(at) = rest.find(secret) {
+        let (before, after) = (&rest[..at], &rest[at + secret.len()..]);
+        let joins = |c: Option<char>| c.is_some_and(char::is_alphanumeric);
+        let before_joins = joins(before.chars().next_back().or_else(|| shown.chars().next_back()));
+        let is_word = !before_joins && !joins(after.chars().next());
+        shown.push_str(before);
+        shown.push_str(if is_word || secret.len() >= LONG { HIDDEN } else { secret });
+        rest = after;
+    }
+    shown + rest
+}
+
+/// `%73ecret` is `secret`.
+fn percent_decoded(text: &str) -> String {
+    let mut bytes = Vec::with_capacity(text.len());
+    let mut rest = text.as_bytes();
+    while let [first, more @ ..] = rest {
+        let digit = |at: usize| more.get(at).and_then(|&byte| char::from(byte).to_digit(16));
+        match (first, digit(0), digit(1)) {
+            (b'%', Some(high), Some(low)) => {
+                bytes.push(u8::try_from(16 * high + low).unwrap_or_default());
+                rest = &more[2..];
+            }
+            _ => {
+                bytes.push(*first);
+                rest = more;
+            }
+        }
+    }
+    String::from_utf8_lossy(&bytes).into_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_address_is_shown_with_its_secrets() {
+        for (url, shown) in [
+            ("rtsp://me:secret@10.0.0.7:554/live", "rtsp://10.0.0.7:554/live"),
+            ("rtsp://me:s@cret@camera", "rtsp://camera"),
+            ("rtsp://camera/live", "rtsp://camera/live"),
+            ("rtsp://[fe80::1]:554/live", "rtsp://[fe80::1]:554/live"),
+            ("RTSP://me:secret@camera/live", "RTSP://camera/live"),
+            (
+                "rtsp://camera/live?user=me&password=secret",
+                "rtsp://camera/live?user=***&password=***",
+            ),
+            ("rtsp://camera?secret", "rtsp://camera?***"),
+            ("rtsp://camera/live#secret", "rtsp://camera/live#***"),
+            ("rtsp://camera/live?a=1#secret", "rtsp://camera/live?a=***#***"),
+            ("rtsp://camera/user=me&password=secret&channel=1", "rtsp://camera/user=***"),
+            ("rtsp://camera/live;password=secret/1", "rtsp://camera/live;password=***/1"),
+            ("http://me:secret@host/a", "http://host/a"),
+            // A separator in a password, not percent-encoded; nobody can tell where the host begins.
+            ("rtsp://me:se/cret@10.0.0.7:554/live", "rtsp://***"),
+            ("rtsp://me:secret?more@10.0.0.7/live", "rtsp://***"),
+            ("rtsp://me:secret/10.0.0.7/live", "rtsp://***"),
+            ("rtsp://me:secret@10.0.0.7/live?x=a@b", "rtsp://***"),
+        ] {
+            assert_eq!(shown_url(url), shown);
+            let text = format!("before `{url}' and {url}: after");
+            assert!(!redacted(&text).contains("secret"), "{}", redacted(&text));
+            assert!(!shown_input(Path::new(url)).contains("secret"));
+        }
+        for text in ["no address", "a:b", "://", "a ://b", "scene:street"] {
+            assert_eq!(redacted(text), text);
+            assert_eq!(shown_input(Path::new(text)), text);
+        }
+        assert_eq!(shown_input(Path::new("rtsp:/me:secret@camera")), "rtsp:***");
+    }
+
+    #[test]
+    fn what_ffmpeg_repeats_has_no_secrets() {
+        let url = "RTSP://m%65:s%65cret@camera/live?token=ab&key=longer";
+        let address = Address::of_camera(Path::new(url)).unwrap();
+        assert!(address.url().starts_with("rtsp://m%65"));
+        for (said, shown) in [
+            ("s%65cret or secret is wrong", "*** or *** is wrong"),
+            ("tab ab longer xlongerx", "tab *** *** x***x"),
+            ("rtsp://camera/live?token=ab: refused", "rtsp://camera/live?token=***"),
+            ("tcp://camera:554?timeout=1 failed", "tcp://camera:554?timeout=*** failed"),
+            ("user me", "user ***"),
+        ] {
+            assert!(address.redact(said).starts_with(shown), "{}", address.redact(said));
+        }
+        assert!(!format!("{address:?}").contains("ecret"));
+        assert!(Address::of_camera(Path::new("http://camera")).is_none());
+    }
+}
