@@ -31,7 +31,7 @@ fn objects_of_a_known_clip_are_counted() {
         "# clip: boxes {} (MOT); 0 lie mostly outside",
         clip.join("gt.txt").display()
     )));
-    assert!(notes.contains("0 of 3 frames have no entry"), "{notes}");
+    assert!(notes.contains("0 of 4 frames have no entry"), "{notes}");
     // Every threshold and region size, and no class twice.
     for (key, points) in [
         ("spatial.0.min_score", 9),
