@@ -38,6 +38,10 @@ verilator)
     ;;
 esac
 
+# Foveate may replace what is listed.
+for made in waves.fst waves.vcd; do
+    if [ -n "$waves" ] && [ -f "$made" ] && [ -f .foveate ]; then sha256sum "$made" >>.foveate; fi
+done
 cat "$build/log"
 grep -q '^PASS' "$build/log" && exit 0
 grep -q '^FAIL' "$build/log" && exit 1

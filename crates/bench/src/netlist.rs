@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What Yosys makes of one RPU, of one serial lane, or of a small raster core, in Icarus: the first regions of the same frames.
 
+use foveate_staging::ScratchFolder;
 use std::time::Instant;
 
 use foveate_cosim::{Agreement, Job, Level as Simulated, Simulator, Stimulus};
@@ -31,7 +32,7 @@ pub(crate) fn netlist(
     };
     let frames = frames.iter().map(cut).collect::<Result<Vec<_>, _>>()?;
     let count = frames.len() as u64;
-    let folder = tempfile::tempdir().map_err(|source| BenchError::Vectors {
+    let folder = ScratchFolder::new().map_err(|source| BenchError::Vectors {
         path: std::env::temp_dir().display().to_string(),
         source,
     })?;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::Path;
 use std::time::Duration;
 
-use foveate_staging::{Kind, StagedFolder};
+use foveate_staging::{ContinuedFolder, FolderKind, StagedFolder, StagingError};
 use foveate_toolchain::{Invocation, ToolError, Toolchain};
 use serde::Serialize;
 use serde_json::Value;
@@ -13,14 +13,15 @@ use serde_json::Value;
 use crate::{BoardError, Project};
 
 /// What is written, and what may be replaced.
-const PROJECT: Kind = Kind {
+const PROJECT: FolderKind = FolderKind {
     what: "a project of a board (its board.f and sim/board_clock.v)",
     is: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
-    listed: true,
 };
 
 /// What the script writes of the seed that it packs, once that is done for all seeds.
 const PACKED: &str = "build/packed";
+/// The folder that the script makes.
+const BUILD: &str = "build";
 /// One seed takes minutes on a large device.
 const LIMIT: Duration = Duration::from_secs(4 * 3600);
 
@@ -64,7 +65,8 @@ pub struct Used {
     pub available: u64,
 }
 
-/// Writes the files of a project into a folder, which appears when it is complete. Returns their names.
+/// Writes the files of a project into a folder, which appears when it is complete. Returns their names. What the script of an
+/// earlier project has made is on the list of its folder, so that it makes way, too.
 ///
 /// # Errors
 /// When the folder cannot be written, or holds something else.
@@ -73,9 +75,6 @@ pub fn write_project(
     folder: &Path,
     overwrite: bool,
 ) -> Result<Vec<String>, BoardError> {
-    if overwrite && (PROJECT.is)(folder) {
-        forget(folder, &project.bitstream());
-    }
     let staged = StagedFolder::new(folder, PROJECT, overwrite)?;
     let files = project.files();
     for file in &files {
@@ -83,12 +82,6 @@ pub fn write_project(
     }
     staged.commit()?;
     Ok(files.into_iter().map(|file| file.path).collect())
-}
-
-/// Removes what the script of an earlier project has made. What cannot be removed, the folder is then said to hold.
-fn forget(folder: &Path, bitstream: &str) {
-    let _ = fs::remove_dir_all(folder.join("build"));
-    let _ = fs::remove_file(folder.join(bitstream));
 }
 
 /// Runs the script of a project that has been written. A bitstream that is too slow is one, too.
@@ -106,7 +99,12 @@ pub fn build(
     }
     let run =
         Invocation::new("sh").args(["build.sh", &seeds.to_string()]).dir(folder).timeout(LIMIT);
-    match toolchain.run_checked(&run) {
+    let is_new = !folder.join(BUILD).exists();
+    let ran = toolchain.run_checked(&run);
+    if is_new {
+        list_made(project, folder)?;
+    }
+    match ran {
         // It has packed something, and says that it is too slow.
         Err(ToolError::Failed { .. }) if folder.join(PACKED).is_file() => {}
         other => drop(other?),
@@ -135,6 +133,14 @@ pub fn build(
         packed_mhz: packed.0,
         pclk_reached_mhz: packed.1,
     })
+}
+
+/// Lists what the script has made, which cannot do so itself when it is stopped.
+fn list_made(project: &Project, folder: &Path) -> Result<(), StagingError> {
+    let made = fs::read_dir(folder.join(BUILD)).into_iter().flatten().flatten();
+    let names = made.filter_map(|entry| entry.file_name().into_string().ok());
+    let names = names.map(|name| format!("{BUILD}/{name}")).chain([project.bitstream()]);
+    ContinuedFolder::open(folder)?.note(names)
 }
 
 /// What a report of nextpnr says of the cells, without those of which none is used.

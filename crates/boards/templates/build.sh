@@ -39,8 +39,24 @@ run() {
     exit 1
 }
 
-rm -rf build
-mkdir build || exit 2
+# What this script makes, by its names: what else is in the folder belongs to somebody else.
+made() {
+    for file in build/yosys.log build/board.json build/seed[0-9]*.* build/clocks build/sorted build/pack.log build/report.json \
+        build/packed {= bitstream =}; do
+        [ ! -f "$file" ] || echo "$file"
+    done
+}
+# Whatever the end is, it is listed, so that Foveate may replace it.
+list() {
+    [ -f .foveate ] && command -v sha256sum >/dev/null || return
+    made | while read -r file; do sha256sum "$file"; done >>.foveate
+}
+made | while read -r file; do rm "$file"; done
+mkdir -p build || exit 2
+trap list EXIT
+trap 'exit 129' HUP
+trap 'exit 130' INT
+trap 'exit 143' TERM
 run build/yosys.log "$yosys" -Q -T -s build.ys
 seed=1
 : >build/clocks

@@ -7,15 +7,14 @@ use std::sync::atomic::AtomicBool;
 
 use foveate_design::Design;
 use foveate_emit::{Prefix, Top};
-use foveate_staging::{Kind, StagedFolder};
+use foveate_staging::{FolderKind, StagedFolder};
 
 use crate::{CosimError, ShippedBench, timing_diagram};
 
 /// What is written, and what may be replaced.
-const CORE: Kind = Kind {
+const CORE: FolderKind = FolderKind {
     what: "a generated core (its foveate_rcm.core)",
     is: |folder| folder.join("foveate_rcm.core").is_file(),
-    listed: true,
 };
 
 /// A core that has been written.

@@ -8,12 +8,12 @@ use crate::error::CosimError;
 use crate::layout::Layout;
 use crate::packer::Packer;
 use foveate_design::Port;
+use foveate_staging::ScratchFolder;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
-use tempfile::TempDir;
 
 /// Where a stretch of clocks belongs, to name a mismatch in the words of the vectors.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,7 +36,7 @@ pub(crate) const ENDS_FILE: &str = "ends.hex";
 /// Finished vectors, for any number of runs, also at the same time. The files vanish with the value.
 #[derive(Debug)]
 pub struct Recording {
-    folder: TempDir,
+    folder: ScratchFolder,
     /// Whether the folder has the files of the replay bench.
     has_bench_files: Mutex<bool>,
     inputs: Layout,
@@ -255,10 +255,8 @@ impl Recorder {
     /// When there is no place for temporary files.
     pub fn new(ports: &[Port]) -> Result<Self, CosimError> {
         let parent = std::env::temp_dir();
-        let folder = tempfile::Builder::new()
-            .prefix("foveate-cosim-")
-            .tempdir_in(&parent)
-            .map_err(CosimError::temporary("create a folder in", &parent))?;
+        let folder =
+            ScratchFolder::new().map_err(CosimError::temporary("create a folder in", &parent))?;
         let create = |path: PathBuf| {
             let file = File::create(&path).map_err(CosimError::temporary("write", &path))?;
             Ok::<_, CosimError>(BufWriter::with_capacity(1 << 18, file))

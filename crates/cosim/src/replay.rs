@@ -7,7 +7,7 @@ use crate::mismatch::Mismatch;
 use crate::recording::{Recording, VECTORS_FILE};
 use crate::simulate::{Dut, Outcome, Run, Simulator, WAVES_FILE};
 use askama::Template;
-use foveate_staging::{Kind, StagedFolder};
+use foveate_staging::{FolderKind, StagedFolder};
 use foveate_toolchain::text::shell_word;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -16,14 +16,10 @@ pub(crate) const SCRIPT: &str = "replay.sh";
 pub(crate) const README: &str = "README.md";
 /// What a core on a bus was given.
 pub(crate) const TRAFFIC_FILE: &str = "traffic.txt";
-/// The first words of the README.
-const TITLE: &str = "# A mismatch, to replay";
 /// What is written, and what makes way for it.
-pub(crate) const REPLAY: Kind = Kind {
+pub(crate) const REPLAY: FolderKind = FolderKind {
     what: "a replay (its replay.sh) or waves (its waves.fst)",
     is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
-    // What the script builds in it may go with it.
-    listed: false,
 };
 /// Clocks that are kept behind the last port's first mismatch.
 const MARGIN: u64 = 16;
@@ -64,18 +60,9 @@ pub(crate) fn check(folder: &Path) -> Result<(), CosimError> {
     Ok(StagedFolder::check(folder, REPLAY, true)?)
 }
 
-/// Removes what an earlier run has left, so that it is not taken for what this one leaves. Only what is
-/// all a run's is removed: a replay, told by its script, vectors and README, or waves alone.
+/// Removes what an earlier run has left, so that it is not taken for what this one leaves.
 pub(crate) fn remove(folder: &Path) -> Result<(), CosimError> {
-    let names = fs::read_dir(folder).into_iter().flatten().flatten().map(|entry| entry.file_name());
-    let waves_alone = names.collect::<Vec<_>>() == [WAVES_FILE];
-    let is_there = |name: &str| folder.join(name).is_file();
-    let files = is_there(SCRIPT) && (is_there(VECTORS_FILE) || is_there(TRAFFIC_FILE));
-    let readme = || fs::read_to_string(folder.join(README)).unwrap_or_default();
-    if waves_alone || (files && readme().starts_with(TITLE)) {
-        fs::remove_dir_all(folder).map_err(CosimError::io("remove the earlier replay", folder))?;
-    }
-    Ok(())
+    Ok(StagedFolder::remove(folder, REPLAY)?)
 }
 
 /// Writes the folder beside its place, then puts it there; an earlier replay makes way.

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! From a space and clips to a folder of tables, fronts, configurations and one page.
 
-use std::fs;
 use std::path::Path;
 
 use foveate_design::Design;
 use foveate_files::tables::Table;
-use foveate_staging::write_file;
 
 use crate::cost::Synthesized;
-use crate::folder::{UNFINISHED, claim, mark};
+use crate::folder::{MARK, UNFINISHED, claim, continued, mark};
 use crate::measure::Measured;
 use crate::objective::mark_fronts;
 use crate::row::DesignRow;
@@ -17,6 +15,14 @@ use crate::store::Store;
 use crate::table::{errors, point};
 use crate::work::Work;
 use crate::{ClipRow, Exploration, ExploreError, Hooks, Request, Synthesizer};
+
+/// The tables and the page.
+const POINTS: &str = "points.csv";
+const POINTS_PARQUET: &str = "points.parquet";
+const PARETO: &str = "pareto.csv";
+const CLIPS: &str = "clips.csv";
+const REPORT: &str = "report.html";
+const TABLES: [&str; 5] = [POINTS, POINTS_PARQUET, PARETO, CLIPS, REPORT];
 
 /// Runs an exploration and writes `output`. Finished results are kept there, so an interrupted run
 /// can continue.
@@ -31,6 +37,10 @@ pub fn explore(
 ) -> Result<Exploration, ExploreError> {
     let space = request.space;
     let Work { footage, points, refused, looks, look_of } = Work::new(request, None, hooks)?;
+    // Hours before they are written.
+    let names = (1..=points.len()).map(design_file).chain(TABLES.map(str::to_owned));
+    let names: Vec<String> = names.chain([MARK.to_owned()]).collect();
+    continued(output)?.check(names.iter().map(String::as_str))?;
     claim(output)?;
     mark(output, UNFINISHED)?;
     let store = Store::open(output)?;
@@ -105,11 +115,9 @@ fn write(
         Table::of(rows.map(|row| point(row, &exploration.axes)))
     };
     let points = table(&mut rows.iter());
-    write_file(&output.join("points.csv"), points.csv().as_bytes())?;
-    let parquet = output.join("points.parquet");
-    write_file(&parquet, &points.parquet("points").map_err(ExploreError::io("write", &parquet))?)?;
+    let parquet = points.parquet("points");
+    let parquet = parquet.map_err(ExploreError::io("write", &output.join(POINTS_PARQUET)))?;
     let pareto = table(&mut rows.iter().filter(|row| row.front.all));
-    write_file(&output.join("pareto.csv"), pareto.csv().as_bytes())?;
     let clips = exploration.clips.iter().zip(measured).flat_map(|(clip, measured)| {
         rows.iter().map(move |row| {
             let figures = measured[look_of[row.number - 1]].tally.figures();
@@ -118,25 +126,25 @@ fn write(
             cells
         })
     });
-    write_file(&output.join("clips.csv"), Table::of(clips).csv().as_bytes())?;
-    let designs = output.join("designs");
-    fs::create_dir_all(&designs).map_err(ExploreError::io("make the folder", &designs))?;
-    // Numbers of an earlier, larger space would belong to other points.
-    for number in rows.len() + 1.. {
-        let surplus = designs.join(format!("{number}.toml"));
-        if !surplus.exists() {
-            break;
-        }
-        fs::remove_file(&surplus).map_err(ExploreError::io("remove", &surplus))?;
-    }
-    for row in rows {
-        let name = designs.join(format!("{}.toml", row.number));
-        write_file(&name, row.config.to_toml().as_bytes())?;
-    }
-    write_file(&output.join("report.html"), crate::report::page(exploration)?.as_bytes())?;
+    let mut files = vec![
+        (POINTS.to_owned(), points.csv().into_bytes()),
+        (POINTS_PARQUET.to_owned(), parquet),
+        (PARETO.to_owned(), pareto.csv().into_bytes()),
+        (CLIPS.to_owned(), Table::of(clips).csv().into_bytes()),
+    ];
+    let design = |row: &DesignRow| (design_file(row.number), row.config.to_toml().into_bytes());
+    files.extend(rows.iter().map(design));
+    files.push((REPORT.to_owned(), crate::report::page(exploration)?.into_bytes()));
     // Last, since it says that all is there. Plain data with text keys: this cannot fail.
     let json = serde_json::to_string_pretty(exploration)
         .expect("it has no map with other keys than text")
         + "\n";
-    mark(output, &json)
+    files.push((MARK.to_owned(), json.into_bytes()));
+    // Designs of an earlier, larger space go: their numbers would belong to other points.
+    Ok(continued(output)?.write(&files)?)
+}
+
+/// The configuration of a point.
+fn design_file(number: usize) -> String {
+    format!("designs/{number}.toml")
 }

@@ -4,12 +4,12 @@
 use std::fs;
 use std::path::Path;
 
-use foveate_staging::{TEMPORARY, write_file};
+use foveate_staging::{ContinuedFolder, TEMPORARY, write_file};
 
 use crate::ExploreError;
 
 /// The file that marks a folder as an exploration and describes it.
-const MARK: &str = "exploration.json";
+pub(crate) const MARK: &str = "exploration.json";
 /// What the mark holds until all is there.
 pub(crate) const UNFINISHED: &str = "{ \"finished\": false }\n";
 /// The folder of the files that say which units are done.
@@ -35,6 +35,13 @@ pub(crate) fn claim(output: &Path) -> Result<(), ExploreError> {
     check(output)?;
     fs::create_dir_all(output).map_err(ExploreError::io("make the folder", output))?;
     if output.join(MARK).is_file() { Ok(()) } else { mark(output, UNFINISHED) }
+}
+
+/// The folder, of which only files that are its own are written again.
+pub(crate) fn continued(output: &Path) -> Result<ContinuedFolder, ExploreError> {
+    let mut folder = ContinuedFolder::open(output)?;
+    folder.expect(MARK, UNFINISHED.as_bytes());
+    Ok(folder)
 }
 
 /// Describes the exploration.

@@ -21,7 +21,7 @@ use foveate_accelerator::Accelerator;
 use foveate_design::{Config, Design};
 use foveate_footage::{Hooks, InputOptions, Source};
 use foveate_network::Mode;
-use foveate_staging::{Kind as FolderKind, StagedFolder};
+use foveate_staging::{FolderKind, StagedFolder};
 use std::path::{Path, PathBuf};
 
 /// What is computed, and how.
@@ -240,7 +240,7 @@ fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
 
 /// What a run leaves, and what it may replace.
 const INFERENCE: FolderKind =
-    FolderKind { what: "an inference (its inference.json)", is: is_inference, listed: true };
+    FolderKind { what: "an inference (its inference.json)", is: is_inference };
 
 fn is_inference(folder: &Path) -> bool {
     folder.join("inference.json").is_file()

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::Config;
 use foveate_footage::{InputOptions, Subject, subjects};
 use foveate_simulator::{BatchHooks, BatchProgress};
-use foveate_staging::{Kind, StagedFolder};
+use foveate_staging::{FolderKind, ScratchFolder, StagedFolder};
 use foveate_toolchain::{Tool, Toolchain};
 
 use crate::clip::{Measured, Seen, watch};
@@ -88,7 +88,7 @@ fn one(
     tick: &dyn Fn() -> bool,
 ) -> Result<ClipReport, LinkError> {
     let place = std::env::temp_dir();
-    let folder = tempfile::tempdir().map_err(scratch("make a folder in", &place))?;
+    let folder = ScratchFolder::new().map_err(scratch("make a folder in", &place))?;
     let seen = watch(subject, request.config, request.input, folder.path(), tick)?;
     let timeline = Timeline::new(&subject.name, &seen.times_us, seen.design.height())?;
     let cameras = Cameras::new(&subject.name, &seen.design, &timeline, request.clock_hz)?;
@@ -223,8 +223,7 @@ fn codec_point(
     }
 }
 
-const LINK: Kind =
-    Kind { what: "a comparison of links (its link.json)", is: is_link, listed: true };
+const LINK: FolderKind = FolderKind { what: "a comparison of links (its link.json)", is: is_link };
 
 fn is_link(folder: &Path) -> bool {
     folder.join("link.json").is_file()

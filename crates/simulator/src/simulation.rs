@@ -5,7 +5,7 @@ use std::path::Path;
 
 use foveate_design::{Config, Design};
 use foveate_engine::Engine;
-use foveate_staging::{Kind as FolderKind, StagedFolder};
+use foveate_staging::{FolderKind, StagedFolder};
 
 use crate::output::{DISK_FULL, INTERRUPTED, Recorder};
 use crate::{RunOptions, SimulatorError, Summary};
@@ -141,7 +141,7 @@ impl std::fmt::Debug for Simulation {
 
 /// What a run leaves, and what it may replace.
 pub(crate) const SIMULATION: FolderKind =
-    FolderKind { what: "a simulation (its summary.json)", is: is_simulation, listed: true };
+    FolderKind { what: "a simulation (its summary.json)", is: is_simulation };
 
 fn is_simulation(folder: &Path) -> bool {
     let summary = std::fs::read(folder.join("summary.json")).unwrap_or_default();

@@ -45,8 +45,8 @@ pub enum StagingError {
     },
     /// The folder is of the right kind, and holds other files too.
     #[error(
-        "output folder `{}` is not replaced, because it holds files that Foveate did not write: {names}; \
-         move them, or choose another folder",
+        "output folder `{}` is not replaced, because it holds files that Foveate did not write, or that were changed \
+         since: {names}; move them, or choose another folder",
         path.display()
     )]
     Mixed {
@@ -54,6 +54,18 @@ pub enum StagingError {
         path: PathBuf,
         /// The first of them, and how many there are more.
         names: String,
+    },
+    /// Files came into a folder while it was replaced.
+    #[error(
+        "output folder `{}` is replaced, but files came into the earlier one meanwhile; they are kept in `{}`",
+        path.display(),
+        kept.display()
+    )]
+    Kept {
+        /// The folder.
+        path: PathBuf,
+        /// Where those files are.
+        kept: PathBuf,
     },
     /// Something cannot be written.
     #[error("cannot write `{}`: {source}; check free space and permissions, or choose another folder", path.display())]
@@ -69,12 +81,17 @@ impl StagingError {
     /// Whether there was no room.
     #[must_use]
     pub fn is_full(&self) -> bool {
-        matches!(self, Self::Write { source, .. }
-            if matches!(source.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded))
+        matches!(self, Self::Write { source, .. } if is_full(source))
     }
 
     /// Names the path in an error of the operating system.
     pub(crate) fn write(path: &Path) -> impl Fn(io::Error) -> Self + '_ {
         |source| Self::Write { path: path.to_owned(), source }
     }
+}
+
+/// Whether an error of the operating system says that there is no room.
+#[must_use]
+pub fn is_full(error: &io::Error) -> bool {
+    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
 }

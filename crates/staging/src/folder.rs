@@ -5,25 +5,29 @@ use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use crate::{StagingError, list};
+use crate::StagingError;
+use crate::leftover::{EARLIER, partial, restore, sweep_once};
+use crate::list::{self, FileList, some_of};
+use crate::lock::LockedFolder;
 
-/// What kind of folder is written, to recognize one that may be replaced.
+/// What kind of folder is written, to recognize one that may be replaced. Whatever it is, it is replaced only if every file in it
+/// is on its list, `.foveate`, and unchanged.
 #[derive(Clone, Copy, Debug)]
-pub struct Kind {
+pub struct FolderKind {
     /// With its article, for messages: `a simulation (summary.json)`.
     pub what: &'static str,
     /// Whether a folder that is there is of this kind.
     pub is: fn(&Path) -> bool,
-    /// Whether it holds a list of its files, `.foveate`, and makes way only if it holds no others.
-    pub listed: bool,
 }
 
 /// A folder in the making; dropped before [`StagedFolder::commit`] it is removed.
 #[derive(Debug)]
 pub struct StagedFolder {
+    /// As the user knows it.
+    given: PathBuf,
     target: PathBuf,
-    partial: PathBuf,
-    kind: Kind,
+    place: LockedFolder,
+    kind: FolderKind,
     replace: bool,
 }
 
@@ -33,18 +37,20 @@ impl StagedFolder {
     ///
     /// # Errors
     /// When `target` holds something that does not make way, or cannot be written.
-    pub fn new(target: &Path, kind: Kind, replace: bool) -> Result<Self, StagingError> {
+    pub fn new(target: &Path, kind: FolderKind, replace: bool) -> Result<Self, StagingError> {
         let unnamed = || StagingError::NoName { path: target.to_owned() };
-        let place = std::path::absolute(target).map_err(|_| unnamed())?;
-        let place = place.canonicalize().unwrap_or(place);
+        let absolute = std::path::absolute(target).map_err(|_| unnamed())?;
+        let place = absolute.canonicalize().unwrap_or(absolute);
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else {
             return Err(unnamed());
         };
-        refuse_occupied(target, kind, replace)?;
+        // A run that was killed may have left the folder there.
+        sweep_once(parent);
+        refuse_occupied(&place, target, kind, replace)?;
         fs::create_dir_all(parent).map_err(StagingError::write(target))?;
-        let stem = parent.join(format!(".{}.partial", name.to_string_lossy()));
-        let partial = make_fresh(&stem).map_err(StagingError::write(target))?;
-        Ok(Self { target: place, partial, kind, replace })
+        let locked = LockedFolder::create(parent, &partial(name));
+        let locked = locked.map_err(StagingError::write(target))?;
+        Ok(Self { given: target.to_owned(), target: place, place: locked, kind, replace })
     }
 
     /// Whether [`StagedFolder::new`] would accept `target`, without making anything: to refuse it
@@ -52,14 +58,53 @@ impl StagedFolder {
     ///
     /// # Errors
     /// When `target` holds something that does not make way.
-    pub fn check(target: &Path, kind: Kind, replace: bool) -> Result<(), StagingError> {
-        refuse_occupied(target, kind, replace)
+    pub fn check(target: &Path, kind: FolderKind, replace: bool) -> Result<(), StagingError> {
+        refuse_occupied(target, target, kind, replace)
+    }
+
+    /// Removes a folder that [`StagedFolder::new`] would replace, if it is there.
+    ///
+    /// # Errors
+    /// When `target` holds something that does not make way, or cannot be removed.
+    pub fn remove(target: &Path, kind: FolderKind) -> Result<(), StagingError> {
+        refuse_occupied(target, target, kind, true)?;
+        if !target.is_dir() {
+            return Ok(());
+        }
+        list::remove(target).map(drop).map_err(StagingError::write(target))
     }
 
     /// Where to write.
     #[must_use]
     pub fn folder(&self) -> &Path {
-        &self.partial
+        self.place.work()
+    }
+
+    /// A path in [`StagedFolder::folder`] as the user will know it.
+    #[must_use]
+    pub fn shown(&self, path: &Path) -> PathBuf {
+        match path.strip_prefix(self.folder()) {
+            Ok(below) if below.as_os_str().is_empty() => self.given.clone(),
+            Ok(below) => self.given.join(below),
+            Err(_) => path.to_owned(),
+        }
+    }
+
+    /// What a program said, with such paths as the user will know them.
+    #[must_use]
+    pub fn shown_text(&self, text: &str) -> String {
+        text.replace(&*self.folder().to_string_lossy(), &self.given.to_string_lossy())
+    }
+
+    /// An error about a path in the folder, as one about the path that the user will know.
+    #[must_use]
+    pub fn named(&self, error: StagingError) -> StagingError {
+        match error {
+            StagingError::Write { path, source } => {
+                StagingError::Write { path: self.shown(&path), source }
+            }
+            other => other,
+        }
     }
 
     /// Writes a file of the folder, and the folders above it.
@@ -67,8 +112,8 @@ impl StagedFolder {
     /// # Errors
     /// When it cannot be written.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), StagingError> {
-        let path = self.partial.join(name);
-        let shown = self.target.join(name);
+        let path = self.folder().join(name);
+        let shown = self.given.join(name);
         let failed = StagingError::write(&shown);
         if let Some(parent) = path.parent() {
             fs::create_dir_all(parent).map_err(&failed)?;
@@ -81,95 +126,70 @@ impl StagedFolder {
     /// # Errors
     /// When something has come to that place meanwhile, or it cannot be written.
     pub fn commit(self) -> Result<(), StagingError> {
-        refuse_occupied(&self.target, self.kind, self.replace)?;
-        if self.kind.listed {
-            list::write(&self.partial);
+        let Self { given, target, place, kind, replace } = self;
+        list::write(place.work());
+        let failed = StagingError::write(&given);
+        let Ok(earlier_mode) = fs::metadata(&target).map(|about| about.permissions()) else {
+            return fs::rename(place.work(), &target).map_err(failed);
+        };
+        fs::set_permissions(place.work(), earlier_mode).map_err(&failed)?;
+        // The earlier folder is looked at where nobody else writes any more, and goes last, so that one of the two is always there.
+        let earlier = place.beside(EARLIER);
+        fs::rename(&target, &earlier).map_err(&failed)?;
+        let put = refuse_occupied(&earlier, &given, kind, replace)
+            .and_then(|()| fs::rename(place.work(), &target).map_err(&failed));
+        if let Err(error) = put {
+            restore(&place, &target);
+            return Err(error);
         }
-        let failed = StagingError::write(&self.target);
-        if !self.target.exists() {
-            return fs::rename(&self.partial, &self.target).map_err(failed);
+        match list::remove(&earlier) {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(StagingError::Kept { path: given.clone(), kept: earlier }),
+            Err(source) => Err(StagingError::Write { path: earlier, source }),
         }
-        // The name is taken before the old folder goes, so that one of the two is always there.
-        let mut aside = self.partial.clone().into_os_string();
-        aside.push(".old");
-        let aside = PathBuf::from(aside);
-        fs::rename(&self.target, &aside).map_err(&failed)?;
-        if let Err(error) = fs::rename(&self.partial, &self.target) {
-            let _ = fs::rename(&aside, &self.target);
-            return Err(failed(error));
-        }
-        fs::remove_dir_all(&aside).map_err(StagingError::write(&aside))
     }
 }
 
-impl Drop for StagedFolder {
-    fn drop(&mut self) {
-        // After a commit it is not there any more.
-        let _ = fs::remove_dir_all(&self.partial);
-    }
-}
-
-/// Makes a folder that did not exist.
-fn make_fresh(stem: &Path) -> io::Result<PathBuf> {
-    const ATTEMPTS: u32 = 100;
-    let mut result = Err(io::ErrorKind::AlreadyExists.into());
-    for attempt in 0..ATTEMPTS {
-        let mut name = stem.as_os_str().to_owned();
-        name.push(format!("-{}-{attempt}", std::process::id()));
-        let path = PathBuf::from(name);
-        result = fs::create_dir(&path).map(|()| path);
-        if !matches!(&result, Err(error) if error.kind() == io::ErrorKind::AlreadyExists) {
-            break;
-        }
-    }
-    result
-}
-
-/// An empty folder may be written; any other only when asked, and only if it is of the same kind.
-fn refuse_occupied(target: &Path, kind: Kind, replace: bool) -> Result<(), StagingError> {
-    let path = || target.to_owned();
-    let mut entries = match fs::read_dir(target) {
+/// An empty folder may be written; any other only when asked, and only if it is of the same kind and nobody else's files are in
+/// it. `shown` is what the user calls it.
+fn refuse_occupied(
+    folder: &Path,
+    shown: &Path,
+    kind: FolderKind,
+    replace: bool,
+) -> Result<(), StagingError> {
+    let path = || shown.to_owned();
+    let failed = StagingError::write(shown);
+    let mut entries = match fs::read_dir(folder) {
         Ok(entries) => entries,
         Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
-        Err(source) => return Err(StagingError::Write { path: path(), source }),
+        Err(source) => return Err(failed(source)),
     };
     if entries.next().is_none() {
         return Ok(());
     }
-    match (replace, (kind.is)(target)) {
-        (false, _) => Err(StagingError::NotEmpty { path: path() }),
-        (true, false) => Err(StagingError::Foreign { path: path(), what: kind.what }),
-        (true, true) if kind.listed => refuse_foreign(target),
-        (true, true) => Ok(()),
+    match (replace, (kind.is)(folder)) {
+        (false, _) => return Err(StagingError::NotEmpty { path: path() }),
+        (true, false) => return Err(StagingError::Foreign { path: path(), what: kind.what }),
+        (true, true) => {}
     }
-}
-
-/// Every file of the folder must be on its list.
-fn refuse_foreign(target: &Path) -> Result<(), StagingError> {
-    const SHOWN: usize = 3;
-    let path = || target.to_owned();
-    let foreign = list::foreign(target).map_err(StagingError::write(target))?;
-    let Some(foreign) = foreign else { return Err(StagingError::NoList { path: path() }) };
+    let list = FileList::read(folder).map_err(&failed)?;
+    let Some(list) = list else { return Err(StagingError::NoList { path: path() }) };
+    let found = list::files(folder).map_err(&failed)?;
+    let foreign: Vec<String> =
+        found.iter().filter_map(|file| list.objection(&file.name, &file.path)).collect();
     if foreign.is_empty() {
         return Ok(());
     }
-    let mut names = foreign[..foreign.len().min(SHOWN)].join(", ");
-    if foreign.len() > SHOWN {
-        names += &format!(" and {} more", foreign.len() - SHOWN);
-    }
-    Err(StagingError::Mixed { path: path(), names })
+    Err(StagingError::Mixed { path: path(), names: some_of(&foreign) })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
-    const KIND: Kind = Kind {
-        what: "a test (marker)",
-        is: |folder| folder.join("marker").is_file(),
-        listed: false,
-    };
-    const LISTED: Kind = Kind { listed: true, ..KIND };
+    const KIND: FolderKind =
+        FolderKind { what: "a test (marker)", is: |folder| folder.join("marker").is_file() };
 
     fn write(target: &Path, name: &str, replace: bool) -> Result<(), StagingError> {
         let staged = StagedFolder::new(target, KIND, replace)?;
@@ -215,15 +235,15 @@ mod tests {
         write(&target, "marker", false).unwrap();
         assert!(matches!(write(&target, "marker", false), Err(StagingError::NotEmpty { .. })));
         write(&target, "other", true).unwrap();
-        assert_eq!(names(&target), ["other"]);
+        assert_eq!(names(&target), [".foveate", "other"]);
         let refused = write(&target, "marker", true).unwrap_err();
         assert!(refused.to_string().contains("does not hold a test (marker)"), "{refused}");
-        assert_eq!((names(&target), names(dir.path())), (vec!["other".into()], vec!["out".into()]));
+        assert_eq!(names(dir.path()), ["out"]);
     }
 
     /// Writes a marker and a file whose name needs care.
     fn write_listed(target: &Path) -> Result<(), StagingError> {
-        let staged = StagedFolder::new(target, LISTED, true)?;
+        let staged = StagedFolder::new(target, KIND, true)?;
         staged.write("marker", b"contents")?;
         staged.write("deep/100 %\n# é", b"contents")?;
         staged.commit()
@@ -244,9 +264,93 @@ mod tests {
         }
         let refused = write_listed(&target).unwrap_err().to_string();
         assert!(refused.contains("#b, a, deep/.foveate and 2 more; move them"), "{refused}");
-        assert!(StagedFolder::check(&target, LISTED, true).is_err());
+        assert!(StagedFolder::check(&target, KIND, true).is_err());
         assert_eq!(fs::read(target.join("deep/notes")).unwrap(), b"mine");
         assert_eq!(names(dir.path()), ["out"]);
+    }
+
+    #[test]
+    fn a_listed_file_that_was_changed_stays() {
+        let dir = tempfile::tempdir().unwrap();
+        let target = dir.path().join("out");
+        write_listed(&target).unwrap();
+        fs::write(target.join("marker"), "contentz").unwrap();
+        let refused = write_listed(&target).unwrap_err().to_string();
+        assert!(refused.contains("marker (changed); move them"), "{refused}");
+        assert!(StagedFolder::remove(&target, KIND).is_err());
+        assert_eq!(fs::read(target.join("marker")).unwrap(), b"contentz");
+        fs::write(target.join("marker"), "contents").unwrap();
+        StagedFolder::remove(&target, KIND).unwrap();
+        StagedFolder::remove(&target, KIND).unwrap();
+        assert!(names(dir.path()).is_empty());
+    }
+
+    /// A list that names files elsewhere, by paths and through links, touches none of them.
+    #[cfg(unix)]
+    #[test]
+    fn a_forged_list_deletes_nothing_elsewhere() {
+        use std::os::unix::fs::symlink;
+        let dir = tempfile::tempdir().unwrap();
+        let (target, thesis) = (dir.path().join("out"), dir.path().join("thesis"));
+        fs::create_dir(&thesis).unwrap();
+        fs::write(thesis.join("text"), "thesis").unwrap();
+        let line =
+            |name: &str| format!("{}  {name}\n", String::from_utf8(list::sum(b"thesis")).unwrap());
+        let forged = |names: &[&str]| {
+            let text: String = names.iter().map(|name| line(name)).collect();
+            fs::write(target.join(".foveate"), text).unwrap();
+        };
+        write_listed(&target).unwrap();
+        let honest = fs::read_to_string(target.join(".foveate")).unwrap();
+        let absolute = thesis.join("text").display().to_string();
+        let names = ["../thesis/text", &absolute, "link", "folder/text", "folder"];
+        fs::write(
+            target.join(".foveate"),
+            names.iter().map(|name| line(name)).collect::<String>() + &honest,
+        )
+        .unwrap();
+        symlink(thesis.join("text"), target.join("link")).unwrap();
+        symlink(&thesis, target.join("folder")).unwrap();
+        let refused = write_listed(&target).unwrap_err().to_string();
+        assert!(refused.contains("folder (changed), link (changed); move them"), "{refused}");
+        fs::remove_file(target.join("link")).unwrap();
+        fs::remove_file(target.join("folder")).unwrap();
+        write_listed(&target).unwrap();
+        assert_eq!(fs::read(thesis.join("text")).unwrap(), b"thesis");
+        // The list itself is a link.
+        forged(&["marker"]);
+        fs::rename(target.join(".foveate"), thesis.join("list")).unwrap();
+        symlink(thesis.join("list"), target.join(".foveate")).unwrap();
+        assert!(matches!(write_listed(&target), Err(StagingError::NoList { .. })));
+        assert!(thesis.join("list").is_file());
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn modes_are_those_of_other_programs_and_stay() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let dir = tempfile::tempdir().unwrap();
+        let (target, plain) = (dir.path().join("out"), dir.path().join("plain"));
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o7777;
+        fs::create_dir(&plain).unwrap();
+        write_listed(&target).unwrap();
+        assert_eq!(mode(&target), mode(&plain));
+        fs::set_permissions(&target, fs::Permissions::from_mode(0o710)).unwrap();
+        write_listed(&target).unwrap();
+        assert_eq!(mode(&target), 0o710);
+    }
+
+    #[test]
+    fn errors_name_the_folder_that_was_asked_for() {
+        let dir = tempfile::tempdir().unwrap();
+        let target = dir.path().join("out");
+        let staged = StagedFolder::new(&target, KIND, false).unwrap();
+        let inside = staged.folder().join("a/b");
+        assert_eq!(staged.shown(&inside), target.join("a/b"));
+        assert_eq!(staged.shown(staged.folder()), target);
+        assert_eq!(staged.shown(Path::new("/else")), Path::new("/else"));
+        let said = staged.shown_text(&format!("no room for {}", inside.display()));
+        assert_eq!(said, format!("no room for {}", target.join("a/b").display()));
     }
 
     #[test]

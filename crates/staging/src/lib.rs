@@ -2,18 +2,26 @@
 //! Folders and files that appear complete or not at all. They are written beside their place and
 //! renamed when they are complete.
 //!
-//! A folder with contents is replaced only if the caller asks for it, if the same kind of run wrote it,
-//! and if it holds nothing else. So a flag cannot delete other files.
+//! A folder with contents is replaced only if the caller asks for it, if the same kind of run wrote it, and if every file in it is
+//! on the list of that run and unchanged. So a flag cannot delete other files. What a killed process has left beside its
+//! output goes when the next one writes there.
 
+mod continued;
 mod error;
 mod file;
 mod folder;
 mod growing;
+mod leftover;
 mod list;
+mod lock;
 mod reserve;
+mod scratch;
 
-pub use error::StagingError;
-pub use file::{TEMPORARY, check_file, write_file};
-pub use folder::{Kind, StagedFolder};
+pub use continued::ContinuedFolder;
+pub use error::{StagingError, is_full};
+pub use file::{check_file, write_file};
+pub use folder::{FolderKind, StagedFolder};
 pub use growing::GrowingFile;
+pub use leftover::TEMPORARY;
 pub use reserve::Reserve;
+pub use scratch::ScratchFolder;

@@ -1,76 +1,290 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The list of what was written into a folder, in the folder: what is not on it is somebody else's.
+//! The list of the files that were written into a folder, in the folder, with the hash of each, as `sha256sum -c` reads it.
+//! A file that is not on the list, or that has changed, is somebody else's.
 
-use std::collections::HashSet;
-use std::fs;
+use std::collections::BTreeMap;
+use std::fs::{self, File};
 use std::io;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+
+use sha2::{Digest, Sha256};
 
 /// The list itself, which is not on it.
 pub(crate) const NAME: &str = ".foveate";
-const HEAD: &[u8] = b"# What Foveate wrote here: with --force it replaces these files, and no folder that holds others.\n";
+const HEAD: &[u8] = b"# Foveate wrote these files and replaces them as long as they are unchanged (sha256sum -c .foveate).\n";
 
-/// Lists every file of a folder, sorted. It is a help for later: where it cannot be written there is none.
+/// The hash of a file in hexadecimal digits, as bytes.
+type Sum = Vec<u8>;
+
+/// Names of files, as paths from the folder with `/` between their parts, with the contents that they may have.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct FileList(BTreeMap<Vec<u8>, Vec<Sum>>);
+
+/// A file below a folder. A link is a file, too, and is not followed.
+pub(crate) struct Found {
+    pub(crate) name: Vec<u8>,
+    pub(crate) path: PathBuf,
+}
+
+impl FileList {
+    /// The list of a folder; `None` where there is none. Lines that are no entries are ignored: a file is then not listed.
+    pub(crate) fn read(folder: &Path) -> io::Result<Option<Self>> {
+        let path = folder.join(NAME);
+        match fs::symlink_metadata(&path) {
+            Ok(about) if about.is_file() => {}
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => return Ok(None),
+        }
+        let mut list = Self::default();
+        for line in fs::read(&path)?.split(|&byte| byte == b'\n') {
+            if let Some((sum, name)) = entry(line) {
+                list.add(name, sum);
+            }
+        }
+        Ok(Some(list))
+    }
+
+    /// Every file that is in a folder.
+    pub(crate) fn of(folder: &Path) -> io::Result<Self> {
+        let mut list = Self::default();
+        for Found { name, path } in files(folder)? {
+            list.add(name, sum_of_file(&path)?);
+        }
+        Ok(list)
+    }
+
+    /// Lists a file with these contents, beside others that it may have.
+    pub(crate) fn add(&mut self, name: Vec<u8>, sum: Sum) {
+        let sums = self.0.entry(name).or_default();
+        if !sums.contains(&sum) {
+            sums.push(sum);
+        }
+    }
+
+    /// The names.
+    pub(crate) fn names(&self) -> impl Iterator<Item = &[u8]> {
+        self.0.keys().map(Vec::as_slice)
+    }
+
+    /// Whether a file is listed and has contents that it may have. What is no plain file is not.
+    pub(crate) fn holds(&self, name: &[u8], path: &Path) -> bool {
+        let is_file = || fs::symlink_metadata(path).is_ok_and(|about| about.is_file());
+        let is_unchanged =
+            |sums: &Vec<Sum>| is_file() && sum_of_file(path).is_ok_and(|sum| sums.contains(&sum));
+        self.0.get(name).is_some_and(is_unchanged)
+    }
+
+    /// How people are told of a file that is not as the list says; `None` if it is.
+    pub(crate) fn objection(&self, name: &[u8], path: &Path) -> Option<String> {
+        if self.holds(name, path) {
+            return None;
+        }
+        let changed = if self.0.contains_key(name) { " (changed)" } else { "" };
+        Some(format!("{}{changed}", shown(name)))
+    }
+
+    /// The text of the list, sorted by name.
+    pub(crate) fn text(&self) -> Vec<u8> {
+        let mut text = HEAD.to_owned();
+        for (name, sums) in &self.0 {
+            for sum in sums {
+                text.extend(line(sum, name));
+            }
+        }
+        text
+    }
+}
+
+/// Lists every file of a folder. The list is a help for later: where it cannot be written there is none.
 pub(crate) fn write(folder: &Path) {
     let path = folder.join(NAME);
-    let listed = names(folder).and_then(|mut names| {
-        names.sort();
-        let mut text = HEAD.to_owned();
-        for name in names {
-            text.extend(escaped(&name));
-            text.push(b'\n');
-        }
-        fs::write(&path, text)
-    });
-    if listed.is_err() {
+    let written = FileList::of(folder).and_then(|list| fs::write(&path, list.text()));
+    if written.is_err() {
         let _ = fs::remove_file(&path);
     }
 }
 
-/// The files that are not on the list, sorted; `None` where there is no list.
-pub(crate) fn foreign(folder: &Path) -> io::Result<Option<Vec<String>>> {
-    let text = match fs::read(folder.join(NAME)) {
-        Ok(text) => text,
-        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-        Err(error) => return Err(error),
-    };
-    let listed: HashSet<&[u8]> = text.split(|&byte| byte == b'\n').collect();
-    let found =
-        names(folder)?.into_iter().filter(|name| !listed.contains(escaped(name).as_slice()));
-    let mut foreign: Vec<_> =
-        found.map(|name| String::from_utf8_lossy(&name).into_owned()).collect();
-    foreign.sort();
-    Ok(Some(foreign))
-}
-
-/// Every file below, as a path from the folder with `/` between its parts. Links are not followed.
-fn names(folder: &Path) -> io::Result<Vec<Vec<u8>>> {
+/// Every file below a folder but the list itself, sorted.
+pub(crate) fn files(folder: &Path) -> io::Result<Vec<Found>> {
     let mut found = Vec::new();
     let mut open = vec![(folder.to_owned(), Vec::new())];
     while let Some((next, place)) = open.pop() {
         for entry in fs::read_dir(next)? {
             let entry = entry?;
-            let mut name = place.clone();
+            let mut name: Vec<u8> = place.clone();
             name.extend(entry.file_name().as_encoded_bytes());
             if entry.file_type()?.is_dir() {
                 name.push(b'/');
                 open.push((entry.path(), name));
             } else if name != NAME.as_bytes() {
-                found.push(name);
+                found.push(Found { name, path: entry.path() });
             }
         }
     }
+    found.sort_by(|one, other| one.name.cmp(&other.name));
     Ok(found)
 }
 
-/// A name in one line, and none that begins like the head.
-fn escaped(name: &[u8]) -> Vec<u8> {
-    let mut line = Vec::with_capacity(name.len());
-    for &byte in name {
-        match byte {
-            b'%' | b'#' | 0..b' ' => line.extend(format!("%{byte:02X}").bytes()),
-            _ => line.push(byte),
+/// Removes the files of a folder that are as its list says, the list, and the folders that are empty then. Whether nothing
+/// is left.
+pub(crate) fn remove(folder: &Path) -> io::Result<bool> {
+    let list = FileList::read(folder)?.unwrap_or_default();
+    let mut is_all = true;
+    for Found { name, path } in files(folder)? {
+        if list.holds(&name, &path) {
+            fs::remove_file(&path)?;
+        } else {
+            is_all = false;
         }
     }
-    line
+    if is_all {
+        match fs::remove_file(folder.join(NAME)) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+            _ => {}
+        }
+    }
+    Ok(remove_empty(folder))
+}
+
+/// Removes a folder if there is no file in it, whatever has come meanwhile.
+fn remove_empty(folder: &Path) -> bool {
+    let inside = fs::read_dir(folder).into_iter().flatten().flatten();
+    for entry in inside.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir())) {
+        remove_empty(&entry.path());
+    }
+    fs::remove_dir(folder).is_ok()
+}
+
+/// The hash of contents.
+pub(crate) fn sum(contents: &[u8]) -> Sum {
+    hexadecimal(&Sha256::digest(contents))
+}
+
+/// The hash of the contents of a file.
+pub(crate) fn sum_of_file(path: &Path) -> io::Result<Sum> {
+    let mut hasher = Hasher(Sha256::new());
+    io::copy(&mut File::open(path)?, &mut hasher)?;
+    Ok(hexadecimal(&hasher.0.finalize()))
+}
+
+/// Takes bytes as a file does.
+struct Hasher(Sha256);
+
+impl io::Write for Hasher {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.0.update(bytes);
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+fn hexadecimal(bytes: &[u8]) -> Sum {
+    const DIGITS: &[u8; 16] = b"0123456789abcdef";
+    let digit = |value: u8| DIGITS[usize::from(value)];
+    bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
+}
+
+/// A line as `sha256sum` writes it.
+fn line(sum: &[u8], name: &[u8]) -> Vec<u8> {
+    let escaped: Vec<u8> = name
+        .iter()
+        .flat_map(|&byte| match byte {
+            b'\\' => b"\\\\".to_vec(),
+            b'\n' => b"\\n".to_vec(),
+            b'\r' => b"\\r".to_vec(),
+            _ => vec![byte],
+        })
+        .collect();
+    let mark: &[u8] = if escaped.len() == name.len() { b"" } else { b"\\" };
+    [mark, sum, b"  ", &escaped, b"\n"].concat()
+}
+
+/// The hash and the name of a line.
+fn entry(line: &[u8]) -> Option<(Sum, Vec<u8>)> {
+    const DIGITS: usize = 64;
+    let (is_escaped, line) = match line.strip_prefix(b"\\") {
+        Some(rest) => (true, rest),
+        None => (false, line),
+    };
+    let (sum, rest) = line.split_at_checked(DIGITS)?;
+    let name = rest.strip_prefix(b"  ").or_else(|| rest.strip_prefix(b" *"))?;
+    let name = if is_escaped { unescaped(name)? } else { name.to_owned() };
+    let is_sum = sum.iter().all(u8::is_ascii_hexdigit);
+    (is_sum && !name.is_empty()).then(|| (sum.to_ascii_lowercase(), name))
+}
+
+fn unescaped(name: &[u8]) -> Option<Vec<u8>> {
+    let (mut plain, mut bytes) = (Vec::with_capacity(name.len()), name.iter());
+    while let Some(&byte) = bytes.next() {
+        plain.push(match byte {
+            b'\\' => match bytes.next()? {
+                b'\\' => b'\\',
+                b'n' => b'\n',
+                b'r' => b'\r',
+                _ => return None,
+            },
+            _ => byte,
+        });
+    }
+    Some(plain)
+}
+
+/// A name as text on one line.
+fn shown(name: &[u8]) -> String {
+    let plain = |letter: char| {
+        if letter.is_control() { letter.escape_default().to_string() } else { letter.to_string() }
+    };
+    String::from_utf8_lossy(name).chars().map(plain).collect()
+}
+
+/// The first of these names, and how many there are more.
+pub(crate) fn some_of(names: &[String]) -> String {
+    const SHOWN: usize = 3;
+    let mut text = names[..names.len().min(SHOWN)].join(", ");
+    if names.len() > SHOWN {
+        text += &format!(" and {} more", names.len() - SHOWN);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_comes_back_from_its_line() {
+        let sum = sum(b"contents");
+        for name in
+            [&b"plain"[..], b"a/b c", b"back\\slash\nline\r", b"#hash", b"\xFF\xFE", b" two"]
+        {
+            let line = line(&sum, name);
+            assert_eq!(line.iter().filter(|&&byte| byte == b'\n').count(), 1);
+            assert_eq!(entry(&line[..line.len() - 1]), Some((sum.clone(), name.to_owned())));
+        }
+        for line in [&b""[..], b"# comment", b"notes.txt", b"abc  notes.txt", &sum] {
+            assert_eq!(entry(line), None, "{}", String::from_utf8_lossy(line));
+        }
+    }
+
+    #[test]
+    fn sha256sum_reads_the_list() {
+        let dir = tempfile::tempdir().unwrap();
+        fs::create_dir(dir.path().join("deep")).unwrap();
+        fs::write(dir.path().join("deep/a b\\c\nd"), "contents").unwrap();
+        fs::write(dir.path().join("empty"), "").unwrap();
+        write(dir.path());
+        let check = |folder: &Path| {
+            std::process::Command::new("sha256sum")
+                .args(["--check", "--strict", "--quiet", NAME])
+                .current_dir(folder)
+                .output()
+        };
+        let Ok(ran) = check(dir.path()) else { return };
+        assert!(ran.status.success(), "{}", String::from_utf8_lossy(&ran.stderr));
+        fs::write(dir.path().join("empty"), "edited").unwrap();
+        assert!(!check(dir.path()).unwrap().status.success());
+    }
 }

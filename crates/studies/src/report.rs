@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::Config;
 use foveate_footage::{InputOptions, subjects};
 use foveate_simulator::BatchHooks;
-use foveate_staging::{Kind, StagedFolder};
+use foveate_staging::{FolderKind, StagedFolder};
 use serde::Serialize;
 
 use crate::StudyError;
@@ -112,7 +112,7 @@ fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyEr
     }
 }
 
-const STUDY: Kind = Kind { what: "a study (its CSV)", is: is_study, listed: true };
+const STUDY: FolderKind = FolderKind { what: "a study (its CSV)", is: is_study };
 
 fn is_study(folder: &Path) -> bool {
     Study::ALL.iter().any(|study| {

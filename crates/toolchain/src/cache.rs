@@ -3,6 +3,7 @@
 //!
 //! * An entry is built in a temporary folder beside its place and renamed when complete, so that it is
 //!   whole or absent: two processes may build the same entry at once, and the first to finish wins.
+//! * Programs are run from it, so that it must be out of reach for other users.
 //! * The folder has a limit. What was used least recently goes first; what a process holds does not go.
 
 mod entry;
@@ -10,6 +11,7 @@ mod evict;
 mod limit;
 #[cfg(test)]
 mod tests;
+mod trust;
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -18,6 +20,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicU64;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
+use foveate_staging::ScratchFolder;
 use tempfile::TempDir;
 
 pub use self::entry::Entry;
@@ -37,7 +40,7 @@ pub struct Cache {
     root: PathBuf,
     limit: Limit,
     state: Arc<State>,
-    scratch: Option<Arc<TempDir>>,
+    scratch: Option<Arc<ScratchFolder>>,
 }
 
 /// What the clones of a cache share.
@@ -90,10 +93,8 @@ impl Cache {
     /// When the temporary folder cannot be created.
     pub fn throw_away() -> Result<Self, ToolError> {
         let parent = std::env::temp_dir();
-        let dir = tempfile::Builder::new()
-            .prefix("foveate-")
-            .tempdir_in(&parent)
-            .map_err(ToolError::temporary("create a folder in", &parent))?;
+        let dir =
+            ScratchFolder::new().map_err(ToolError::temporary("create a folder in", &parent))?;
         let root = dir.path().to_owned();
         let scratch = Some(Arc::new(dir));
         Ok(Self { root, limit: Limit::NONE, state: Arc::default(), scratch })
@@ -116,29 +117,31 @@ impl Cache {
     /// remains but the log of the failure, in a cache that lasts.
     ///
     /// # Errors
-    /// Those of `build`, or that the folder cannot be written.
+    /// Those of `build`, or that the folder cannot be written, or that somebody else can write to it.
     pub fn get_or_build(
         &self,
         key: &Key,
         artifact: &str,
         build: impl FnOnce(&Path) -> Result<(), ToolError>,
     ) -> Result<Entry, ToolError> {
-        let place = self.root.join(key.as_str());
+        let root = trust::open(&self.root)?;
+        let place = root.join(key.as_str());
         if let Some(entry) = Entry::take(&place, artifact) {
             return Ok(entry);
         }
-        fs::create_dir_all(&self.root).map_err(ToolError::cache("create", &self.root))?;
-        self.state.swept.get_or_init(|| evict::sweep(&self.root));
-        let dir = tempfile::Builder::new()
-            .prefix(BUILDING)
-            .tempdir_in(&self.root)
-            .map_err(ToolError::cache("create a folder in", &self.root))?;
+        self.state.swept.get_or_init(|| evict::sweep(&root));
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(BUILDING);
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+        let dir =
+            builder.tempdir_in(&root).map_err(ToolError::cache("create a folder in", &root))?;
         let gone = || ToolError::cache("use", dir.path())(std::io::ErrorKind::NotFound.into());
         let hold = Hold::shared(dir.path()).ok_or_else(gone)?;
         build(dir.path()).map_err(|error| self.keep_log(key, error))?;
         let bytes = evict::size(dir.path());
         let entry = publish(dir, hold, &place, artifact)?;
-        self.limit.enforce(&self.root, &self.state.built, bytes);
+        self.limit.enforce(&root, &self.state.built, bytes);
         Ok(entry)
     }
 
@@ -177,8 +180,8 @@ impl Cache {
 fn publish(dir: TempDir, hold: Hold, place: &Path, artifact: &str) -> Result<Entry, ToolError> {
     let mut attempts = ATTEMPTS;
     loop {
-        if place.exists() && !place.join(artifact).exists() {
-            // A damaged entry: half of it was deleted by hand or by a cleaner of old files.
+        if place.exists() && !(place.join(artifact).exists() && trust::is_entry(place, artifact)) {
+            // A damaged entry: half of it was deleted by hand or by a cleaner of old files. Or somebody else could change it.
             fs::remove_dir_all(place).map_err(ToolError::io("remove the damaged", place))?;
         }
         let error = match fs::rename(dir.path(), place) {

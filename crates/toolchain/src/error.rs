@@ -185,6 +185,17 @@ pub enum ToolError {
         advice: &'static str,
     },
 
+    /// Programs would be run from a folder into which somebody else can put others.
+    #[error("the build cache `{}` is not used, because {reason}; {advice}", path.display())]
+    Untrusted {
+        /// The folder of the cache.
+        path: PathBuf,
+        /// Who can write where.
+        reason: String,
+        /// What to do.
+        advice: String,
+    },
+
     /// No folder for the cache can be derived from the environment.
     #[error(
         "there is no folder for the build cache, because HOME is not set; set FOVEATE_CACHE to a folder, or to `off`"
@@ -227,9 +238,11 @@ impl ToolError {
     pub fn is_environment(&self) -> bool {
         use std::io::ErrorKind::{PermissionDenied, ReadOnlyFilesystem, StorageFull};
         match self {
-            Self::Place { .. } | Self::NoCache | Self::CacheSize { .. } | Self::Unusable { .. } => {
-                true
-            }
+            Self::Place { .. }
+            | Self::Untrusted { .. }
+            | Self::NoCache
+            | Self::CacheSize { .. }
+            | Self::Unusable { .. } => true,
             Self::Io { action, source, .. } => {
                 let kind = source.kind();
                 *action != "run"

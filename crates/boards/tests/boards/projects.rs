@@ -107,8 +107,16 @@ fn a_bitstream_is_made() {
     // It may be replaced, though there is more in it than was written.
     assert!(write_project(&project, &folder, false).is_err());
     write_project(&project, &folder, true).unwrap();
-    fs::write(folder.join("mine.txt"), "").unwrap();
-    assert!(write_project(&project, &folder, true).is_err(), "what is not ours is kept");
+    for name in ["mine.txt", "build/mine.txt", "board.f"] {
+        let path = folder.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        let before = fs::read(&path).ok();
+        fs::write(&path, "mine").unwrap();
+        let refused = write_project(&project, &folder, true).unwrap_err().to_string();
+        assert!(refused.contains(name), "{refused}");
+        assert_eq!(fs::read(&path).unwrap(), b"mine", "what is not ours is kept");
+        before.map_or_else(|| fs::remove_file(&path), |before| fs::write(&path, before)).unwrap();
+    }
 }
 
 /// What a tool says when it fails is passed on, and which one is missing.
@@ -152,6 +160,15 @@ fn a_script_whose_tools_fail_says_so() {
     tool("other", clocks);
     let (code, said) = run(&other, &fine, "3");
     assert!(code == 0 && said.contains("core: 30.00 MHz (seed 3, packed)"), "{code}: {said}");
+    // What a script makes is listed, whatever its end, and nothing of others goes.
+    fs::write(folder.join("build/mine.txt"), "mine").unwrap();
+    let (code, _) = run(&full, &fine, "1");
+    assert_eq!(code, 1);
+    let icebreaker = project("icebreaker", &[]).unwrap();
+    let refused = write_project(&icebreaker, &folder, true).unwrap_err().to_string();
+    assert!(refused.contains(" since: build/mine.txt; move them"), "{refused}");
+    fs::remove_file(folder.join("build/mine.txt")).unwrap();
+    write_project(&icebreaker, &folder, true).unwrap();
     let (code, said) = run(&slow, &fine, "no");
     assert!(code == 2 && said.contains("use a number from 1 on"), "{code}: {said}");
     // A machine without any of them.

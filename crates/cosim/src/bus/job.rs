@@ -17,6 +17,7 @@ use crate::simulate::{Simulator, UNKNOWN_START, WAVES_FILE};
 use foveate_design::{Design, RasterDesign};
 use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, on_bus, registers};
 use foveate_frame::Frame;
+use foveate_staging::{ScratchFolder, write_file};
 use foveate_toolchain::verilator::{self, Lint, Optimize, VerilatorJob};
 use foveate_toolchain::{Cache, Invocation, Source, Tool, Toolchain, sources_sha256};
 use std::fs::{self, File};
@@ -245,7 +246,7 @@ impl BusJob {
     ) -> Result<Outcome, CosimError> {
         let mut outcome = Outcome::default();
         for (name, traffic) in scenes {
-            let folder = tempfile::tempdir()
+            let folder = ScratchFolder::new()
                 .map_err(CosimError::temporary("create a folder in", &std::env::temp_dir()))?;
             let played = self.play(built, traffic, folder.path(), toolchain)?;
             outcome.clocks += played.record.clocks.unwrap_or_default();
@@ -327,6 +328,6 @@ impl BusJob {
         let Some(file) = &self.packets else { return Ok(()) };
         let parcels = record.sessions.iter().flat_map(|heard| &heard.parcels);
         let bytes: Vec<u8> = parcels.flat_map(|parcel| parcel.bytes.iter().copied()).collect();
-        Ok(foveate_staging::write_file(file, &bytes)?)
+        Ok(write_file(file, &bytes)?)
     }
 }

@@ -46,7 +46,7 @@ fn a_run_without_mismatch_leaves_nothing_but_waves_that_were_asked_for() {
     assert!(report.passed() && !output.exists());
     let report = run(&output, |job| job.trace = true).unwrap();
     assert_eq!(report.waves.as_deref(), Some(output.join("waves.fst").as_path()));
-    assert_eq!(names(&output), ["waves.fst"]);
+    assert_eq!(names(&output), [".foveate", "waves.fst"]);
     assert!(run(&output, break_it).unwrap().replay.is_some(), "a replay takes the place of waves");
 }
 
@@ -61,7 +61,7 @@ fn a_replay_replaces_a_replay_and_nothing_else() {
         let report = run(&output, break_it).unwrap();
         assert_eq!(report.replay.as_deref(), Some(output.as_path()));
     }
-    let expected = ["README.md", "replay.sh", "rpu_replay.v", "rtl", "vectors.hex"];
+    let expected = [".foveate", "README.md", "replay.sh", "rpu_replay.v", "rtl", "vectors.hex"];
     assert_eq!(names(&output), expected);
     assert_eq!(names(dir.path()), ["out"]);
 
@@ -91,11 +91,44 @@ fn a_passing_run_leaves_no_earlier_replay() {
 
     // Something of the same names is not a replay.
     fs::create_dir(&output).unwrap();
-    for name in ["replay.sh", "vectors.hex", "README.md"] {
+    for name in ["replay.sh", "vectors.hex", "README.md", "waves.fst"] {
         fs::write(output.join(name), "mine").unwrap();
     }
-    run(&output, |_| {}).unwrap();
-    assert_eq!(names(&output).len(), 3);
+    for edit in [|_: &mut Job| {}, break_it] {
+        let refused = run(&output, edit).unwrap_err();
+        assert!(matches!(refused, CosimError::Output(StagingError::NoList { .. })), "{refused}");
+    }
+    assert_eq!(names(&output).len(), 4);
+}
+
+/// What a user adds to a replay, or changes in it, stays; what its script makes goes with it.
+#[test]
+fn a_replay_in_which_somebody_works_stays() {
+    if !require_tools(SIMULATOR.tools()) {
+        return;
+    }
+    let dir = tempfile::tempdir().unwrap();
+    let output = dir.path().join("out");
+    run(&output, break_it).unwrap();
+    let verilog = output.join("rtl").join(&names(&output.join("rtl"))[0]);
+    let text = fs::read_to_string(&verilog).unwrap();
+    for (path, mine, named) in [
+        (output.join("notes.txt"), "mine".to_owned(), "notes.txt; move them".to_owned()),
+        (verilog.clone(), text.clone() + "// mine\n", " (changed); move them".to_owned()),
+    ] {
+        fs::write(&path, &mine).unwrap();
+        for edit in [|_: &mut Job| {}, break_it, |job: &mut Job| job.trace = true] {
+            let refused = run(&output, edit).unwrap_err().to_string();
+            assert!(refused.contains(&named), "{refused}");
+            assert_eq!(fs::read_to_string(&path).unwrap(), mine);
+        }
+        if path == verilog { fs::write(path, &text) } else { fs::remove_file(path) }.unwrap();
+    }
+    let script = Command::new(output.join("replay.sh")).arg("waves").output().unwrap();
+    assert_eq!(script.status.code(), Some(1));
+    assert!(output.join("waves.fst").is_file());
+    assert!(run(&output, |_| {}).unwrap().passed());
+    assert!(!output.exists());
 }
 
 #[test]

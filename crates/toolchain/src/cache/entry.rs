@@ -7,6 +7,8 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::time::SystemTime;
 
+use super::trust;
+
 /// A file of the cache, which is there as long as this lives.
 #[derive(Debug)]
 pub struct Entry {
@@ -35,7 +37,7 @@ impl Entry {
         let path = place.join(artifact);
         loop {
             let hold = Hold::shared(place)?;
-            if !path.exists() {
+            if !path.exists() || !trust::is_entry(place, artifact) {
                 return None;
             }
             if hold.is_of(place) {

@@ -11,6 +11,8 @@ mod makefile;
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use foveate_staging::ScratchFolder;
+
 use crate::cache::Cache;
 use crate::error::ToolError;
 use crate::files::{self, Source};
@@ -108,7 +110,7 @@ pub fn lint(
     top: &str,
     vlt: Option<&str>,
 ) -> Result<(), ToolError> {
-    let dir = tempfile::tempdir()
+    let dir = ScratchFolder::new()
         .map_err(ToolError::temporary("create a folder in", &std::env::temp_dir()))?;
     let args = ["--lint-only", "--no-timing", "-Wall", "--top-module", top];
     let invocation = toolchain.invocation(Tool::Verilator)?.args(args);
@@ -128,7 +130,7 @@ pub fn elaborate(
     parameters: &[(&str, u32)],
 ) -> Result<Vec<u8>, ToolError> {
     const HIERARCHY: &str = "hierarchy.xml";
-    let dir = tempfile::tempdir()
+    let dir = ScratchFolder::new()
         .map_err(ToolError::temporary("create a folder in", &std::env::temp_dir()))?;
     let parameters = parameters.iter().map(|(name, value)| format!("-G{name}={value}"));
     let invocation = toolchain

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A folder in which some files are written again whenever a command goes on: only those that it has listed, and that nobody has
+//! changed since.
+
+use std::fs;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::list::{FileList, NAME, some_of, sum, sum_of_file};
+use crate::{StagingError, write_file};
+
+/// The folder with its list.
+#[derive(Debug)]
+pub struct ContinuedFolder {
+    folder: PathBuf,
+    list: FileList,
+}
+
+impl ContinuedFolder {
+    /// Reads the list of a folder; it is empty where there is none.
+    ///
+    /// # Errors
+    /// When it cannot be read.
+    pub fn open(folder: &Path) -> Result<Self, StagingError> {
+        let list = match FileList::read(folder) {
+            Err(error) if error.kind() == io::ErrorKind::NotADirectory => None,
+            other => other.map_err(StagingError::write(folder))?,
+        };
+        Ok(Self { folder: folder.to_owned(), list: list.unwrap_or_default() })
+    }
+
+    /// Takes a file with these contents for one that was written, too.
+    pub fn expect(&mut self, name: &str, contents: &[u8]) {
+        self.list.add(name.as_bytes().to_owned(), sum(contents));
+    }
+
+    /// Refuses to go on where one of these files is somebody else's. It may be missing.
+    ///
+    /// # Errors
+    /// When there is one, which is named.
+    pub fn check<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), StagingError> {
+        let objection = |name: &str| {
+            let path = self.folder.join(name);
+            fs::symlink_metadata(&path).ok()?;
+            self.list.objection(name.as_bytes(), &path)
+        };
+        let foreign: Vec<String> = names.into_iter().filter_map(objection).collect();
+        if foreign.is_empty() {
+            return Ok(());
+        }
+        Err(StagingError::Mixed { path: self.folder.clone(), names: some_of(&foreign) })
+    }
+
+    /// The names of the files that were written, if they are still there and unchanged.
+    #[must_use]
+    pub fn written(&self) -> Vec<String> {
+        let is_there = |name: &&str| self.list.holds(name.as_bytes(), &self.folder.join(name));
+        let names = self.list.names().filter_map(|name| std::str::from_utf8(name).ok());
+        names.filter(|name| is_plain(name)).filter(is_there).map(str::to_owned).collect()
+    }
+
+    /// Writes all of these files, in their order, and removes those that were written before and are no more among them.
+    ///
+    /// # Errors
+    /// When one of them is somebody else's, and nothing is written then; or when one cannot be written.
+    pub fn write(&mut self, files: &[(String, Vec<u8>)]) -> Result<(), StagingError> {
+        self.check(files.iter().map(|(name, _)| name.as_str()))?;
+        let surplus = self.written();
+        let surplus = surplus.iter().filter(|name| files.iter().all(|(other, _)| other != *name));
+        // If the process ends in between, both the old and the new contents are known.
+        for (name, contents) in files {
+            self.list.add(name.as_bytes().to_owned(), sum(contents));
+        }
+        self.save()?;
+        for (name, contents) in files {
+            let path = self.folder.join(name);
+            if let Some(parent) = path.parent() {
+                fs::create_dir_all(parent).map_err(StagingError::write(parent))?;
+            }
+            write_file(&path, contents)?;
+        }
+        for name in surplus {
+            let path = self.folder.join(name);
+            fs::remove_file(&path).map_err(StagingError::write(&path))?;
+        }
+        self.list = FileList::default();
+        for (name, contents) in files {
+            self.list.add(name.as_bytes().to_owned(), sum(contents));
+        }
+        self.save()
+    }
+
+    /// Lists files that are there, as they are: a program has made them for us.
+    ///
+    /// # Errors
+    /// When one cannot be read, or the list cannot be written.
+    pub fn note(&mut self, names: impl IntoIterator<Item = String>) -> Result<(), StagingError> {
+        for name in names {
+            let path = self.folder.join(&name);
+            if fs::symlink_metadata(&path).is_ok_and(|about| about.is_file()) {
+                let sum = sum_of_file(&path).map_err(StagingError::write(&path))?;
+                self.list.add(name.into_bytes(), sum);
+            }
+        }
+        self.save()
+    }
+
+    fn save(&self) -> Result<(), StagingError> {
+        write_file(&self.folder.join(NAME), &self.list.text())
+    }
+}
+
+/// Whether a name of a list stays in its folder.
+fn is_plain(name: &str) -> bool {
+    use std::path::Component;
+    Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn files(names: &[&str], contents: &str) -> Vec<(String, Vec<u8>)> {
+        names.iter().map(|name| ((*name).to_owned(), contents.into())).collect()
+    }
+
+    #[test]
+    fn only_own_files_are_written_again_or_removed() {
+        let dir = tempfile::tempdir().unwrap();
+        let write = |names: &[&str], contents: &str| {
+            ContinuedFolder::open(dir.path()).unwrap().write(&files(names, contents))
+        };
+        let read = |name: &str| fs::read_to_string(dir.path().join(name)).ok();
+        write(&["a", "deep/1", "deep/2", "deep/3"], "old").unwrap();
+        fs::write(dir.path().join("deep/3"), "mine").unwrap();
+        fs::write(dir.path().join("deep/4"), "mine").unwrap();
+        write(&["a", "deep/1"], "new").unwrap();
+        assert_eq!(read("a").as_deref(), Some("new"));
+        assert_eq!(read("deep/2"), None);
+        assert_eq!((read("deep/3"), read("deep/4")), (Some("mine".into()), Some("mine".into())));
+        for names in [&["a", "deep/4"][..], &["deep/3"]] {
+            let refused = write(names, "newer").unwrap_err().to_string();
+            assert!(refused.contains(names.last().unwrap()), "{refused}");
+            assert_eq!(read("a").as_deref(), Some("new"));
+        }
+        fs::write(dir.path().join("a"), "edited").unwrap();
+        let refused = write(&["a"], "newer").unwrap_err().to_string();
+        assert!(refused.contains("a (changed)"), "{refused}");
+    }
+
+    #[test]
+    fn a_forged_list_removes_nothing_elsewhere() {
+        let dir = tempfile::tempdir().unwrap();
+        let folder = dir.path().join("out");
+        fs::create_dir(&folder).unwrap();
+        fs::write(dir.path().join("thesis"), "thesis").unwrap();
+        let sum = String::from_utf8(sum(b"thesis")).unwrap();
+        let absolute = dir.path().join("thesis").display().to_string();
+        let text = format!("{sum}  ../thesis\n{sum}  {absolute}\n");
+        fs::write(folder.join(NAME), text).unwrap();
+        ContinuedFolder::open(&folder).unwrap().write(&files(&["a"], "new")).unwrap();
+        assert_eq!(fs::read(dir.path().join("thesis")).unwrap(), b"thesis");
+    }
+}

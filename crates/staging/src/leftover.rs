@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What processes that were killed have left beside what they wrote. The next command that writes there removes it, if its lock
+//! says that its process is gone and if it belongs to the same user.
+
+use std::collections::BTreeSet;
+use std::ffi::{OsStr, OsString};
+use std::fs::{self, OpenOptions};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+
+use crate::list;
+use crate::lock::{LETTERS, LockedFolder, is_own, is_same_file};
+
+/// How the names of files begin that [`write_file`](crate::write_file) has not finished.
+pub const TEMPORARY: &str = ".foveate-";
+/// How the names of folders for intermediate results begin.
+pub(crate) const SCRATCH: &str = "foveate-";
+/// What stands between the name of an output folder and the letters, while it is written.
+const PARTIAL: &str = ".partial-";
+/// The folder that is being replaced, beside the work.
+pub(crate) const EARLIER: &str = "earlier";
+
+/// How the name of the folder begins in which the output `name` is written.
+pub(crate) fn partial(name: &OsStr) -> OsString {
+    let mut prefix = OsString::from(".");
+    prefix.push(name);
+    prefix.push(PARTIAL);
+    prefix
+}
+
+/// Removes what killed processes have left in `folder`; once, as this process leaves nothing while it lives.
+pub(crate) fn sweep_once(folder: &Path) {
+    static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let is_new = SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned());
+    if is_new {
+        sweep(folder);
+    }
+}
+
+fn sweep(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let (name, path) = (entry.file_name(), entry.path());
+        match Leftover::named(&name) {
+            Some(Leftover::File) => remove_file(&path),
+            Some(Leftover::Scratch) => drop(LockedFolder::take_over(&path)),
+            Some(Leftover::Partial(target)) => {
+                if let Some(left) = LockedFolder::take_over(&path) {
+                    restore(&left, &folder.join(target));
+                }
+            }
+            None => {}
+        }
+    }
+}
+
+/// What a name says of a leftover.
+#[derive(Debug, PartialEq)]
+enum Leftover {
+    File,
+    Scratch,
+    /// The name of the output.
+    Partial(OsString),
+}
+
+impl Leftover {
+    fn named(name: &OsStr) -> Option<Self> {
+        // Names that are no text stay.
+        let (stem, letters) = name.to_str()?.rsplit_once('-')?;
+        if letters.len() != LETTERS || !letters.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
+            return None;
+        }
+        match format!("{stem}-").as_str() {
+            TEMPORARY => Some(Self::File),
+            SCRATCH => Some(Self::Scratch),
+            stem => {
+                let target = stem.strip_prefix('.')?.strip_suffix(PARTIAL)?;
+                (!target.is_empty()).then(|| Self::Partial(target.into()))
+            }
+        }
+    }
+}
+
+/// An earlier folder that was on its way out goes back to its place if that is free, or the rest of it goes.
+pub(crate) fn restore(left: &LockedFolder, target: &Path) {
+    let earlier = left.beside(EARLIER);
+    if !earlier.is_dir() {
+        return;
+    }
+    // Each of the two may fail; the folder then stays where it is.
+    if fs::symlink_metadata(target).is_ok() {
+        let _ = list::remove(&earlier);
+    } else {
+        let _ = fs::rename(&earlier, target);
+    }
+}
+
+/// Whoever writes a temporary file holds its lock.
+fn remove_file(path: &Path) {
+    if !fs::symlink_metadata(path).is_ok_and(|about| about.is_file() && is_own(&about)) {
+        return;
+    }
+    let Ok(file) = OpenOptions::new().write(true).open(path) else { return };
+    if file.try_lock().is_ok() && is_same_file(&file, path) {
+        let _ = fs::remove_file(path);
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+    use crate::lock::LOCK;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).unwrap();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn names_tell_what_was_left() {
+        let of = |name: &str| Leftover::named(OsStr::new(name));
+        assert_eq!(of(".foveate-0123456789"), Some(Leftover::File));
+        assert_eq!(of("foveate-abcdefghij"), Some(Leftover::Scratch));
+        assert_eq!(of(".a-b.partial-abcdefghij"), Some(Leftover::Partial("a-b".into())));
+        for name in [
+            ".foveate-backup",
+            ".foveate-0123456.89",
+            "out.partial-0123456789",
+            ".foveate",
+            "..partial-0123456789",
+        ] {
+            assert_eq!(of(name), None, "{name}");
+        }
+    }
+
+    /// A folder as a process leaves it that is killed: everything is there but the lock.
+    fn killed(parent: &Path, name: &str) -> PathBuf {
+        let left = LockedFolder::create(parent, &partial(OsStr::new(name))).unwrap();
+        fs::write(left.work().join("half"), "half").unwrap();
+        let root = left.work().parent().unwrap().to_owned();
+        let kept = parent.join("kept");
+        fs::rename(&root, &kept).unwrap();
+        drop(left);
+        fs::rename(&kept, &root).unwrap();
+        root
+    }
+
+    #[test]
+    fn only_what_nobody_holds_goes() {
+        let dir = tempfile::tempdir().unwrap();
+        let parent = dir.path();
+        let living = LockedFolder::create(parent, &partial(OsStr::new("out"))).unwrap();
+        let root = killed(parent, "out");
+        assert!(root.join("work/half").is_file());
+        // Folders that a user made: without the lock, with another file of its name, as a link.
+        for name in [".mine.partial-0123456789", ".other.partial-0123456789"] {
+            fs::create_dir_all(parent.join(name).join("work")).unwrap();
+        }
+        fs::write(parent.join(".other.partial-0123456789").join(LOCK), "my notes").unwrap();
+        let linked = killed(parent, "linked");
+        fs::rename(&linked, parent.join("place")).unwrap();
+        std::os::unix::fs::symlink(parent.join("place"), &linked).unwrap();
+        fs::write(parent.join(".foveate-abcdefghij"), "half").unwrap();
+        let before = names(parent).len();
+        sweep(parent);
+        assert!(!root.exists() && !parent.join(".foveate-abcdefghij").exists());
+        assert_eq!(names(parent).len(), before - 2, "{:?}", names(parent));
+        assert!(living.work().is_dir() && parent.join("place/work/half").is_file());
+    }
+
+    #[test]
+    fn a_folder_on_its_way_out_comes_back() {
+        let dir = tempfile::tempdir().unwrap();
+        let root = killed(dir.path(), "out");
+        fs::create_dir(root.join(EARLIER)).unwrap();
+        fs::write(root.join(EARLIER).join("result"), "result").unwrap();
+        sweep(dir.path());
+        assert_eq!(names(dir.path()), ["out"]);
+        assert_eq!(fs::read(dir.path().join("out/result")).unwrap(), b"result");
+        // The new folder is in its place; what of the earlier one is listed goes.
+        let root = killed(dir.path(), "out");
+        let earlier = root.join(EARLIER);
+        fs::create_dir(&earlier).unwrap();
+        fs::write(earlier.join("listed"), "listed").unwrap();
+        list::write(&earlier);
+        fs::write(earlier.join("mine"), "mine").unwrap();
+        sweep(dir.path());
+        assert_eq!(names(&earlier), [".foveate", "mine"]);
+        fs::remove_file(earlier.join("mine")).unwrap();
+        sweep(dir.path());
+        assert_eq!(names(dir.path()), ["out"]);
+    }
+}

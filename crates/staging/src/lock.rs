@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A private folder for work in progress. Its lock tells other processes whether its process still lives: the system gives up
+//! the locks of a process that ends, however it ends, on this machine and on others that share the file system.
+
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, Read as _, Write as _};
+use std::path::{Path, PathBuf};
+
+/// The file that is locked.
+pub(crate) const LOCK: &str = ".foveate-lock";
+/// What the lock holds: a folder without it is not ours.
+const MAGIC: &[u8] = b"Foveate works in this folder while this file is locked.\n";
+/// Where the work is.
+const WORK: &str = "work";
+/// Letters and digits at the end of its name.
+pub(crate) const LETTERS: usize = 10;
+
+/// The folder; dropped, it is removed with the work in it.
+#[derive(Debug)]
+pub(crate) struct LockedFolder {
+    root: PathBuf,
+    work: PathBuf,
+    lock: Option<File>,
+}
+
+impl LockedFolder {
+    /// Makes a folder in `parent` whose name begins with `prefix`. Only its owner can enter it.
+    pub(crate) fn create(parent: &Path, prefix: &std::ffi::OsStr) -> io::Result<Self> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(prefix).rand_bytes(LETTERS);
+        #[cfg(unix)]
+        builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
+        let root = builder.tempdir_in(parent).map_err(plain)?;
+        let mut lock = File::create_new(root.path().join(LOCK))?;
+        // It waits for whoever is just looking. Where files cannot be locked nobody takes this for a leftover, because nobody
+        // gets the lock.
+        let _ = lock.lock();
+        lock.write_all(MAGIC)?;
+        let work = root.path().join(WORK);
+        fs::create_dir(&work)?;
+        Ok(Self { root: root.keep(), work, lock: Some(lock) })
+    }
+
+    /// The folder of a process that has ended, if `root` is one and belongs to this user. It is ours from then on.
+    pub(crate) fn take_over(root: &Path) -> Option<Self> {
+        let path = root.join(LOCK);
+        let own = |about: &fs::Metadata| is_own(about);
+        let is_folder = fs::symlink_metadata(root).is_ok_and(|about| about.is_dir() && own(&about));
+        let is_file = fs::symlink_metadata(&path).is_ok_and(|about| about.is_file() && own(&about));
+        if !is_folder || !is_file {
+            return None;
+        }
+        let lock = OpenOptions::new().read(true).write(true).open(&path).ok()?;
+        lock.try_lock().ok()?;
+        let mut text = Vec::new();
+        (&lock).take(MAGIC.len() as u64 + 1).read_to_end(&mut text).ok()?;
+        // Who held it may have removed it while we opened it.
+        let is_same = is_same_file(&lock, &path);
+        (text == MAGIC && is_same).then(|| Self {
+            root: root.to_owned(),
+            work: root.join(WORK),
+            lock: Some(lock),
+        })
+    }
+
+    /// Where to work.
+    pub(crate) fn work(&self) -> &Path {
+        &self.work
+    }
+
+    /// A place beside the work.
+    pub(crate) fn beside(&self, name: &str) -> PathBuf {
+        self.root.join(name)
+    }
+}
+
+impl Drop for LockedFolder {
+    fn drop(&mut self) {
+        let _ = fs::remove_dir_all(&self.work);
+        // What else is in it stays, and the lock with it, so that the next run sees to it.
+        let others = fs::read_dir(&self.root).into_iter().flatten().flatten();
+        if others.filter(|entry| entry.file_name() != LOCK).count() == 0 {
+            let _ = fs::remove_file(self.root.join(LOCK));
+            drop(self.lock.take());
+            let _ = fs::remove_dir(&self.root);
+        }
+    }
+}
+
+/// The error of a temporary file names that file, which nobody has asked for.
+pub(crate) fn plain(error: io::Error) -> io::Error {
+    let inner = error.get_ref().and_then(|inner| inner.source());
+    let code = error.raw_os_error().or_else(|| {
+        inner.and_then(|inner| inner.downcast_ref::<io::Error>()).and_then(io::Error::raw_os_error)
+    });
+    code.map_or_else(|| io::Error::from(error.kind()), io::Error::from_raw_os_error)
+}
+
+/// Whether a file belongs to the user of this process.
+#[cfg(unix)]
+pub(crate) fn is_own(about: &fs::Metadata) -> bool {
+    std::os::unix::fs::MetadataExt::uid(about) == rustix::process::geteuid().as_raw()
+}
+
+/// Elsewhere it is not known, and nothing is taken for a leftover.
+#[cfg(not(unix))]
+pub(crate) fn is_own(_: &fs::Metadata) -> bool {
+    false
+}
+
+/// Whether an open file still stands under this name.
+#[cfg(unix)]
+pub(crate) fn is_same_file(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt as _;
+    let place = |about: fs::Metadata| (about.dev(), about.ino());
+    match (file.metadata(), fs::symlink_metadata(path)) {
+        (Ok(open), Ok(named)) => place(open) == place(named),
+        _ => false,
+    }
+}
+
+/// Elsewhere an open file cannot be removed.
+#[cfg(not(unix))]
+pub(crate) fn is_same_file(_: &File, path: &Path) -> bool {
+    path.exists()
+}
