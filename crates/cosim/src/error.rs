@@ -2,7 +2,7 @@
 //! Errors of a co-simulation. A mismatch is a result and not an error.
 
 use foveate_design::ConfigError;
-use foveate_staging::StagingError;
+use foveate_staging::{StagedFolder, StagingError};
 use foveate_toolchain::ToolError;
 use std::path::{Path, PathBuf};
 
@@ -194,6 +194,18 @@ impl CosimError {
             Self::Tool(error) => error.is_environment(),
             Self::Temporary { .. } | Self::Output(_) | Self::Io { .. } => true,
             _ => false,
+        }
+    }
+
+    /// As it is told: with paths in the folder of an output as the user will know them.
+    #[must_use]
+    pub fn named(self, staged: &StagedFolder) -> Self {
+        match self {
+            Self::Output(error) => Self::Output(staged.named(error)),
+            Self::Io { action, path, source } => {
+                Self::Io { action, path: staged.shown(&path), source }
+            }
+            other => other,
         }
     }
 

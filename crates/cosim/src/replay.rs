@@ -75,7 +75,8 @@ pub(crate) fn write(
     about: &About<'_>,
 ) -> Result<PathBuf, CosimError> {
     let staged = StagedFolder::new(folder, REPLAY, true)?;
-    fill(staged.folder(), run, dut, recording, outcome, about)?;
+    fill(staged.folder(), run, dut, recording, outcome, about)
+        .map_err(|error| error.named(&staged))?;
     staged.commit()?;
     Ok(folder.to_owned())
 }
@@ -83,7 +84,7 @@ pub(crate) fn write(
 /// Writes the folder of a run without a mismatch whose waves were asked for.
 pub(crate) fn write_waves(folder: &Path, waves: &Path) -> Result<PathBuf, CosimError> {
     let staged = StagedFolder::new(folder, REPLAY, true)?;
-    copy_waves(waves, staged.folder())?;
+    copy_waves(waves, staged.folder()).map_err(|error| error.named(&staged))?;
     staged.commit()?;
     Ok(folder.join(WAVES_FILE))
 }

@@ -2,6 +2,7 @@
 //! The table of every layer of every frame. It is long, so it grows as a Parquet file and is none in memory.
 
 use std::fs::File;
+use std::path::{Path, PathBuf};
 
 use crate::InferenceError;
 use crate::cost::{Costs, FrameCost};
@@ -12,7 +13,7 @@ use crate::traffic::Traffic;
 use Kind::{Flag, Long, Real, Text};
 use foveate_files::tables::{Column, Kind, ParquetWriter, Value};
 use foveate_network::Network;
-use foveate_staging::StagedFolder;
+use foveate_staging::{StagedFolder, StagingError};
 
 /// The file.
 pub(crate) const NAME: &str = "layers_frames.parquet";
@@ -55,20 +56,22 @@ const COLUMNS: [Of; 16] = [
 /// The table, open.
 pub(crate) struct Details {
     file: ParquetWriter<File>,
+    path: PathBuf,
 }
 
 impl Details {
     /// # Errors
     /// When it cannot be written.
     pub(crate) fn new(staging: &StagedFolder) -> Result<Self, InferenceError> {
-        let file = File::create(staging.folder().join(NAME)).map_err(failed)?;
+        let path = staging.folder().join(NAME);
+        let file = File::create(&path).map_err(failed(&path))?;
         let columns = COLUMNS.map(|(name, kind, optional, _)| Column {
             name: name.to_owned(),
             kind,
             optional,
         });
-        let file = ParquetWriter::new(file, "layers_frames", &columns).map_err(failed)?;
-        Ok(Self { file })
+        let file = ParquetWriter::new(file, "layers_frames", &columns);
+        Ok(Self { file: file.map_err(failed(&path))?, path })
     }
 
     /// Takes the layers of a frame.
@@ -92,7 +95,7 @@ impl Details {
             self.file.push(COLUMNS.map(|(_, _, _, value)| value(&row)));
         }
         if self.file.pending() >= GROUP {
-            self.file.write_group().map_err(failed)?;
+            self.file.write_group().map_err(failed(&self.path))?;
         }
         Ok(())
     }
@@ -102,12 +105,12 @@ impl Details {
     /// # Errors
     /// When it cannot be written.
     pub(crate) fn finish(self) -> Result<(), InferenceError> {
-        self.file.finish().map(drop).map_err(failed)
+        self.file.finish().map(drop).map_err(failed(&self.path))
     }
 }
 
-fn failed(source: std::io::Error) -> InferenceError {
-    InferenceError::Table { name: NAME.to_owned(), source }
+fn failed(path: &Path) -> impl Fn(std::io::Error) -> InferenceError + '_ {
+    |source| StagingError::Write { path: path.to_owned(), source }.into()
 }
 
 fn long(count: u64) -> Value<'static> {

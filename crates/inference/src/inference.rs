@@ -115,16 +115,31 @@ impl Inference {
         options: &Options,
         hooks: &mut dyn Hooks,
     ) -> Result<Summary, InferenceError> {
+        let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
+        let summary = self.write(&staging, options, hooks).map_err(|error| match error {
+            InferenceError::Output(error) => InferenceError::Output(staging.named(error)),
+            other => other,
+        })?;
+        staging.commit()?;
+        Ok(summary)
+    }
+
+    /// Writes all files.
+    fn write(
+        self,
+        staging: &StagedFolder,
+        options: &Options,
+        hooks: &mut dyn Hooks,
+    ) -> Result<Summary, InferenceError> {
         let Self { design, witness, viewing, path, mut clips } = self;
         let network = witness.network();
-        let staging = StagedFolder::new(output, INFERENCE, options.overwrite)?;
         let accelerator = options.accelerator.as_ref();
         let costs =
             accelerator.map(|(_, accelerator)| Costs::new(accelerator, network)).transpose();
         let costs = costs.map_err(|(node, source)| InferenceError::Accelerator { node, source })?;
         let files = Files {
-            outputs: Recording::new(&staging, network, options.record)?,
-            details: Details::new(&staging)?,
+            outputs: Recording::new(staging, network, options.record)?,
+            details: Details::new(staging)?,
         };
         let (all, inputs) = (clips.count(), clips.inputs());
         let judge = options.sight.then(|| Judge::new(&witness, &design, clips.have_boxes()));
@@ -178,12 +193,11 @@ impl Inference {
             mapping: viewing.mapping,
             framing: viewing.framing,
         })?;
-        write(&staging, &ended)?;
+        write(staging, &ended)?;
         let Ended { summary, frames, detected } = &ended;
         let shots = detected.as_ref().map(|detected| &detected.shots);
         let page = page(summary, frames, shots, &design, &options.command)?;
         staging.write("report.html", page.as_bytes())?;
-        staging.commit()?;
         Ok(ended.summary)
     }
 }

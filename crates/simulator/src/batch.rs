@@ -59,7 +59,7 @@ pub fn run_batch(
         input,
         options,
         hooks,
-        folder: staging.folder(),
+        staging: &staging,
         next: AtomicUsize::new(0),
         done: AtomicUsize::new(0),
         frames: AtomicU64::new(0),
@@ -78,7 +78,7 @@ struct Batch<'a> {
     input: &'a InputOptions,
     options: &'a RunOptions,
     hooks: &'a dyn BatchHooks,
-    folder: &'a Path,
+    staging: &'a StagedFolder,
     next: AtomicUsize,
     done: AtomicUsize,
     frames: AtomicU64,
@@ -128,8 +128,10 @@ impl Batch<'_> {
 
     fn simulate(&self, clip: &Clip) -> Result<Summary, SimulatorError> {
         let source = open(&clip.inputs, &self.config.camera, self.input)?;
-        let output = self.folder.join(&clip.place);
-        Simulation::new(self.config, source)?.run(&output, self.options, &mut Frames(self))
+        let output = self.staging.folder().join(&clip.place);
+        let simulation = Simulation::new(self.config, source)?;
+        let done = simulation.run(&output, self.options, &mut Frames(self));
+        done.map_err(|error| error.named(self.staging))
     }
 
     fn tell(&self) {

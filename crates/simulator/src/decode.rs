@@ -14,7 +14,7 @@ use foveate_toolchain::Interrupt;
 
 use crate::losses::Losses;
 use crate::output::{INTERRUPTED, Recorder};
-use crate::simulation::SIMULATION;
+use crate::simulation::{SIMULATION, full};
 use crate::stream::{Received, ShownFrame, Stream};
 use crate::{Hooks, Progress, RunOptions, SimulatorError, Summary};
 
@@ -56,15 +56,28 @@ impl Recording<'_> {
     ) -> Result<Decoded, SimulatorError> {
         possible(options)?;
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
+        let decoded = self.write(staging.folder(), options, hooks);
+        let decoded = decoded.map_err(|error| error.named(&staging))?;
+        staging.commit()?;
+        Ok(decoded)
+    }
+
+    /// Writes all files.
+    fn write(
+        self,
+        folder: &Path,
+        options: &RunOptions,
+        hooks: &mut dyn Hooks,
+    ) -> Result<Decoded, SimulatorError> {
         let mut writer = Writer {
-            folder: staging.folder(),
+            folder,
             options,
             interrupt: hooks.interrupt(),
-            losses: Losses::new(staging.folder()),
+            losses: Losses::new(folder),
             recorder: None,
         };
         let (mut stream, mut chunk, mut bytes) = (Stream::new(self.config), vec![0; CHUNK], 0u64);
-        let mut is_cancelled = false;
+        let (mut is_cancelled, mut is_full) = (false, None);
         loop {
             let read = match self.stream.read(&mut chunk) {
                 // The system asks to try again, or the wait was given up because the user stops the run.
@@ -85,7 +98,13 @@ impl Recording<'_> {
                 bytes += read as u64;
                 stream.feed(&chunk[..read]);
             }
-            writer.take(&mut stream, hooks)?;
+            match (writer.take(&mut stream, hooks), writer.frames()) {
+                (Err(error), 1..) if error.is_full() => {
+                    is_full = Some(full(&error, writer.frames(), folder));
+                    break;
+                }
+                (other, _) => other?,
+            }
             if ends {
                 break;
             }
@@ -96,14 +115,14 @@ impl Recording<'_> {
             return Err(if is_cancelled { SimulatorError::Cancelled } else { none.into() });
         };
         let problem = match (is_cancelled, losses.count()) {
+            _ if is_full.is_some() => is_full,
             (true, _) => Some(INTERRUPTED.to_owned()),
             (false, 0) => None,
             (false, 1) => Some("1 loss in the stream, in losses.csv".to_owned()),
             (false, count) => Some(format!("{count} losses in the stream, in losses.csv")),
         };
-        let summary = recorder.finish(staging.folder(), &[self.name.to_owned()], problem)?;
+        let summary = recorder.finish(folder, &[self.name.to_owned()], problem)?;
         let (losses, loss_count) = losses.finish()?;
-        staging.commit()?;
         Ok(Decoded { summary, losses, loss_count })
     }
 }
@@ -135,6 +154,11 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
+    /// Frames so far.
+    fn frames(&self) -> u64 {
+        self.recorder.as_ref().map_or(0, Recorder::frames)
+    }
+
     /// Writes all that is there.
     fn take(&mut self, stream: &mut Stream, hooks: &mut dyn Hooks) -> Result<(), SimulatorError> {
         while let Some(received) = stream.receive()? {
@@ -145,8 +169,7 @@ impl Writer<'_> {
                     if let Some(design) = stream.design() {
                         self.write(*frame, design, stream.has_scores())?;
                     }
-                    let done = self.recorder.as_ref().map_or(0, Recorder::frames);
-                    hooks.progress(Progress { done, total: None });
+                    hooks.progress(Progress { done: self.frames(), total: None });
                 }
             }
         }

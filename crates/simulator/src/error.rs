@@ -2,7 +2,7 @@
 //! What can go wrong in a simulation. Every message names the thing and says what to do.
 
 use std::io;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
@@ -10,7 +10,7 @@ use foveate_footage::FootageError;
 use foveate_frame::FrameError;
 use foveate_model::ModelError;
 use foveate_packets::PacketError;
-use foveate_staging::StagingError;
+use foveate_staging::{StagedFolder, StagingError};
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
@@ -59,6 +59,8 @@ pub enum SimulatorError {
         path: PathBuf,
         /// What ffmpeg said.
         problem: String,
+        /// Whether there was no room.
+        is_full: bool,
     },
     /// A contrast that would make events without end.
     #[error("a contrast of {contrast} is too small; it must be at least 0.01")]
@@ -149,17 +151,34 @@ impl SimulatorError {
     /// Whether there was no room for an output.
     pub(crate) fn is_full(&self) -> bool {
         match self {
-            Self::Write { source, .. } => is_full(source),
+            Self::Write { source, .. } => foveate_staging::is_full(source),
             Self::Output(error) => error.is_full(),
-            Self::VideoOutput { problem, .. } => ["No space left on device", "Disk quota exceeded"]
-                .iter()
-                .any(|p| problem.contains(p)),
+            Self::VideoOutput { is_full, .. } => *is_full,
             _ => false,
         }
     }
-}
 
-/// Whether an error of the operating system says that there is no room.
-pub(crate) fn is_full(error: &io::Error) -> bool {
-    matches!(error.kind(), io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded)
+    /// The file that cannot be written.
+    pub(crate) fn path(&self) -> Option<&Path> {
+        match self {
+            Self::Write { path, .. }
+            | Self::VideoOutput { path, .. }
+            | Self::Output(StagingError::Write { path, .. }) => Some(path),
+            _ => None,
+        }
+    }
+
+    /// As it is told: with paths in the folder of the output as the user will know them.
+    #[must_use]
+    pub fn named(self, staging: &StagedFolder) -> Self {
+        match self {
+            Self::Write { path, source } => Self::Write { path: staging.shown(&path), source },
+            Self::Output(error) => Self::Output(staging.named(error)),
+            Self::VideoOutput { path, problem, is_full } => {
+                let problem = staging.shown_text(&problem);
+                Self::VideoOutput { path: staging.shown(&path), problem, is_full }
+            }
+            other => other,
+        }
+    }
 }

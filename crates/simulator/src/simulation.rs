@@ -53,8 +53,22 @@ impl Simulation {
             return Err(SimulatorError::NotASet { inputs: self.source.inputs().join(", ") });
         }
         let staging = StagedFolder::new(output, SIMULATION, options.overwrite)?;
+        let written = self.write(&staging, options, hooks);
+        let summary = written.map_err(|error| error.named(&staging))?;
+        staging.commit()?;
+        Ok(summary)
+    }
+
+    /// Writes all files.
+    fn write(
+        &mut self,
+        staging: &StagedFolder,
+        options: &RunOptions,
+        hooks: &mut dyn Hooks,
+    ) -> Result<Summary, SimulatorError> {
+        let folder = staging.folder();
         let mut recorder = Recorder::create(
-            staging.folder(),
+            folder,
             &self.design,
             &self.source.form(),
             options,
@@ -81,12 +95,10 @@ impl Simulation {
             (Err(SimulatorError::VideoOutput { .. }), 1..) if hooks.cancelled() => {
                 Some(INTERRUPTED.to_owned())
             }
-            (Err(error), 1..) if error.is_full() => Some(full(&error, recorder.frames())),
+            (Err(error), 1..) if error.is_full() => Some(full(&error, recorder.frames(), folder)),
             (Err(error), _) => return Err(error),
         };
-        let summary = recorder.finish(staging.folder(), self.source.inputs(), problem)?;
-        staging.commit()?;
-        Ok(summary)
+        recorder.finish(folder, self.source.inputs(), problem)
     }
 
     /// Shows every frame to the engine, while those after it are read.
@@ -122,15 +134,11 @@ enum End {
     Cancelled,
 }
 
-/// What a summary says of a run that found no room.
-fn full(error: &SimulatorError, frames: u64) -> String {
-    let file = match error {
-        SimulatorError::Write { path, .. } | SimulatorError::VideoOutput { path, .. } => {
-            path.file_name().expect("an output has a name").display().to_string()
-        }
-        _ => String::new(),
-    };
-    format!("{DISK_FULL} after {frames} frames, at {file}")
+/// What a summary says of a run that found no room for one of its files in `folder`.
+pub(crate) fn full(error: &SimulatorError, frames: u64, folder: &Path) -> String {
+    let file = error.path().map(|path| path.strip_prefix(folder).unwrap_or(path));
+    let at = file.map(|file| format!(", at {}", file.display())).unwrap_or_default();
+    format!("{DISK_FULL} after {frames} frames{at}")
 }
 
 impl std::fmt::Debug for Simulation {

@@ -23,5 +23,5 @@ pub use file::{check_file, write_file};
 pub use folder::{FolderKind, StagedFolder};
 pub use growing::GrowingFile;
 pub use leftover::TEMPORARY;
-pub use reserve::Reserve;
+pub use reserve::{Reserve, has_room};
 pub use scratch::ScratchFolder;

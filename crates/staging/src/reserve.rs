@@ -12,13 +12,21 @@ pub struct Reserve {
 }
 
 impl Reserve {
-    /// Takes up `bytes` in `folder`, if there are as many.
+    /// Takes up `bytes` in `folder`, under a name of its own, or half of the room where there are not as many.
     #[must_use]
-    pub fn new(folder: &Path, bytes: u64) -> Option<Self> {
-        let reserve = Self { path: folder.join(".reserve") };
-        // A file that is not written to takes up no room.
-        fill(&reserve.path, bytes).ok().map(|()| reserve)
+    pub fn new(folder: &Path, name: &str, bytes: u64) -> Self {
+        let reserve = Self { path: folder.join(name) };
+        // What cannot be taken is no loss: the end is then tried without.
+        let _ = fill(&reserve.path, bytes);
+        reserve
     }
+}
+
+/// Whether there are so many bytes of room in a folder.
+#[must_use]
+pub fn has_room(folder: &Path, bytes: u64) -> bool {
+    let probe = Reserve { path: folder.join(".probe") };
+    File::create_new(&probe.path).and_then(|mut file| zeros(&mut file, bytes).1).is_ok()
 }
 
 impl Drop for Reserve {
@@ -28,13 +36,26 @@ impl Drop for Reserve {
     }
 }
 
+/// A file that is not written to takes up no room.
 fn fill(path: &Path, bytes: u64) -> io::Result<()> {
-    static BLOCK: [u8; 1 << 16] = [0; 1 << 16];
     let mut file = File::create_new(path)?;
-    for _ in 0..bytes.div_ceil(BLOCK.len() as u64) {
-        file.write_all(&BLOCK)?;
+    match zeros(&mut file, bytes) {
+        (_, Ok(())) => Ok(()),
+        (written, Err(_)) => file.set_len(written / 2),
     }
-    Ok(())
+}
+
+/// Writes so many zeros or a few more, and tells how far it came.
+fn zeros(file: &mut File, bytes: u64) -> (u64, io::Result<()>) {
+    static BLOCK: [u8; 1 << 14] = [0; 1 << 14];
+    let mut written = 0;
+    while written < bytes {
+        if let Err(error) = file.write_all(&BLOCK) {
+            return (written, Err(error));
+        }
+        written += BLOCK.len() as u64;
+    }
+    (written, Ok(()))
 }
 
 #[cfg(test)]
@@ -44,7 +65,8 @@ mod tests {
     #[test]
     fn room_is_taken_and_given_back() {
         let dir = tempfile::tempdir().unwrap();
-        let reserve = Reserve::new(dir.path(), 100_000).unwrap();
+        assert!(has_room(dir.path(), 100_000));
+        let reserve = Reserve::new(dir.path(), ".reserve", 100_000);
         assert!(fs::metadata(&reserve.path).unwrap().len() >= 100_000);
         drop(reserve);
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0);

@@ -5,8 +5,6 @@ mod end_to_end;
 mod plan;
 mod text;
 
-use std::fs;
-
 use foveate_cosim::{
     CosimError, CosimReport, Left, Level, Progress, Simulator, Summary, Verdict, junit_error,
     junit_xml, not_elaborated, not_simulated,
@@ -20,7 +18,7 @@ use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, output};
-use end_to_end::EndToEnd;
+use end_to_end::{EndToEnd, Trip};
 use plan::{Plan, Work};
 
 /// All that is told.
@@ -33,19 +31,25 @@ struct Told<'a> {
 }
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
-    let plan = plan::plan(args)?;
+    let mut plan = plan::plan(args)?;
     if let Some(file) = &args.junit {
         check_file(file)?;
     }
-    if let Some(folder) = &args.end_to_end {
-        fs::create_dir_all(folder).map_err(CliError::io("make the folder", folder))?;
+    let trip = args.end_to_end.as_deref().map(Trip::begin).transpose()?;
+    if let Some(trip) = &trip {
+        plan.keep_packets(&trip.packets());
     }
     let (toolchain, cache) = (interrupt::toolchain()?, Cache::from_env()?);
-    let summary = all(args, plan, &toolchain, &cache)?;
+    let summary = all(args, plan, &toolchain, &cache).map_err(|error| match &trip {
+        Some(trip) => trip.named(error),
+        None => error,
+    })?;
     let written = write_junit(args, &junit_xml(&summary));
     let passed = summary.verdict() == Verdict::Passed;
-    let folder = args.end_to_end.as_deref().filter(|_| passed);
-    let end_to_end = folder.map(|folder| end_to_end::compare(args, folder)).transpose()?;
+    let compared = trip.as_ref().filter(|_| passed);
+    let compared = compared.map(|trip| end_to_end::compare(args, trip)).transpose();
+    trip.map_or(Ok(()), Trip::end)?;
+    let end_to_end = compared?;
     let is_received = end_to_end.as_ref().is_none_or(EndToEnd::agrees);
     tell(args, &Told { summary: &summary, end_to_end })?;
     let complaint = match summary.verdict() {

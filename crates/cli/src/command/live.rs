@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate live`: a page with a camera in the browser, until Ctrl-C.
 
-use std::fs;
-
+use foveate_staging::write_file;
 use foveate_view::{Player, camera_page};
 
 use crate::args::{LiveArgs, warn_of};
@@ -11,7 +10,7 @@ use crate::serving::Serving;
 
 pub(crate) fn run(args: &LiveArgs) -> Result<(), CliError> {
     if let Some(file) = &args.page {
-        return fs::write(file, camera_page(None)).map_err(CliError::io("write the page", file));
+        return Ok(write_file(file, camera_page(None).as_bytes())?);
     }
     let serving = Serving::begin()?;
     let options = args.options()?;

@@ -21,7 +21,9 @@ fn replay(core: &Path, args: &[&str]) -> (Option<i32>, String) {
 
 /// Writes a core.
 fn core(folder: &Path, settings: &[&str]) {
-    let mut args = vec!["generate", "--preset", "bare", "--force", "-o", "core"];
+    // Some tests edit it, and edited files are not replaced.
+    let _ = fs::remove_dir_all(folder.join("core"));
+    let mut args = vec!["generate", "--preset", "bare", "-o", "core"];
     for setting in settings {
         args.extend(["--set", setting]);
     }

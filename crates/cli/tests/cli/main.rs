@@ -26,6 +26,7 @@ mod inputs;
 mod link;
 mod live;
 mod outputs;
+mod own_files;
 mod prefix;
 mod progress;
 mod serial;

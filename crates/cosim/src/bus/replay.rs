@@ -49,7 +49,7 @@ impl Replay<'_> {
     /// Writes the folder; an earlier one makes way.
     pub(super) fn write(&self, folder: &Path) -> Result<PathBuf, CosimError> {
         let staged = StagedFolder::new(folder, REPLAY, true)?;
-        self.fill(staged.folder())?;
+        self.fill(staged.folder()).map_err(|error| error.named(&staged))?;
         staged.commit()?;
         Ok(folder.to_owned())
     }

@@ -11,7 +11,7 @@ use std::thread::{Builder, JoinHandle};
 use super::picture::RawImage;
 use super::{cannot_write, png};
 use crate::SimulatorError;
-use crate::error::is_full;
+use foveate_staging::is_full;
 
 /// More do not help: something else is the limit then.
 const MOST: usize = 8;

@@ -85,9 +85,13 @@ impl Sink for Gallery {
 
     fn expendable(&self) -> Option<PathBuf> {
         match &self.series {
-            Series::Folder(_) => None,
+            Series::Folder(series) => Some(series.folder().to_owned()),
             Series::Video(video) => Some(video.path().to_owned()),
         }
+    }
+
+    fn is_written_apart(&self) -> bool {
+        matches!(self.series, Series::Video(_))
     }
 
     fn finish(self: Box<Self>) -> Result<(), SimulatorError> {

@@ -2,7 +2,7 @@
 //! Numbered PNG files in a folder of their own.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use super::cannot_write;
 use super::crew::Crew;
@@ -20,6 +20,10 @@ impl PngSeries {
     pub(super) fn create(folder: PathBuf) -> Result<Self, SimulatorError> {
         fs::create_dir(&folder).map_err(cannot_write(&folder))?;
         Ok(Self { folder, next: 0, crew: Crew::new()? })
+    }
+
+    pub(super) fn folder(&self) -> &Path {
+        &self.folder
     }
 
     pub(super) fn push(&mut self, picture: RawImage) {

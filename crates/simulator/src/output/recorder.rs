@@ -43,8 +43,9 @@ pub(crate) struct Recorder {
     sinks: Vec<Box<dyn Sink>>,
     data_set: Option<DataSet>,
     totals: Totals,
-    /// Room to complete every file on a full disk.
+    /// Room to complete every file on a full disk, and for the videos apart.
     reserve: Option<Reserve>,
+    spare: Option<Reserve>,
 }
 
 impl Recorder {
@@ -85,6 +86,8 @@ impl Recorder {
             sinks.append(&mut data_set::sinks(folder, form)?);
         }
         let owed: u64 = sinks.iter().map(|sink| BUFFERS + sink.owed(design)).sum();
+        let apart = sinks.iter().any(|sink| sink.is_written_apart());
+        let spare = apart.then(|| Reserve::new(folder, ".spare", LEAST_RESERVE));
         let pixels = options.pixel_events;
         let pixels = pixels.wanted().then(|| PixelRecorder::create(folder, design, pixels));
         Ok(Self {
@@ -93,7 +96,8 @@ impl Recorder {
             pixels: pixels.transpose()?,
             sinks,
             totals: Totals::default(),
-            reserve: Reserve::new(folder, LEAST_RESERVE + owed),
+            reserve: Some(Reserve::new(folder, ".reserve", LEAST_RESERVE + owed)),
+            spare,
             design: design.clone(),
         })
     }
@@ -147,8 +151,8 @@ impl Recorder {
     }
 
     /// Completes every file and adds the summary; `problem` is why the run ended early, if it did.
-    /// Where there is no room left, what was kept back for this is used up. A video whose ffmpeg was
-    /// interrupted, too, is left out.
+    /// Where there is no room left, what was kept back for this is used up, and then what can be spared is left out: pictures,
+    /// Parquet tables, videos. So is a video whose ffmpeg was interrupted, too.
     pub(crate) fn finish(
         mut self,
         folder: &Path,
@@ -165,20 +169,46 @@ impl Recorder {
         {
             return Err(error);
         }
-        drop(self.reserve);
-        self.table.write_out(true)?;
-        for sink in self.sinks {
-            let expendable = sink.expendable();
-            match (sink.finish(), expendable) {
-                (Err(error), Some(path)) if lost(&error) => give_up(&path, &mut problem),
-                (other, _) => other?,
-            }
+        // What other programs write ends first: they would take the room that the rest needs.
+        drop(self.spare.take());
+        let (apart, sinks): (Vec<_>, Vec<_>) =
+            std::mem::take(&mut self.sinks).into_iter().partition(|sink| sink.is_written_apart());
+        complete(apart, &lost, &mut problem)?;
+        drop(self.reserve.take());
+        let (expendable, needed) =
+            sinks.into_iter().partition::<Vec<_>, _>(|sink| sink.expendable().is_some());
+        self.sinks = needed;
+        let expendable = self.make_room(expendable, &mut problem)?;
+        for sink in std::mem::take(&mut self.sinks) {
+            sink.finish()?;
         }
-        let pixel_events = self.pixels.map(PixelRecorder::finish).transpose()?;
-        let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
-        summary.data_set = self.data_set;
-        summary.write(&folder.join("summary.json"))?;
-        Ok(summary)
+        let pixel_events = self.pixels.take().map(PixelRecorder::finish).transpose()?;
+        let summary = |problem| {
+            let mut summary = self.totals.summary(&self.design, inputs, problem, pixel_events);
+            summary.data_set.clone_from(&self.data_set);
+            summary.write(&folder.join("summary.json")).map(|()| summary)
+        };
+        // It has its room before the last of it goes.
+        let written = summary(problem.clone())?;
+        complete(expendable, &lost, &mut problem)?;
+        if written.problem == problem { Ok(written) } else { summary(problem) }
+    }
+
+    /// Writes all that is needed, and gives up one output after the other where there is no room for it. Returns those that are left.
+    fn make_room(
+        &mut self,
+        mut expendable: Vec<Box<dyn Sink>>,
+        problem: &mut Option<String>,
+    ) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
+        loop {
+            let Err(error) = self.write_out(true) else { return Ok(expendable) };
+            let sink = if error.is_full() { expendable.pop() } else { None };
+            let Some(sink) = sink else { return Err(error) };
+            let path = sink.expendable();
+            // Nobody writes to it any more.
+            drop(sink);
+            path.iter().for_each(|path| give_up(path, problem));
+        }
     }
 
     /// Frames so far.
@@ -198,10 +228,25 @@ impl Recorder {
     }
 }
 
-/// Leaves out a file that cannot be completed, and says so.
+/// Completes outputs that can be given up, if they can.
+fn complete(
+    sinks: Vec<Box<dyn Sink>>,
+    lost: &dyn Fn(&SimulatorError) -> bool,
+    problem: &mut Option<String>,
+) -> Result<(), SimulatorError> {
+    for sink in sinks {
+        match (sink.expendable(), sink.finish()) {
+            (Some(path), Err(error)) if lost(&error) => give_up(&path, problem),
+            (_, other) => other?,
+        }
+    }
+    Ok(())
+}
+
+/// Leaves out a file or a folder of pictures that cannot be completed, and says so.
 fn give_up(path: &Path, problem: &mut Option<String>) {
-    // It is useless; where it cannot be removed it is at least named.
-    let _ = std::fs::remove_file(path);
+    // It is useless; where it cannot be removed it is at least named. It is in the folder of this run.
+    let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir_all(path));
     let name = path.file_name().expect("an output has a name").display();
     let left_out = format!("{name} is left out");
     *problem = Some(match problem.take() {

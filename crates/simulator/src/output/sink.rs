@@ -55,9 +55,14 @@ pub(super) trait Sink: Send {
         0
     }
 
-    /// A file that can only be given up when there is no room to complete it.
+    /// A file or folder that is given up when there is no room to complete everything.
     fn expendable(&self) -> Option<PathBuf> {
         None
+    }
+
+    /// Whether another program writes it, as long as there is room.
+    fn is_written_apart(&self) -> bool {
+        false
     }
 
     /// Completes what was written; one that is dropped instead leaves something unfinished.

@@ -6,10 +6,21 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
+use foveate_staging::has_room;
 use foveate_toolchain::{Feeder, Interrupt, Invocation, Tool, ToolError, Toolchain};
 
 use super::picture::{RawImage, Samples};
 use crate::SimulatorError;
+
+/// Room that ffmpeg asks for at once, at most.
+const ROOM: u64 = 1 << 20;
+
+/// Why there is no video.
+#[derive(Clone)]
+struct Failure {
+    said: String,
+    is_full: bool,
+}
 
 /// A video in the making.
 pub(super) struct VideoFile {
@@ -25,7 +36,7 @@ enum State {
     First(RawImage, u64),
     Running(Feeder),
     /// ffmpeg has ended too early, and said this.
-    Failed(String),
+    Failed(Failure),
 }
 
 impl VideoFile {
@@ -64,8 +75,9 @@ impl VideoFile {
 
     /// Whether ffmpeg has taken all pictures so far.
     pub(super) fn check(&self) -> Result<(), SimulatorError> {
-        let State::Failed(problem) = &self.state else { return Ok(()) };
-        Err(SimulatorError::VideoOutput { path: self.path.clone(), problem: problem.clone() })
+        let State::Failed(Failure { said, is_full }) = &self.state else { return Ok(()) };
+        let (path, problem) = (self.path.clone(), said.clone());
+        Err(SimulatorError::VideoOutput { path, problem, is_full: *is_full })
     }
 
     pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
@@ -76,7 +88,7 @@ impl VideoFile {
         if let State::Running(feeder) = &mut self.state {
             match feeder.finish() {
                 Ok((true, _)) => {}
-                Ok((false, said)) => self.state = State::failed(said),
+                Ok((false, said)) => self.state = self.failed(said),
                 Err(error) => self.state = State::given_up(&error),
             }
         }
@@ -128,18 +140,23 @@ impl VideoFile {
             return Ok(State::Running(feeder));
         }
         // It has ended, or takes nothing since an interrupt.
-        Ok(feeder.fail().map_or_else(|error| State::given_up(&error), State::failed))
+        Ok(feeder.fail().map_or_else(|error| State::given_up(&error), |said| self.failed(said)))
+    }
+
+    /// The last words of ffmpeg need not be why it ended: whether there is room is tried, too.
+    fn failed(&self, said: Option<String>) -> State {
+        let said = said.map(|line| line.trim().to_owned());
+        let said = said.unwrap_or_else(|| "ffmpeg ended too early".to_owned());
+        let words = ["No space left on device", "Disk quota exceeded"];
+        let has_room = || self.path.parent().is_none_or(|folder| has_room(folder, ROOM));
+        let is_full = words.iter().any(|words| said.contains(words)) || !has_room();
+        State::Failed(Failure { said, is_full })
     }
 }
 
 impl State {
     fn given_up(error: &ToolError) -> Self {
-        Self::Failed(format!("ffmpeg was given up: {error}"))
-    }
-
-    fn failed(said: Option<String>) -> Self {
-        let said = said.map(|line| line.trim().to_owned());
-        Self::Failed(said.unwrap_or_else(|| "ffmpeg ended too early".to_owned()))
+        Self::Failed(Failure { said: format!("ffmpeg was given up: {error}"), is_full: false })
     }
 }
 

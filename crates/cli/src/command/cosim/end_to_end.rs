@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use foveate_design::Config;
 use foveate_footage::{InputOptions, open};
 use foveate_simulator::{Recording, RunOptions, Simulation};
+use foveate_staging::{FolderKind, StagedFolder};
 use serde::Serialize;
 
 use super::super::simulate::Terminal;
@@ -16,9 +17,41 @@ use crate::error::CliError;
 use crate::interrupt;
 
 /// What is in the folder: the packets, what a receiver makes of them, and what the model says.
-pub(super) const PACKETS: &str = "packets.bin";
+const PACKETS: &str = "packets.bin";
 const RECEIVED: &str = "received";
 const SIMULATED: &str = "simulated";
+/// An earlier one makes way, if nothing else is in it.
+const END_TO_END: FolderKind = FolderKind {
+    what: "a clip through the hardware (its packets.bin)",
+    is: |folder| folder.join(PACKETS).is_file(),
+};
+
+/// The folder in the making.
+pub(super) struct Trip(StagedFolder);
+
+impl Trip {
+    pub(super) fn begin(folder: &Path) -> Result<Self, CliError> {
+        Ok(Self(StagedFolder::new(folder, END_TO_END, true)?))
+    }
+
+    /// Where the packets go.
+    pub(super) fn packets(&self) -> PathBuf {
+        self.0.folder().join(PACKETS)
+    }
+
+    /// An error as it is told.
+    pub(super) fn named(&self, error: CliError) -> CliError {
+        match error {
+            CliError::Cosim(error) => CliError::Cosim(error.named(&self.0)),
+            other => other,
+        }
+    }
+
+    /// Puts the folder into its place, with what there is; nothing if no packets have come.
+    pub(super) fn end(self) -> Result<(), CliError> {
+        if self.packets().is_file() { Ok(self.0.commit()?) } else { Ok(()) }
+    }
+}
 
 /// Whether a receiver sees what `simulate` says.
 #[derive(Debug, Serialize)]
@@ -52,10 +85,13 @@ impl EndToEnd {
 }
 
 /// Decodes the packets that a core has sent, simulates the same frames, and compares.
-pub(super) fn compare(args: &CosimArgs, folder: &Path) -> Result<EndToEnd, CliError> {
+pub(super) fn compare(args: &CosimArgs, trip: &Trip) -> Result<EndToEnd, CliError> {
+    let Trip(staged) = trip;
+    let told = |folder: &Path| staged.shown(folder);
+    let folder = staged.folder();
     let config = args.design.read()?;
     let mut hooks = Terminal::new(true)?;
-    let options = RunOptions { overwrite: true, ..RunOptions::default() };
+    let options = RunOptions::default();
     let (received, simulated) = (folder.join(RECEIVED), folder.join(SIMULATED));
     let simulation = simulation(args, &config)?;
     // The clip says how large its frames are; packets alone do not.
@@ -63,13 +99,16 @@ pub(super) fn compare(args: &CosimArgs, folder: &Path) -> Result<EndToEnd, CliEr
 
     let packets = folder.join(PACKETS);
     let mut stream = File::open(&packets).map_err(CliError::io("read the packets", &packets))?;
-    let name = packets.display().to_string();
+    let name = told(&packets).display().to_string();
     let recording = Recording { config: &config, stream: &mut stream, name: &name };
-    let decoded = recording.decode(&received, &options, &mut hooks)?;
-    hooks.verdict(&received, decoded.summary.problem)?;
-    let summary = simulation.run(&simulated, &options, &mut hooks)?;
-    hooks.verdict(&simulated, summary.problem)?;
+    let decoded = recording.decode(&received, &options, &mut hooks);
+    let decoded = decoded.map_err(|error| error.named(staged))?;
+    hooks.verdict(&told(&received), decoded.summary.problem)?;
+    let summary = simulation.run(&simulated, &options, &mut hooks);
+    let summary = summary.map_err(|error| error.named(staged))?;
+    hooks.verdict(&told(&simulated), summary.problem)?;
     let (files, differences) = differences(&received, &simulated)?;
+    let (received, simulated) = (told(&received), told(&simulated));
     Ok(EndToEnd { frames: summary.frames, files, differences, received, simulated })
 }
 

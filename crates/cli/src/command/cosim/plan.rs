@@ -9,7 +9,6 @@ use foveate_design::Design;
 use foveate_emit::{Prefix, SourceFile, Top};
 use foveate_toolchain::check_source_name;
 
-use super::end_to_end::PACKETS;
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
 
@@ -41,6 +40,17 @@ pub(super) struct Plan {
     pub(super) prefix: Prefix,
     /// The co-simulations, the smallest first; at least one.
     pub(super) works: Vec<Work>,
+}
+
+impl Plan {
+    /// Keeps the packets of a core on AXI in this file.
+    pub(super) fn keep_packets(&mut self, file: &Path) {
+        for work in &mut self.works {
+            if let Work::Axi(job) = work {
+                job.packets = Some(file.to_owned());
+            }
+        }
+    }
 }
 
 pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
@@ -84,8 +94,9 @@ pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
 /// The core on AXI, where it is to be simulated.
 fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
     let is_part = args.full || args.netlist || args.simulator == SimulatorChoice::Iverilog;
-    let packets = args.packets.clone().or(args.end_to_end.as_ref().map(|dir| dir.join(PACKETS)));
-    let is_asked = args.level == Some(args::Level::Axi) || packets.is_some();
+    let packets = args.packets.clone();
+    let is_asked =
+        args.level == Some(args::Level::Axi) || packets.is_some() || args.end_to_end.is_some();
     let option = match (&args.packets, &args.end_to_end) {
         (Some(_), _) => "--packets",
         (None, Some(_)) => "--end-to-end",
