@@ -84,6 +84,75 @@ fn what_fits_is_there_whole_and_marked_as_partial() {
     assert!(!out.join(".reserve").exists());
 }
 
+/// Whatever is written beside, the frames until then are there, and no message names a place that is gone.
+#[test]
+fn frames_are_kept_whatever_is_written_beside_them() {
+    let dir = tempfile::tempdir().unwrap();
+    let sent = dir.path().join("sent");
+    let foveate = assert_cmd::cargo::cargo_bin("foveate");
+    let sending = ["simulate", "scene:random", "--frames", "40", "--packets", "--quiet", "-o"];
+    assert!(Command::new(foveate).args(sending).arg(&sent).status().unwrap().success());
+    let decode = format!("decode '{}' --overlay", sent.join("packets.bin").display());
+    let images = dir.path().join("train-images-idx3-ubyte");
+    let header = [0u8, 0, 8, 3, 0, 0, 3, 232, 0, 0, 0, 56, 0, 0, 0, 56];
+    fs::write(&images, [&header[..], &vec![77; 1000 * 56 * 56]].concat()).unwrap();
+    let dataset = format!("dataset '{}'", images.display());
+    let clip = "simulate scene:random --frames 300";
+    let mut cases: Vec<(String, u32, bool)> = [
+        "--overlay",
+        "--overlay --heatmap",
+        "--packets --no-rendered",
+        "--packets=scores",
+        "--events parquet",
+        "--events csv --heatmap",
+        "--pixel-events=npz",
+    ]
+    .map(|options| (format!("{clip} {options}"), 3000, false))
+    .into();
+    for options in [
+        "--overlay=mp4 --no-rendered",
+        "--overlay=mkv",
+        "--rendered mkv --overlay=mkv",
+        "--heatmap=mp4 --events parquet",
+    ] {
+        cases.push((format!("{clip} {options}"), 4096, true));
+    }
+    cases.extend([(decode, 1200, false), (dataset, 1500, false)]);
+    for (args, kib, has_video) in cases {
+        if has_video && !require_tools(&[Tool::Ffmpeg]) {
+            continue;
+        }
+        let Some((ran, copy)) = run_within(kib, dir.path(), &args) else { return };
+        let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+        assert_eq!(ran.status.code(), Some(1), "{args}: {said}");
+        assert!(said.contains("disk full after") && !said.contains("partial"), "{args}: {said}");
+        assert_eq!(fs::read_dir(&copy).unwrap().count(), 1, "{args}: nothing is beside the output");
+        let out = copy.join("out");
+        let summary = fs::read(out.join("summary.json")).unwrap();
+        let summary: Value = serde_json::from_slice(&summary).unwrap();
+        let frames = usize::try_from(summary["frames"].as_u64().unwrap()).unwrap();
+        let active = fs::read(out.join("active.npy")).unwrap();
+        let regions = usize::try_from(summary["regions"].as_u64().unwrap()).unwrap();
+        assert_eq!(frames_of(&active, regions), (frames, frames), "{args}");
+        assert!(frames > 0, "{args}: {said}");
+        let table = fs::read_to_string(out.join("frames.csv")).unwrap();
+        assert_eq!(table.lines().count(), frames + 1, "{args}");
+        // What is there is whole, and what is not is named.
+        let problem = summary["problem"].as_str().unwrap();
+        for name in ["rendered", "overlay"] {
+            let pictures = out.join(name);
+            if pictures.is_dir() {
+                assert_eq!(fs::read_dir(pictures).unwrap().count(), frames, "{args}: {name}");
+            }
+        }
+        let is_asked = args.contains("--overlay") && !args.contains("--overlay=");
+        if is_asked && !out.join("overlay").exists() {
+            assert!(problem.contains("overlay is left out"), "{args}: {problem}");
+        }
+        fs::remove_dir_all(copy).unwrap();
+    }
+}
+
 #[test]
 fn a_video_for_which_there_is_no_room_is_left_out_by_name() {
     if !require_tools(&[Tool::Ffmpeg]) {
@@ -109,6 +178,7 @@ fn a_disk_that_is_full_at_once_leaves_nothing_and_is_named() {
     let said = String::from_utf8_lossy(&ran.stderr).into_owned();
     assert_eq!(ran.status.code(), Some(2), "{said}");
     assert!(said.contains("No space left on device"), "{said}");
+    assert!(said.contains("small/out/") && !said.contains("partial"), "{said}");
     assert_eq!(fs::read_dir(copy).unwrap().count(), 0);
 }
 
@@ -122,8 +192,61 @@ fn outputs_for_which_there_is_no_room_leave_nothing() {
         let Some((ran, copy)) = run_within(640, dir.path(), &args) else { return };
         let said = String::from_utf8_lossy(&ran.stderr).into_owned();
         assert_eq!(ran.status.code(), Some(2), "{format}: {said}");
-        assert!(said.contains("outputs/clean") && said.contains("No space left"), "{said}");
+        assert!(
+            said.contains("small/out/outputs/clean") && said.contains("No space left"),
+            "{said}"
+        );
+        assert!(!said.contains("partial"), "{said}");
         assert_eq!(fs::read_dir(&copy).unwrap().count(), 0, "{format}");
         fs::remove_dir(copy).unwrap();
     }
+}
+
+/// A command without frames, or with files that are made at the end, writes all of them or none, and names the one that did not fit.
+#[test]
+fn other_commands_leave_nothing_and_name_the_file() {
+    let dir = tempfile::tempdir().unwrap();
+    for (args, kib) in [
+        ("generate", 64),
+        ("build --board icebreaker --project", 64),
+        ("analyze temporal scene:street --frames 3", 12),
+        ("link scene:street --max-frames 3 --codecs mjpeg", 12),
+    ] {
+        if args.starts_with("link") && !require_tools(&[Tool::Ffmpeg]) {
+            continue;
+        }
+        let Some((ran, copy)) = run_within(kib, dir.path(), args) else { return };
+        let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+        assert_eq!(ran.status.code(), Some(2), "{args}: {said}");
+        assert!(said.contains("small/out/") && said.contains("No space left"), "{args}: {said}");
+        assert!(!said.contains("partial"), "{args}: {said}");
+        assert_eq!(fs::read_dir(&copy).unwrap().count(), 0, "{args}");
+        fs::remove_dir_all(copy).unwrap();
+    }
+}
+
+/// A file that was there is as it was.
+#[test]
+fn a_file_for_which_there_is_no_room_stays_as_it_was() {
+    let dir = tempfile::tempdir().unwrap();
+    let place = dir.path().join("small");
+    fs::create_dir(&place).unwrap();
+    let script = format!(
+        "mount -t tmpfs -o size=64k none '{place}' || exit 99
+         echo before > '{place}/page.html'; ln '{place}/page.html' '{place}/other'
+         '{foveate}' live --page '{place}/page.html'; code=$?
+         rm '{place}/other'; '{foveate}' live --page '{place}/page.html'
+         cat '{place}/page.html'; ls -A '{place}'; exit $code",
+        place = place.display(),
+        foveate = assert_cmd::cargo::cargo_bin("foveate").display(),
+    );
+    let ran = Command::new("unshare").args(["-m", "sh", "-c", &script]).output();
+    let Ok(ran) = ran.inspect_err(|_| skip("no file system can be mounted here")) else { return };
+    let said = String::from_utf8_lossy(&ran.stderr).into_owned();
+    if ran.status.code() == Some(99) || said.starts_with("unshare:") {
+        return skip("no file system can be mounted here");
+    }
+    assert_eq!(ran.status.code(), Some(2), "{said}");
+    assert_eq!(String::from_utf8_lossy(&ran.stdout), "before\npage.html\n", "{said}");
+    assert_eq!(said.matches("small/page.html`: No space left").count(), 2, "{said}");
 }
