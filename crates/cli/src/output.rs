@@ -18,7 +18,7 @@ pub(crate) fn text(text: &str) -> Result<(), CliError> {
 
 /// Text in which no name of a file, no message of a tool and no data gives orders to a terminal: control characters are
 /// written out, such as `\u{1b}`, but for tabs and ends of lines.
-fn printable(text: &str) -> Cow<'_, str> {
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     let is_order = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
     if !text.contains(is_order) {
         return text.into();

@@ -12,6 +12,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
+use crate::output::printable;
 use lines::Lines;
 use stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, WORK, locked};
 
@@ -70,6 +71,7 @@ impl Progress {
     }
 
     fn enter(&self, style: &'static str, what: &str, done: u64) {
+        let what = &*printable(what);
         // Not held while the bar is told: it asks for the stage when it draws.
         let before = {
             let mut stage = locked(&self.stage);
