@@ -29,6 +29,7 @@ mod outputs;
 mod own_files;
 mod prefix;
 mod progress;
+mod secrets;
 mod serial;
 mod served;
 mod signals;

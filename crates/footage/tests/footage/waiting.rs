@@ -82,22 +82,14 @@ fn a_request_to_stop_ends_every_wait() {
             let path = path.clone();
             std::thread::spawn(move || {
                 let mut count = 0;
-                let error = loop {
-                    match opened(&path, 8, &options) {
-                        Err(error) => break error,
-                        Ok(mut source) => loop {
-                            match source.next_frame() {
-                                Ok(frame) => count += usize::from(frame.is_some()),
-                                Err(error) => {
-                                    tell.send(count).unwrap();
-                                    return error;
-                                }
-                            }
-                        },
+                let read = opened(&path, 8, &options).and_then(|mut source| {
+                    while source.next_frame()?.is_some() {
+                        count += 1;
                     }
-                };
+                    Ok(())
+                });
                 tell.send(count).unwrap();
-                error
+                read.unwrap_err()
             })
         };
         let writer = written.map(|length| {
@@ -111,7 +103,7 @@ fn a_request_to_stop_ends_every_wait() {
         interrupt.flag().store(true, Ordering::Relaxed);
         assert!(matches!(reading.join().unwrap(), FootageError::Interrupted), "case {case}");
         assert!(start.elapsed() < Duration::from_secs(1), "{:?}", start.elapsed());
-        let whole = usize::from(written.is_some_and(|length| length > 3000));
+        let whole = i32::from(written.is_some_and(|length| length > 3000));
         assert_eq!(told.recv().unwrap(), whole, "case {case}");
         drop(writer);
     }
