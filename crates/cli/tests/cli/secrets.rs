@@ -16,9 +16,9 @@ const SECRET: &str = "secret";
 const ADDRESSES: [&str; 7] = [
     "rtsp://me:secret@cam/live",
     "RTSP://secret:x@cam/live",
-    "rtsp://cam/live?user=secret1&password=s%65cret2",
-    "rtsp://cam/user=secret1&password=secret2&channel=1",
-    "rtsps://me:secret1?secret2@cam/live",
+    "rtsp://cam/live?user=secret&password=s%65cret",
+    "rtsp://cam/user=secret&password=secret&channel=1",
+    "rtsps://me:secret?secret@cam/live",
     "rtsp://me:secret@cam",
     "rtsp://cam?secret",
 ];
