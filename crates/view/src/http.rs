@@ -1,14 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! As much of HTTP/1.1 as a browser on the same machine needs: requests with a length, one after the other on a
-//! connection.
+//! connection. Requests and answers have limits in bytes, lines and time.
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
+use std::sync::Arc;
+use std::time::Duration;
+
+use crate::timed_stream::TimedStream;
 
 /// Longest head of a request.
 const HEAD: u64 = 16 << 10;
+/// Most lines of it.
+const LINES: usize = 100;
 /// Longest body of a request.
 const BODY: usize = 4 << 10;
+/// Time for a whole request, from its first byte on; for the first of a connection, from the beginning of that on.
+const REQUEST: Duration = Duration::from_secs(5);
+/// Longest silence between two requests.
+const IDLE: Duration = Duration::from_secs(30);
+/// Time in which a browser takes an answer, and bytes of it for which it has another second.
+const ANSWER: Duration = Duration::from_secs(10);
+const BYTES_PER_SECOND: usize = 64 << 10;
 
 /// A request.
 #[derive(Debug)]
@@ -44,55 +57,109 @@ impl Answer {
     }
 }
 
-/// The next request; none where the browser has no more.
-pub(crate) fn read(stream: &mut BufReader<TcpStream>) -> io::Result<Option<Request>> {
-    let invalid = |what: &str| io::Error::new(io::ErrorKind::InvalidData, what.to_owned());
-    let mut head = stream.by_ref().take(HEAD);
-    let line = |head: &mut io::Take<_>| {
-        let mut text = Vec::new();
-        BufRead::read_until(head, b'\n', &mut text)?;
-        match text.strip_suffix(b"\n") {
-            Some(text) => Ok(Some(String::from_utf8_lossy(text).trim_end().to_owned())),
-            None if text.is_empty() => Ok(None),
-            None => Err(invalid("a line without an end")),
+/// A browser's requests, each with its answer.
+#[derive(Debug)]
+pub(crate) struct Dialogue {
+    requests: BufReader<TimedStream>,
+    is_begun: bool,
+}
+
+impl Dialogue {
+    pub(crate) fn new(stream: Arc<TcpStream>) -> Self {
+        Self { requests: BufReader::new(TimedStream::new(stream)), is_begun: false }
+    }
+
+    /// The next request; none where the browser has no more.
+    pub(crate) fn next(&mut self) -> io::Result<Option<Request>> {
+        if std::mem::replace(&mut self.is_begun, true) {
+            self.requests.get_mut().allow(IDLE);
+            if self.requests.fill_buf()?.is_empty() {
+                return Ok(None);
+            }
         }
-    };
+        self.requests.get_mut().allow(REQUEST);
+        read(&mut self.requests)
+    }
+
+    /// Writes an answer. Nothing of it is kept or shown in other pages; `policy` says what it may load. The browser is told
+    /// whether it is the last.
+    pub(crate) fn answer(
+        &mut self,
+        answer: &Answer,
+        policy: &str,
+        is_last: bool,
+    ) -> io::Result<()> {
+        let Answer { status, kind, body } = answer;
+        let connection = if is_last { "close" } else { "keep-alive" };
+        let head = format!(
+            "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\nConnection: {connection}\r\n\
+             Content-Security-Policy: {policy}\r\nCache-Control: no-store\r\n\
+             Referrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\r\n",
+            body.len()
+        );
+        let stream = self.requests.get_mut();
+        let more = u64::try_from(body.len() / BYTES_PER_SECOND).unwrap_or(u64::MAX);
+        stream.allow(ANSWER.saturating_add(Duration::from_secs(more)));
+        stream.write_all(&[head.as_bytes(), body].concat())
+    }
+}
+
+fn invalid(what: &str) -> io::Error {
+    io::Error::new(io::ErrorKind::InvalidData, what.to_owned())
+}
+
+/// A line without its end; none where nothing comes any more.
+fn line(head: &mut impl BufRead) -> io::Result<Option<String>> {
+    let mut text = Vec::new();
+    head.read_until(b'\n', &mut text)?;
+    match text.strip_suffix(b"\n") {
+        Some(text) => Ok(Some(String::from_utf8_lossy(text).trim_end().to_owned())),
+        None if text.is_empty() => Ok(None),
+        None => Err(invalid("a line without an end")),
+    }
+}
+
+/// Sets what may be said once.
+fn set<T>(place: &mut Option<T>, value: T) -> io::Result<()> {
+    match place.replace(value) {
+        None => Ok(()),
+        Some(_) => Err(invalid("a line that comes twice")),
+    }
+}
+
+fn read(stream: &mut impl BufRead) -> io::Result<Option<Request>> {
+    let mut head = stream.by_ref().take(HEAD);
     let Some(first) = line(&mut head)? else { return Ok(None) };
     let mut words = first.split(' ');
     let (method, target) = words.next().zip(words.next()).ok_or_else(|| invalid("no request"))?;
     let (method, target) = (method.to_owned(), target.to_owned());
-    let (mut host, mut length) = (String::new(), 0);
-    loop {
+    let (mut host, mut length) = (None, None);
+    for number in 1.. {
         let text = line(&mut head)?.ok_or_else(|| invalid("a head without an end"))?;
         if text.is_empty() {
             break;
         }
+        if number >= LINES {
+            return Err(invalid("a head of too many lines"));
+        }
         let Some((name, value)) = text.split_once(':') else { continue };
         match name.to_ascii_lowercase().as_str() {
-            "host" => host = value.trim().to_owned(),
-            "content-length" => {
-                length = value.trim().parse().map_err(|_| invalid("no length"))?;
-            }
+            "host" => set(&mut host, value.trim().to_owned())?,
+            "content-length" => set(&mut length, body_length(value.trim())?)?,
+            "transfer-encoding" => return Err(invalid("a body without a length")),
             _ => {}
         }
     }
-    if length > BODY {
-        return Err(invalid("a body that is too long"));
-    }
-    let mut body = vec![0; length];
+    let mut body = vec![0; length.unwrap_or(0)];
     stream.read_exact(&mut body)?;
-    Ok(Some(Request { method, target, host, body }))
+    Ok(Some(Request { method, target, host: host.unwrap_or_default(), body }))
 }
 
-/// Writes an answer. Nothing of it is kept or shown in other pages; `policy` says what it may load.
-pub(crate) fn write(stream: &mut TcpStream, answer: &Answer, policy: &str) -> io::Result<()> {
-    let Answer { status, kind, body } = answer;
-    let head = format!(
-        "HTTP/1.1 {status}\r\nContent-Type: {kind}\r\nContent-Length: {}\r\n\
-         Content-Security-Policy: {policy}\r\nCache-Control: no-store\r\n\
-         Referrer-Policy: no-referrer\r\nX-Content-Type-Options: nosniff\r\nCross-Origin-Resource-Policy: same-origin\r\n\r\n",
-        body.len()
-    );
-    stream.write_all(&[head.as_bytes(), body].concat())?;
-    stream.flush()
+/// The length of a body that is taken.
+fn body_length(text: &str) -> io::Result<usize> {
+    let digits = text.bytes().all(|byte| byte.is_ascii_digit());
+    let length: Option<usize> = if digits { text.parse().ok() } else { None };
+    length
+        .filter(|&length| length <= BODY)
+        .ok_or_else(|| invalid("no length of a body that is taken"))
 }

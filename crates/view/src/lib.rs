@@ -8,6 +8,7 @@
 
 mod board;
 mod camera_page;
+mod connections;
 mod error;
 mod http;
 mod input;
@@ -19,6 +20,7 @@ mod reader;
 mod reel;
 mod server;
 mod site;
+mod timed_stream;
 
 use std::net::SocketAddr;
 use std::path::PathBuf;

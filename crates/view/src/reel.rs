@@ -203,7 +203,8 @@ impl Reel {
         let until = Instant::now() + patience;
         let first = after.map_or(0, |after| after.saturating_add(1));
         let mut state = self.lock();
-        state.wanted = state.wanted.max(first);
+        // One frame at a time is asked for, whatever number a page gives.
+        state.wanted = state.wanted.max(first.min(state.next));
         self.changed.notify_all();
         let is_new = |state: &State| state.newest.as_ref().is_some_and(|shot| shot.number >= first);
         while !is_new(&state) && state.status == Status::Running && !state.is_over {

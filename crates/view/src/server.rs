@@ -3,19 +3,19 @@
 //! random token, and the name of the host must be ours, so that a page from elsewhere cannot reach it under another
 //! name. What there is to see is said by a [`Site`].
 
-use std::io::BufReader;
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
-use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread::sleep;
 use std::time::Duration;
 
 use crate::ViewError;
-use crate::http::{self, Answer, Request};
+use crate::connections::{ConnectionPlace, ConnectionTable};
+use crate::http::{Answer, Dialogue, Request};
 
-/// Connections at a time.
-const CONNECTIONS: usize = 32;
-/// How long a browser is waited for.
-const IDLE: Duration = Duration::from_secs(30);
+/// How long it is waited for the server's own attention.
+const WAKE: Duration = Duration::from_millis(200);
+/// Before the next connection where the system gives none, because too many files are open.
+const NO_CONNECTION: Duration = Duration::from_millis(50);
 
 /// What a server shows below its link.
 pub(crate) trait Site: Send + Sync + 'static {
@@ -55,7 +55,6 @@ struct Shared<S> {
     policy: String,
     hosts: [String; 2],
     site: Arc<S>,
-    connections: AtomicUsize,
 }
 
 impl Server {
@@ -76,7 +75,6 @@ impl Server {
             nonce,
             hosts: [address.to_string(), format!("localhost:{}", address.port())],
             site,
-            connections: AtomicUsize::new(0),
         });
         crate::thread("server", move || serve(&listener, &shared))?;
         Ok(Self { address, link })
@@ -88,56 +86,68 @@ impl Server {
 
     /// Lets it see that the site is over.
     pub(crate) fn wake(&self) {
-        let _ = TcpStream::connect(self.address);
+        let _ = TcpStream::connect_timeout(&self.address, WAKE);
     }
 }
 
 fn serve(listener: &TcpListener, shared: &Arc<Shared<impl Site>>) {
+    let connections = Arc::<ConnectionTable>::default();
     for stream in listener.incoming() {
         if shared.site.is_over() {
             return;
         }
-        let Ok(stream) = stream else { continue };
-        if shared.connections.fetch_add(1, Ordering::Relaxed) < CONNECTIONS {
-            let own = Arc::clone(shared);
-            let talk = move || {
-                // A browser that goes away is no problem of ours.
-                let _ = own.talk(stream);
-                own.connections.fetch_sub(1, Ordering::Relaxed);
-            };
-            if crate::thread("browser", talk).is_ok() {
-                continue;
-            }
-        }
-        shared.connections.fetch_sub(1, Ordering::Relaxed);
+        let Ok(stream) = stream.map(Arc::new) else {
+            sleep(NO_CONNECTION);
+            continue;
+        };
+        let Some(place) = connections.take(&stream) else { continue };
+        let own = Arc::clone(shared);
+        // A browser that goes away is no problem of ours, and a thread that does not start ends the connection.
+        let _ = crate::thread("browser", move || drop(own.talk(stream, &place)));
     }
 }
 
 impl<S: Site> Shared<S> {
-    fn talk(&self, mut stream: TcpStream) -> std::io::Result<()> {
-        stream.set_read_timeout(Some(IDLE))?;
-        stream.set_write_timeout(Some(IDLE))?;
+    fn talk(&self, stream: Arc<TcpStream>, place: &ConnectionPlace) -> std::io::Result<()> {
         stream.set_nodelay(true)?;
-        let mut requests = BufReader::new(stream.try_clone()?);
-        while let Some(request) = http::read(&mut requests)? {
-            http::write(&mut stream, &self.answer(&request), &self.policy)?;
-            if self.site.is_over() {
+        let mut dialogue = Dialogue::new(stream);
+        while let Some(request) = dialogue.next()? {
+            let admitted = self.admitted(&request);
+            if admitted.is_ok() {
+                place.admit();
+            }
+            // Whoever does not know the link is told so once.
+            let is_stranger = admitted.is_err();
+            let answer = admitted.map_or_else(
+                |refusal| refusal,
+                |(within, query)| self.answer(&request, within, query),
+            );
+            let is_last = is_stranger || self.site.is_over();
+            dialogue.answer(&answer, &self.policy, is_last)?;
+            if is_last {
                 break;
             }
         }
         Ok(())
     }
 
-    fn answer(&self, request: &Request) -> Answer {
+    /// The path below the link and the query of a request that shows the token; else the answer that refuses it.
+    fn admitted<'a>(&self, request: &'a Request) -> Result<(&'a str, &'a str), Answer> {
         if !self.hosts.contains(&request.host.to_ascii_lowercase()) {
-            return Answer::text("403 Forbidden", "this page has another address");
+            return Err(Answer::text("403 Forbidden", "this page has another address"));
         }
         let (path, query) = request.target.split_once('?').unwrap_or((&request.target, ""));
         let within = path.strip_prefix('/').and_then(|path| path.split_once('/'));
-        let Some((_, within)) = within.filter(|(token, _)| same(token, &self.token)) else {
-            let text = format!("open the link that `{}` prints", self.site.command());
-            return Answer::text("403 Forbidden", &text);
-        };
+        match within.filter(|(token, _)| same(token, &self.token)) {
+            Some((_, within)) => Ok((within, query)),
+            None => {
+                let text = format!("open the link that `{}` prints", self.site.command());
+                Err(Answer::text("403 Forbidden", &text))
+            }
+        }
+    }
+
+    fn answer(&self, request: &Request, within: &str, query: &str) -> Answer {
         match (request.method.as_str(), within) {
             ("GET", "") => {
                 let body = self.site.page(&self.nonce).into_bytes();

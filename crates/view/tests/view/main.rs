@@ -11,4 +11,5 @@ mod line;
 mod player;
 mod sent;
 mod shown;
+mod slow;
 mod trouble;

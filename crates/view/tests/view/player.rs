@@ -85,6 +85,16 @@ fn a_clip_waits_for_the_page_and_loses_no_frame() {
 }
 
 #[test]
+fn a_page_that_asks_for_a_frame_far_ahead_does_not_run_the_clip_off() {
+    let player = play(&["scene:street"]).unwrap();
+    let link = player.link();
+    let (head, found) = frame(&link, i64::MAX);
+    assert!(head["status"] == "running" && found.is_empty(), "{head}");
+    assert!(player.frames() < 3, "all {} frames were read", player.frames());
+    assert!(frame(&link, 0).1 == expected()[1], "the clip goes on with another frame");
+}
+
+#[test]
 fn only_the_link_opens_the_page_and_its_frames() {
     let player = play(&["scene:street"]).unwrap();
     let link = player.link();

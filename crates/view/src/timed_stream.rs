@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! A connection with a deadline for all that is read and written until then. The timeouts of a socket hold for each byte, so
+//! that a peer with a byte every few seconds would never meet one.
+
+use std::io::{self, ErrorKind, Read, Write};
+use std::net::TcpStream;
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// Most bytes that are written before the deadline is looked at again.
+const PIECE: usize = 64 << 10;
+
+/// A connection that fails once its deadline has passed.
+#[derive(Debug)]
+pub(crate) struct TimedStream {
+    stream: Arc<TcpStream>,
+    deadline: Instant,
+}
+
+impl TimedStream {
+    /// A connection whose deadline is now.
+    pub(crate) fn new(stream: Arc<TcpStream>) -> Self {
+        Self { stream, deadline: Instant::now() }
+    }
+
+    /// Sets another deadline, this long from now.
+    pub(crate) fn allow(&mut self, time: Duration) {
+        self.deadline = Instant::now() + time;
+    }
+
+    fn left(&self) -> io::Result<Duration> {
+        let left = self.deadline.saturating_duration_since(Instant::now());
+        if left.is_zero() { Err(ErrorKind::TimedOut.into()) } else { Ok(left) }
+    }
+}
+
+impl Read for TimedStream {
+    fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
+        self.stream.set_read_timeout(Some(self.left()?))?;
+        (&*self.stream).read(bytes)
+    }
+}
+
+impl Write for TimedStream {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        self.stream.set_write_timeout(Some(self.left()?))?;
+        (&*self.stream).write(&bytes[..bytes.len().min(PIECE)])
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::net::TcpListener;
+
+    use super::*;
+
+    /// Both ends of a connection.
+    fn connected() -> (TimedStream, TcpStream) {
+        let listener = TcpListener::bind("127.0.0.1:0").unwrap();
+        let peer = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
+        (TimedStream::new(Arc::new(listener.accept().unwrap().0)), peer)
+    }
+
+    /// Does something with the other end every 20 ms until `work` has ended; how long that took.
+    fn disturbed(mut peer: TcpStream, act: fn(&mut TcpStream), work: impl FnOnce()) -> Duration {
+        let start = Instant::now();
+        let (ended, end) = std::sync::mpsc::channel::<()>();
+        std::thread::scope(|scope| {
+            scope.spawn(move || {
+                while end.recv_timeout(Duration::from_millis(20)).is_err()
+                    && start.elapsed() < Duration::from_secs(10)
+                {
+                    act(&mut peer);
+                }
+            });
+            work();
+            ended.send(()).unwrap();
+        });
+        start.elapsed()
+    }
+
+    fn is_timeout(error: &io::Error) -> bool {
+        matches!(error.kind(), ErrorKind::TimedOut | ErrorKind::WouldBlock)
+    }
+
+    #[test]
+    fn a_peer_that_sends_a_byte_now_and_then_meets_the_deadline() {
+        let (mut own, peer) = connected();
+        own.allow(Duration::from_millis(300));
+        let drip = |peer: &mut TcpStream| drop(peer.write_all(&[7]));
+        let took = disturbed(peer, drip, || {
+            let error = own.read_exact(&mut [0; 1000]).unwrap_err();
+            assert!(is_timeout(&error), "{error}");
+        });
+        assert!(took > Duration::from_millis(290) && took < Duration::from_secs(5), "{took:?}");
+    }
+
+    #[test]
+    fn a_peer_that_takes_a_byte_now_and_then_meets_the_deadline() {
+        let (mut own, peer) = connected();
+        own.allow(Duration::from_millis(300));
+        let sip = |peer: &mut TcpStream| drop(peer.read(&mut [0; 1]));
+        let took = disturbed(peer, sip, || {
+            // More than both ends of a connection hold.
+            let error = own.write_all(&vec![7; 64 << 20]).unwrap_err();
+            assert!(is_timeout(&error), "{error}");
+        });
+        assert!(took > Duration::from_millis(290) && took < Duration::from_secs(5), "{took:?}");
+    }
+
+    #[test]
+    fn another_deadline_gives_more_time() {
+        let (mut own, mut peer) = connected();
+        peer.write_all(b"ab").unwrap();
+        assert!(is_timeout(&own.read(&mut [0; 1]).unwrap_err()));
+        own.allow(Duration::from_secs(10));
+        own.read_exact(&mut [0; 2]).unwrap();
+        own.write_all(b"cd").unwrap();
+        peer.read_exact(&mut [0; 2]).unwrap();
+    }
+}

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Connections that are slow, idle or too many do not keep the page from a browser that behaves well.
+
+use std::fs;
+use std::io::{ErrorKind, Read as _, Write as _};
+use std::net::TcpStream;
+use std::time::{Duration, Instant};
+
+use foveate_footage::InputOptions;
+use foveate_view::{Play, Player, PlayerOptions};
+
+use crate::client::{get, open, parts, request};
+use crate::sent::{CORE, street};
+
+/// Connections of somebody else; more than the server keeps.
+const MANY: usize = 100;
+/// A browser that behaves well is served within this time, also on a busy machine.
+const PROMPT: Duration = Duration::from_secs(3);
+
+/// Both pages that the library serves, for as long as the test looks at them.
+fn on_both_pages(test: impl Fn(&str)) {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("packets.bin");
+    fs::write(&file, street(&CORE, 1).bytes()).unwrap();
+    let view = open(&file, &CORE, Some(Play::AtOnce)).unwrap();
+    test(view.link());
+    let player = Player::open(PlayerOptions {
+        inputs: Vec::new(),
+        input: InputOptions::default(),
+        preset: None,
+        camera: None,
+        address: "127.0.0.1:0".parse().unwrap(),
+    });
+    let player = player.unwrap();
+    // The engine is compressed for the first browser.
+    assert_eq!(get(&player.link(), "").status, 200);
+    test(&player.link());
+}
+
+/// Connections that send the beginning of a request and nothing else.
+fn begun(host: &str, text: &str) -> Vec<TcpStream> {
+    let begin = |_| {
+        let mut stream = TcpStream::connect(host).unwrap();
+        // The server may have closed it already.
+        let _ = stream.write_all(text.as_bytes());
+        stream
+    };
+    (0..MANY).map(begin).collect()
+}
+
+fn is_served_promptly(link: &str, what: &str) {
+    let start = Instant::now();
+    assert_eq!(get(link, what).status, 200, "{what:?} is not served");
+    assert!(start.elapsed() < PROMPT, "{what:?} took {:?}", start.elapsed());
+}
+
+#[test]
+fn connections_of_strangers_keep_the_page_from_nobody() {
+    on_both_pages(|link| {
+        let (host, _) = parts(link);
+        for text in ["", "G", "GET /x/ HTTP/1.1\r\n", "GET /x/ HTTP/1.1\r\nHost: x\r\n\r\n"] {
+            let held = begun(host, text);
+            is_served_promptly(link, "");
+            drop(held);
+        }
+    });
+}
+
+#[test]
+fn browsers_that_are_idle_or_do_not_read_keep_the_page_from_nobody() {
+    on_both_pages(|link| {
+        let (host, token) = parts(link);
+        let whole = format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n\r\n");
+        // The first is served and stays open; the others ask for more than a connection holds without reading it.
+        for text in [whole.clone(), whole.repeat(30)] {
+            let held = begun(host, &text);
+            is_served_promptly(link, "");
+            drop(held);
+        }
+    });
+}
+
+/// Sends a byte every now and then; how long the server listened.
+fn dripped(host: &str, text: &str) -> Duration {
+    let mut stream = TcpStream::connect(host).unwrap();
+    stream.set_read_timeout(Some(Duration::from_millis(200))).unwrap();
+    let start = Instant::now();
+    for byte in text.bytes().cycle() {
+        if stream.write_all(&[byte]).is_err() {
+            break;
+        }
+        match stream.read(&mut [0; 64]) {
+            Err(error) if matches!(error.kind(), ErrorKind::WouldBlock | ErrorKind::TimedOut) => {}
+            Ok(0) | Err(_) => break,
+            Ok(_) => panic!("half a request was answered"),
+        }
+        assert!(
+            start.elapsed() < Duration::from_secs(20),
+            "a byte at a time is listened to for ever"
+        );
+    }
+    start.elapsed()
+}
+
+#[test]
+fn a_request_has_a_time_in_total_not_for_each_byte() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("packets.bin");
+    fs::write(&file, street(&CORE, 1).bytes()).unwrap();
+    let view = open(&file, &CORE, Some(Play::AtOnce)).unwrap();
+    let (host, token) = parts(view.link());
+    let texts = [
+        "GET /xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx".to_owned(),
+        format!("POST /{token}/register HTTP/1.1\r\nHost: {host}\r\nContent-Length: 4000\r\n\r\n"),
+    ];
+    std::thread::scope(|scope| {
+        let listen = |text| scope.spawn(move || dripped(host, text));
+        let all: Vec<_> = texts.iter().map(|text| listen(text.as_str())).collect();
+        for listened in all {
+            let listened = listened.join().unwrap();
+            assert!(listened > Duration::from_secs(4), "only {listened:?}");
+        }
+    });
+}
+
+#[test]
+fn a_request_that_is_too_long_or_says_a_thing_twice_ends_the_connection() {
+    on_both_pages(|link| {
+        let (host, token) = parts(link);
+        let status = |more: &str| {
+            request(host, &format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n{more}\r\n")).status
+        };
+        assert_eq!(status(&"X: y\r\n".repeat(50)), 200);
+        for more in [
+            "X: y\r\n".repeat(200),
+            format!("X: {}\r\n", "y".repeat(20_000)),
+            format!("Host: {host}\r\n"),
+            "Content-Length: 0\r\nContent-Length: 0\r\n".to_owned(),
+            "Content-Length: 4097\r\n".to_owned(),
+            "Content-Length: 99999999999999999999999\r\n".to_owned(),
+            "Content-Length: -1\r\n".to_owned(),
+            "Content-Length: +0\r\n".to_owned(),
+            "Transfer-Encoding: chunked\r\n".to_owned(),
+        ] {
+            assert_eq!(status(&more), 0, "{more:.60}");
+        }
+    });
+}
