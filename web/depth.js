@@ -3,7 +3,7 @@
 // page does what `--set frame.pixel_bits=5` does. A test compares the two.
 
 /** Powers of a grey level, by the unit of a score. */
-const POWERS = { "pixels of a region": 0, "grey levels": 1, "squared grey levels": 2 };
+const POWERS = new Map([["pixels of a region", 0], ["grey levels", 1], ["squared grey levels", 2]]);
 
 /** The configuration with `bits` per pixel; `features` are those of `engine.describe()`. */
 export function withDepth(config, bits, features) {
@@ -14,7 +14,7 @@ export function withDepth(config, bits, features) {
   for (const part of [...made.spatial, made.temporal, made.periphery ?? {}]) {
     if (typeof part.level === "number") part.level = level(part.level);
     const unit = features.find(({ feature }) => feature === part.feature)?.unit;
-    if (unit) part.min_score = score(part.min_score, POWERS[unit]);
+    if (unit) part.min_score = score(part.min_score, POWERS.get(unit));
   }
   return made;
 }

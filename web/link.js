@@ -7,6 +7,8 @@ import { keysOf, valueOf, withKey } from "./toml.js";
 const OWN = ["source", "size", "preset"];
 /** Settings of the network, as of `foveate infer`; its file stays on the computer where it was opened. */
 const NETWORK = ["framing", "mean", "scale", "detect"];
+/** Most characters of a fragment. */
+const LONGEST = 8192;
 const isFeature = key => key.startsWith("spatial.");
 
 /** The fragment, without `#`. `preset` is that preset's configuration. */
@@ -22,19 +24,45 @@ export function writeLink(own, preset, config, network) {
 
 /** What a fragment says: `own`, what is wished of a `network`, and a function from the configuration of the preset to that of the link. */
 export function readLink(fragment) {
-  const own = {}, network = {}, changed = [];
+  const own = {}, network = {}, changed = [], keys = new Set();
+  if (fragment.length > LONGEST) throw new Error(`the link's settings have ${fragment.length} characters; at most ${LONGEST} are read`);
   for (const pair of fragment.replace(/^#/, "").split("&").filter(Boolean)) {
     const [key, ...rest] = pair.split("=");
-    const value = decodeURIComponent(rest.join("="));
+    if (keys.has(key)) throw new Error(`the link sets \`${key}\` twice; give it once`);
+    keys.add(key);
+    const value = decoded(key, rest.join("="));
     const [, of] = key.match(/^network\.(.+)$/) ?? [];
     if (OWN.includes(key)) own[key] = value;
     else if (NETWORK.includes(of)) network[of] = value;
-    else if (/^[a-z_]+(\.\d+)?\.[a-z_]+$/.test(key)) changed.push([key, valueOf(value)]);
-    else throw new Error(`the link's \`${key}\` is not a setting; settings are source, size, preset and keys of the configuration`);
+    else if (of === undefined && /^[a-z_]+(\.\d+)?\.[a-z_]+$/.test(key)) changed.push([key, valueOf(value)]);
+    else throw new Error(`the link's \`${key}\` is not a setting; settings are source, size, preset, those of the network and keys of the configuration`);
   }
   const apply = preset => {
     const start = changed.some(([key]) => isFeature(key)) ? { ...preset, spatial: [] } : preset;
-    return changed.reduce((config, [key, value]) => withKey(config, key, value), start);
+    return changed.reduce((config, [key, value]) => keyed(config, key, value), start);
   };
   return { own, network, apply };
+}
+
+function decoded(key, text) {
+  try {
+    return decodeURIComponent(text);
+  } catch {
+    throw new Error(`the link's \`${key}\` has a % that begins no character; a % itself is written %25`);
+  }
+}
+
+function keyed(config, key, value) {
+  try {
+    return withKey(config, key, value);
+  } catch (error) {
+    throw new Error(`\`${key}\`: ${error.message}`);
+  }
+}
+
+/** The link to hand on of a page at `location` with that fragment. A page that this computer serves has a secret address, which is of no use
+ *  elsewhere: the fragment alone is handed on. */
+export function linkToHandOn({ protocol, hostname, href }, fragment) {
+  const isHere = /^https?:$/.test(protocol) && /^(.+\.)?localhost$|^127\.|^\[::1\]$/.test(hostname);
+  return isHere ? fragment : href.replace(/#.*$/, "") + fragment;
 }

@@ -7,7 +7,7 @@ import { withDepth } from "./depth.js";
 import { asPath, at, copy, make, plain, say } from "./elements.js";
 import { Figures } from "./figures.js";
 import { showHardware } from "./hardware.js";
-import { readLink, writeLink } from "./link.js";
+import { linkToHandOn, readLink, writeLink } from "./link.js";
 import { NetworkView } from "./network.js";
 import { PixelCamera } from "./pixel_camera.js";
 import { showReasons } from "./reasons.js";
@@ -389,15 +389,19 @@ function wire() {
   at("reset").onclick = reset;
   at("speed").onchange = event => { speed = Number(event.target.value); source?.speed(speed); };
   at("copy-toml").onclick = () => copy(camera.facts.toml, "the TOML");
-  at("copy-link").onclick = () => copy(location.href.replace(/#.*$/, "") + link(), "the link");
+  at("copy-link").onclick = () => {
+    const text = linkToHandOn(location, link());
+    copy(text, text.startsWith("#") ? "the part of the link behind its secret address" : "the link");
+  };
   at("record").onclick = () => { if (recording.on) recording.end(); else recording.begin(); };
   at("download").onclick = () => recording.download();
   addEventListener("hashchange", () => { if (location.hash !== link()) fromLink(); });
+  const acts = new Map([[" ", () => pause(!paused)], ["s", stepOnce], ["r", reset]]);
   document.onkeydown = event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select, textarea")) return;
     // Space is for the button that has the focus.
     if (event.key === " " && event.target.matches("button, summary")) return;
-    const act = { " ": () => pause(!paused), s: stepOnce, r: reset }[event.key];
+    const act = acts.get(event.key);
     if (!act) return;
     event.preventDefault();
     act();

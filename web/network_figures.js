@@ -23,7 +23,7 @@ export class NetworkFigures {
   add({ found, classes, agreement }, ms, now) {
     const sums = this.#sums;
     sums.frames++;
-    for (const [key, count] of Object.entries(found ?? {})) sums[key] += count;
+    for (const key of ["whole", "kept", "seen", "added"]) sums[key] += found?.[key] ?? 0;
     sums.same += classes?.same_share ?? 0;
     sums.agreement += agreement;
     this.#recent = [...this.#recent.slice(1 - RECENT), { ms, now }];

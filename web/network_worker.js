@@ -5,7 +5,7 @@
 import { Engine } from "./engine.js";
 
 let engine;
-const KINDS = {
+const KINDS = new Map(Object.entries({
   begin: async ({ module, file }) => {
     engine = await Engine.load(module);
     engine.takeNetwork(new Uint8Array(file));
@@ -15,11 +15,11 @@ const KINDS = {
     const start = performance.now(), looked = engine.look(new Uint8Array(planes));
     return { looked, ms: performance.now() - start };
   },
-};
+}));
 
 self.onmessage = async ({ data: { id, kind, ...asked } }) => {
   try {
-    self.postMessage({ id, ...await KINDS[kind](asked) });
+    self.postMessage({ id, ...await KINDS.get(kind)(asked) });
   } catch (error) {
     self.postMessage({ id, refused: error.message, fault: error.fault ?? false });
   }

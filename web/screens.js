@@ -10,7 +10,7 @@ const KINDS = [
   ["TRS only", "--k6", byte => (byte & 3) === 2, 50],
 ];
 const PARTS = ["input", "decisions", "receiver"];
-const ARROWS = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
+const ARROWS = new Map([["ArrowLeft", [-1, 0]], ["ArrowRight", [1, 0]], ["ArrowUp", [0, -1]], ["ArrowDown", [0, 1]]]);
 /** A grey pixel as a word of ImageData. */
 const GREY = Uint32Array.from({ length: 256 }, (_, value) => (0xFF000000 | value * 0x010101) >>> 0);
 
@@ -125,7 +125,7 @@ export class Screens {
   }
 
   #key(event) {
-    const move = ARROWS[event.key];
+    const move = ARROWS.get(event.key);
     if (!move || !this.#facts) return;
     event.preventDefault();
     const { columns, rows } = this.#facts, far = event.shiftKey ? 8 : 1;

@@ -14,6 +14,8 @@
 const RATE = 30;
 /** Scenes that are kept, in bytes; beyond it every frame is made anew. */
 const KEPT = 100e6;
+/** Longest wait in ms for the time of a frame; a time that is later still is most likely wrong. */
+const LONGEST_WAIT = 10_000;
 
 /** What all sources do that have no clock of their own. */
 class Paced {
@@ -216,12 +218,12 @@ export class Clip extends Player {
 }
 
 /** What to do about each refusal of a browser. */
-const REFUSALS = {
+const REFUSALS = new Map(Object.entries({
   NotAllowedError: "the browser did not give the camera; allow it beside the page's address and choose it again",
   NotFoundError: "there is no camera here; plug one in, or choose a scene or a clip",
   NotReadableError: "the camera is in use by another program; close that and choose the camera again",
   OverconstrainedError: "the camera has no such size; choose another size",
-};
+}));
 
 /** A webcam. */
 export class Webcam extends Player {
@@ -233,7 +235,7 @@ export class Webcam extends Player {
     try {
       this.#stream = await navigator.mediaDevices.getUserMedia({ video });
     } catch (error) {
-      throw new Error(REFUSALS[error.name] ?? `the camera does not start (${error.name}: ${error.message})`);
+      throw new Error(REFUSALS.get(error.name) ?? `the camera does not start (${error.name}: ${error.message})`);
     }
     for (const track of this.#stream.getVideoTracks())
       track.onended = () => this.onend("the camera has gone; plug it in and choose it again");
@@ -278,7 +280,7 @@ export class Computer {
     this.#waiting ??= await this.#next();
     if (!this.#waiting) return null;
     const { live, t_us: time_us } = this.#waiting.head;
-    const due = this.#shown.now + (time_us - this.#shown.time_us) / 1000 / this.#factor;
+    const due = this.#shown.now + Math.min((time_us - this.#shown.time_us) / 1000 / this.#factor, LONGEST_WAIT);
     if (!live && !this.#first && now < due - 4) return null;
     // One that came late does not hurry the next.
     this.#shown = { now: Math.max(due, now - 4), time_us };

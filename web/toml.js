@@ -2,13 +2,24 @@
 // Configurations as values: { frame: {...}, spatial: [{...}, ...], ... }, as the engine gives them. What a key may be is the
 // engine's business.
 
-/** The value of one key in TOML; of what a camera has, that is the same as in JSON. */
+/** The value of one key in TOML; of what a camera has, that is the same as in JSON. Numbers are those that arithmetic here keeps. */
 export function valueOf(text) {
-  try {
-    return JSON.parse(text);
-  } catch {
-    throw new Error(`\`${text}\` is no value; write 8, true or "edge"`);
-  }
+  let value = null;
+  try { value = JSON.parse(text); } catch { /* It is no value. */ }
+  const isKept = Number.isInteger(value) ? Number.isSafeInteger(value) : Number.isFinite(value) || ["boolean", "string"].includes(typeof value);
+  if (isKept) return value;
+  throw new Error(`\`${text}\` is no value; write 8, true or "edge"`);
+}
+
+/** The value that a table has of its own, if it has it. Every object has `constructor` and `__proto__`, which are no keys. */
+const ownOf = (table, name) => table !== null && typeof table === "object" && Object.hasOwn(table, name) ? table[name] : undefined;
+
+/** Gives a table a value of its own, whatever the name: to assign to `__proto__` would change what other objects have. */
+function setOwn(table, name, value) {
+  if (table === null || typeof table !== "object") throw new Error(`\`${name}\` is no key of ${JSON.stringify(table)}, which is no table`);
+  if (Array.isArray(table) && !(String(Number(name)) === name && Number(name) <= table.length))
+    throw new Error(`${name} is not one of 0 to ${table.length}, by which these tables are numbered`);
+  Object.defineProperty(table, name, { value, writable: true, enumerable: true, configurable: true });
 }
 
 /** The TOML of a configuration. */
@@ -34,13 +45,16 @@ export function keysOf(config) {
 }
 
 /** The value of a dotted key, if there is one. */
-export const getKey = (config, key) => key.split(".").reduce((table, name) => table?.[name], config);
+export const getKey = (config, key) => key.split(".").reduce(ownOf, config);
 
 /** Another configuration, in which a dotted key has this value. */
 export function withKey(config, key, value) {
   const made = structuredClone(config), path = key.split("."), last = path.pop();
   let table = made;
-  for (const [place, name] of path.entries()) table = table[name] ??= /^\d+$/.test(path[place + 1] ?? "") ? [] : {};
-  table[last] = value;
+  for (const [place, name] of path.entries()) {
+    if (ownOf(table, name) === undefined) setOwn(table, name, /^\d+$/.test(path[place + 1] ?? "") ? [] : {});
+    table = ownOf(table, name);
+  }
+  setOwn(table, last, value);
   return made;
 }

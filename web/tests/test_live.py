@@ -60,6 +60,37 @@ def test_a_clip_has_its_own_times_and_an_end(served):
     assert 2 <= page.evaluate("foveate.sums.frames") <= 5
 
 
+def test_the_secret_of_the_link_leaves_the_page_by_nothing_that_it_gives(served):
+    page, _ = served(reduced_motion="reduce")
+    until(page, "foveate.sums.frames === 1")
+    told = []
+    page.on("console", lambda line: told.append(line.text))
+    secret = page.url.split("/")[3]
+    assert len(secret) == 32
+    (folder := Path(page.folder)).mkdir(exist_ok=True)
+    (folder / "squares.onnx").write_bytes(onnx.squares())
+    page.set_input_files("#network-file", folder / "squares.onnx")
+    until(page, "!document.getElementById('copy-command').disabled", timeout=20)
+    page.click("#record")
+    page.click("#step")
+    until(page, "foveate.sums.frames === 2")
+    given = []
+    for button, said in [("#copy-link", "copied"), ("#copy-toml", "copied"), ("#copy-command", "copied-command")]:
+        page.click(button)
+        until(page, "id => document.getElementById(id).textContent.includes('clipboard')", said)
+        given.append(page.evaluate("navigator.clipboard.readText()"))
+    # Where the browser gives no clipboard, the page shows the text.
+    page.evaluate("() => { navigator.clipboard.writeText = () => Promise.reject(); document.execCommand = () => false; }")
+    page.click("#copy-link")
+    until(page, "document.getElementById('copied').textContent.includes('refuses')")
+    with page.expect_download() as waiting:
+        page.click("#download")
+    given += [Path(waiting.value.path()).read_text(), waiting.value.suggested_filename, page.title(), page.content(), *told]
+    assert given[0].startswith("#source=computer&")
+    assert not any(secret in text for text in given)
+    assert page.evaluate("document.referrer") == ""
+
+
 def test_a_network_runs_on_the_page_that_is_served(served):
     page, _ = served(reduced_motion="reduce")
     until(page, "foveate.sums.frames === 1")

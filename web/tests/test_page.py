@@ -260,12 +260,42 @@ def test_a_link_restores_all_settings(still):
         ("source=scene:nothing", "scene:nothing"),
         ("size=large", "write 640x480"),
         ("region.size=x", "x is no value"),
+        # Names that every object has from elsewhere.
+        ("__proto__.rgba=1", "__proto__"),
+        ("constructor.prototype=1", "constructor"),
+        ("constructor.name=1", "constructor"),
+        ("region.__proto__=1", "__proto__"),
+        ("region.constructor=1", "constructor"),
+        ("spatial.0.__proto__=1", "__proto__"),
+        ("__proto__.0.rgba=1", "__proto__"),
+        ("spatial.0.feature=%22toString%22", "toString"),
+        ("preset=__proto__", "no preset __proto__"),
+        ("source=scene:constructor", "scene:constructor"),
+        ("network.__proto__=1", "network.__proto__ is not a setting"),
+        ("__proto__=1", "__proto__ is not a setting"),
+        # Numbers that are none, too large or leave others out.
+        ("region.size=1e999", "1e999 is no value"),
+        ("region.size=12345678901234567890", "12345678901234567890 is no value"),
+        ("region.size=null", "null is no value"),
+        ("region.size=%5B8%5D", "[8] is no value"),
+        ("region.size=%7B%22__proto__%22:%7B%22rgba%22:1%7D%7D", "is no value"),
+        ("spatial.999999999.level=1", "spatial.999999999"),
+        ("spatial.1.feature=%22edge%22", "spatial.1"),
+        ("size=99999999999x1", "99999999999"),
+        ("size=4294967295x4294967295", "4294967295"),
+        # Text that is no link.
+        ("region.size=%E0%A4%A", "region.size has a % that begins no character"),
+        ("size=%", "size has a % that begins no character"),
+        ("region.size=8&region.size=16", "region.size twice"),
+        ("size=160x120&size=64x64", "size twice"),
+        ("region.size=" + "8" * 20_000, "20013 characters"),
     ],
 )
 def test_a_wrong_link_is_told_and_the_page_starts(still, link, message):
     page = still("#" + link)
     assert message in shown(page, message)
     assert page.input_value("#source") == "scene:street"
+    assert page.evaluate("Object.keys(Object.prototype).length === 0 && ({}).rgba === undefined")
     step(page, 2)
 
 
@@ -502,6 +532,19 @@ def test_hardware_is_from_the_table_or_a_command(still):
     command = shlex.split(page.inner_text("#area pre"))
     told = foveate("check", *command[2:], cwd=page.folder)
     assert "raster" in told and "640 x 480" in told and "24x24" in told
+
+
+def test_the_copied_link_of_a_served_page_has_no_address(server, still):
+    page, _ = server
+    frames(page, 1)
+    put(page, "region.size", 12)
+    page.click("#copy-link")
+    until(page, "document.getElementById('copied').textContent.includes('clipboard')")
+    text = page.evaluate("navigator.clipboard.readText()")
+    assert text.startswith("#source=computer&") and "region.size=12" in text and "127.0.0.1" not in text
+    # It stands behind another address.
+    other = still(text.replace("source=computer&", ""))
+    assert other.evaluate("foveate.camera.facts.side") == 12
 
 
 def test_the_computer_serves_frames(server):
