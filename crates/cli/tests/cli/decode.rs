@@ -2,8 +2,10 @@
 //! simulate --packets and decode, end to end.
 
 use std::fs;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
-use crate::common::{fail_in, foveate, run_in, succeed_in};
+use crate::common::{fail_in, foveate, listening, run_in, succeed_in};
 use serde_json::Value;
 
 const SENT: [&str; 9] =
@@ -41,6 +43,42 @@ fn a_stream_becomes_what_was_simulated() {
     let summary: Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!((&summary["frames"], &summary["complete"]), (&4.into(), &false.into()));
     assert!(dir.path().join("seen/losses.csv").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_stream_that_sends_nothing_is_left_at_once() {
+    let dir = tempfile::tempdir().unwrap();
+    for (signal, code) in [("INT", 130), ("TERM", 143)] {
+        let mut decode = listening()
+            .args(["decode", "-", "-o", "out"])
+            .current_dir(dir.path())
+            .stdin(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        let patience = Instant::now() + Duration::from_secs(60);
+        // Its folder is in the making once it listens.
+        while fs::read_dir(dir.path()).unwrap().next().is_none() {
+            assert!(Instant::now() < patience, "it does not begin");
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        std::thread::sleep(Duration::from_millis(200));
+        let id = decode.id().to_string();
+        assert!(
+            Command::new("kill").args([&format!("-{signal}"), &id]).status().unwrap().success()
+        );
+        let start = Instant::now();
+        while decode.try_wait().unwrap().is_none() {
+            if start.elapsed() > Duration::from_secs(3) {
+                decode.kill().unwrap();
+                panic!("it does not hear {signal}");
+            }
+            std::thread::sleep(Duration::from_millis(5));
+        }
+        assert_eq!(decode.wait().unwrap().code(), Some(code));
+        assert!(fs::read_dir(dir.path()).unwrap().next().is_none(), "something is left");
+    }
 }
 
 #[test]

@@ -20,10 +20,15 @@ pub(crate) struct Served {
 impl Served {
     /// Starts it in `folder`.
     pub(crate) fn start(folder: &Path, args: &[&str]) -> Self {
+        Self::reading(folder, args, Stdio::null())
+    }
+
+    /// Starts it in `folder` with an input.
+    pub(crate) fn reading(folder: &Path, args: &[&str], input: Stdio) -> Self {
         let mut child = listening()
             .args(args)
             .current_dir(folder)
-            .stdin(Stdio::null())
+            .stdin(input)
             .stdout(Stdio::piped())
             .stderr(Stdio::piped())
             .spawn()
@@ -43,6 +48,13 @@ impl Served {
         let mut status = [0; 15];
         browser.read_exact(&mut status).unwrap();
         assert_eq!(&status, b"HTTP/1.1 200 OK");
+    }
+
+    /// Memory that it takes, in KiB; none where the system does not say.
+    pub(crate) fn memory(&self) -> Option<u64> {
+        let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
+        let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
+        line.trim().strip_suffix(" kB")?.parse().ok()
     }
 
     /// Ends it by a signal; its exit code, and what it said since it was read last.

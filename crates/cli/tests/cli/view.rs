@@ -2,7 +2,11 @@
 //! view, end to end: its link is printed, and Ctrl-C ends it. What the page delivers is tested in its own crate.
 #![cfg(unix)]
 
+use std::fs::File;
 use std::io::BufRead as _;
+use std::path::Path;
+use std::process::{Command, Stdio};
+use std::time::{Duration, Instant};
 
 use crate::common::{fail_in, succeed_in};
 use crate::served::Served;
@@ -26,6 +30,41 @@ fn a_stream_is_shown_until_it_is_told_to_stop() {
     }
 }
 
+/// A command hears a signal within this time.
+const PROMPT: Duration = Duration::from_secs(1);
+
+fn fifo(folder: &Path) {
+    assert!(Command::new("mkfifo").arg(folder.join("fifo")).status().unwrap().success());
+}
+
+#[test]
+fn a_source_that_sends_nothing_or_noise_without_end_is_left_at_once() {
+    let dir = tempfile::tempdir().unwrap();
+    fifo(dir.path());
+    let device = |name: &str| Stdio::from(File::open(name).unwrap());
+    for signal in ["INT", "TERM"] {
+        for (input, stdin) in [
+            // Nobody writes to it.
+            ("fifo", Stdio::null()),
+            // Somebody has it open and writes nothing.
+            ("-", Stdio::piped()),
+            ("-", device("/dev/zero")),
+            ("-", device("/dev/urandom")),
+        ] {
+            let view = Served::reading(dir.path(), &["view", input], stdin);
+            view.gives("next?after=0");
+            std::thread::sleep(Duration::from_millis(500));
+            let memory = view.memory().unwrap_or(0);
+            assert!(memory < 100 << 10, "{memory} KiB");
+            let start = Instant::now();
+            let (code, told) = view.stopped_by(signal);
+            assert!(start.elapsed() < PROMPT, "{input}: {:?}", start.elapsed());
+            assert_eq!(code, Some(if signal == "INT" { 130 } else { 143 }));
+            assert!(told.ends_with("foveate: interrupted after 0 frames\n"), "{told}");
+        }
+    }
+}
+
 #[test]
 fn what_cannot_be_shown_is_refused() {
     let dir = tempfile::tempdir().unwrap();
@@ -36,6 +75,7 @@ fn what_cannot_be_shown_is_refused() {
     refused(&["missing.bin"], &["missing.bin"]);
     refused(&["."], &["folder", "packets.bin"]);
     refused(&["/dev/null"], &["/dev/null", "no serial port"]);
+    refused(&["/dev/zero"], &["/dev/zero", "no serial port"]);
     refused(&["-", "--play", "looped"], &["no file", "--play"]);
     refused(&["packets.bin", "--address", "0.0.0.0:8000"], &["0.0.0.0:8000", "127.0.0.1"]);
 }
