@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Makes frames of packets. A frame ends with its END, or with the first packet of a later one.
+//!
+//! A packet of a frame that is over is ignored. Two FRAMEs in a row whose numbers are over, and follow each other, say
+//! that the stream counts otherwise now: one wrong number must not make all frames after it late.
 
 use crate::{FrameInfo, Layout, Loss, Packet, PacketError, ReceivedFrame};
 
@@ -10,6 +13,8 @@ pub struct Assembler {
     open: Option<ReceivedFrame>,
     /// Number of the frame that came last.
     last: Option<u32>,
+    /// Number of the last FRAME, if that came too late.
+    late: Option<u32>,
     losses: Vec<Loss>,
 }
 
@@ -17,7 +22,7 @@ impl Assembler {
     /// Nothing received yet.
     #[must_use]
     pub fn new(layout: Layout) -> Self {
-        Self { layout, open: None, last: None, losses: Vec::new() }
+        Self { layout, open: None, last: None, late: None, losses: Vec::new() }
     }
 
     /// The packets that are expected.
@@ -45,13 +50,31 @@ impl Assembler {
             _ => None,
         };
         let is_open = self.open.as_ref().is_some_and(|open| open.number == number);
-        let restarts = info.as_ref().is_some_and(|info| info.first);
+        let is_first = info.as_ref().is_some_and(|info| info.first);
         // Numbers wrap around.
         let is_late =
             self.last.is_some_and(|last| number.wrapping_sub(last).wrapping_sub(1) >= 1 << 31);
-        if !restarts && ((is_late && !is_open) || (is_open && info.is_some())) {
-            self.losses.push(Loss::Misplaced { frame: number });
+        let recounts = info.is_some()
+            && is_late
+            && !is_open
+            && self.late.is_some_and(|late| number == late.wrapping_add(1));
+        if info.is_some() {
+            self.late = Some(number).filter(|_| is_late && !is_open && !is_first && !recounts);
+        }
+        let restarts = is_first || recounts;
+        // A frame begins with its FRAME; packets that came before are not of it.
+        let is_begun = self.open.as_ref().is_some_and(|open| open.info.is_some());
+        if is_open && !is_begun && info.is_some() && !is_first {
+            self.losses.push(Loss::Misplaced { frame: number, count: 1 });
+            self.open = Some(ReceivedFrame::new(number, info, &self.layout));
             return Ok([None, None]);
+        }
+        if !restarts && ((is_late && !is_open) || (is_open && info.is_some())) {
+            self.losses.push(Loss::Misplaced { frame: number, count: 1 });
+            return Ok([None, None]);
+        }
+        if recounts {
+            self.last = None;
         }
         let mut ended = None;
         if !is_open || restarts {

@@ -58,3 +58,16 @@ pub enum PacketError {
         what: &'static str,
     },
 }
+
+impl PacketError {
+    /// Number of the frame that is refused, if there is one.
+    #[must_use]
+    pub fn frame(&self) -> Option<u32> {
+        match *self {
+            Self::NoFrame { .. } => None,
+            Self::Version { frame, .. }
+            | Self::Design { frame, .. }
+            | Self::Fields { frame, .. } => Some(frame),
+        }
+    }
+}

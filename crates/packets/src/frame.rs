@@ -84,7 +84,7 @@ impl ReceivedFrame {
         let (at, columns) = (index(row.row), row.decisions.len());
         match self.rows.get_mut(at) {
             Some(known) if !known.decisions => known.decisions = true,
-            _ => return self.misplaced += 1,
+            _ => return self.misplace(),
         }
         put(&mut self.decisions, at * columns, row.decisions);
     }
@@ -93,7 +93,7 @@ impl ReceivedFrame {
         let (at, columns) = (index(scores.row), scores.temporal_count.len());
         match self.rows.get_mut(at) {
             Some(known) if !known.scores => known.scores = true,
-            _ => return self.misplaced += 1,
+            _ => return self.misplace(),
         }
         put(&mut self.temporal_count, at * columns, scores.temporal_count);
         for (own, scores) in self.scores.iter_mut().zip(scores.scores) {
@@ -109,8 +109,13 @@ impl ReceivedFrame {
                 *content =
                     Some(if means { Content::Means(values) } else { Content::Pixels(values) });
             }
-            _ => self.misplaced += 1,
+            _ => self.misplace(),
         }
+    }
+
+    /// Counts a packet that is ignored; a stream may repeat one without end.
+    fn misplace(&mut self) {
+        self.misplaced = self.misplaced.saturating_add(1);
     }
 
     pub(crate) fn take_end(&mut self, end: End) {
@@ -150,7 +155,7 @@ impl ReceivedFrame {
                 (decision.srs && decision.trs).then_some(false)
             };
             if came != asked && content.take().is_some() {
-                self.misplaced += 1;
+                self.misplaced = self.misplaced.saturating_add(1);
             }
             if asked.is_some() && content.is_none() {
                 let (row, column) = (region / columns, region % columns);
@@ -159,7 +164,9 @@ impl ReceivedFrame {
                 losses.push(Loss::Region { frame, row, column, dropped: end.regions_dropped > 0 });
             }
         }
-        losses.extend((0..self.misplaced).map(|_| Loss::Misplaced { frame }));
+        if self.misplaced > 0 {
+            losses.push(Loss::Misplaced { frame, count: self.misplaced });
+        }
         if self.end.is_none() {
             losses.push(Loss::End { frame });
         }

@@ -6,6 +6,7 @@
 //! Knows neither files nor what computes a frame.
 
 mod assemble;
+mod clock;
 mod command;
 mod error;
 mod frame;
@@ -18,6 +19,7 @@ mod word;
 pub mod write;
 
 pub use assemble::Assembler;
+pub use clock::{FrameClock, FrameTime, LONGEST_GAP_SECONDS};
 pub use command::Command;
 pub use error::PacketError;
 pub use frame::{Content, ReceivedFrame};

@@ -62,8 +62,20 @@ pub enum Loss {
         /// Number of the frame.
         frame: u32,
     },
-    /// A packet that contradicts others, or comes too late.
+    /// Packets that contradict others, or come too late.
     Misplaced {
+        /// The frame that they name.
+        frame: u32,
+        /// How many.
+        count: u32,
+    },
+    /// The time of a frame that lies before the frame before, or too far behind it.
+    Time {
+        /// Number of the frame.
+        frame: u32,
+    },
+    /// A FRAME of another camera or format, with all packets up to the next FRAME of this camera.
+    Foreign {
         /// The frame that it names.
         frame: u32,
     },
@@ -85,6 +97,8 @@ impl Loss {
             Self::Region { dropped: true, .. } => "dropped-region",
             Self::End { .. } => "end",
             Self::Misplaced { .. } => "misplaced",
+            Self::Time { .. } => "time",
+            Self::Foreign { .. } => "foreign",
         }
     }
 
@@ -94,7 +108,9 @@ impl Loss {
         let some = |value: u32| Some(u64::from(value));
         match *self {
             Self::Bytes { offset, bytes } => [None, None, None, Some(bytes), Some(offset)],
-            Self::Frames { frame, count } => [some(frame), None, None, some(count), None],
+            Self::Frames { frame, count } | Self::Misplaced { frame, count } => {
+                [some(frame), None, None, some(count), None]
+            }
             Self::Row { frame, row, .. } | Self::Scores { frame, row } => {
                 [some(frame), some(row), None, None, None]
             }
@@ -104,7 +120,8 @@ impl Loss {
             Self::Start { frame }
             | Self::Frame { frame }
             | Self::End { frame }
-            | Self::Misplaced { frame } => [some(frame), None, None, None, None],
+            | Self::Time { frame }
+            | Self::Foreign { frame } => [some(frame), None, None, None, None],
         }
     }
 }
@@ -143,10 +160,28 @@ impl fmt::Display for Loss {
                 )
             }
             Self::End { frame } => write!(f, "frame {frame}: its END packet is missing"),
-            Self::Misplaced { frame } => {
+            Self::Misplaced { frame, count: 1 } => {
                 write!(
                     f,
                     "a packet of frame {frame} contradicts others or is out of order, and is ignored"
+                )
+            }
+            Self::Misplaced { frame, count } => {
+                write!(
+                    f,
+                    "{count} packets of frame {frame} contradict others or are out of order, and are ignored"
+                )
+            }
+            Self::Time { frame } => {
+                write!(
+                    f,
+                    "frame {frame}: its time is before the last frame or more than a day behind it, and is not used"
+                )
+            }
+            Self::Foreign { frame } => {
+                write!(
+                    f,
+                    "frame {frame} is of another camera or format, and is ignored with what follows it"
                 )
             }
         }

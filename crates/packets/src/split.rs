@@ -6,6 +6,9 @@ use crate::layout::{MARK, WORD};
 use crate::packet::Head;
 use crate::{Layout, Packet};
 
+/// So many bytes that are no packet are reported, even if more of them follow: noise without end is noticed.
+const REPORTED: u64 = 1 << 20;
+
 /// What comes next in a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
@@ -64,6 +67,9 @@ impl Splitter {
     /// FRAME or a REGISTER is found.
     pub fn next(&mut self, layout: Option<&Layout>) -> Found {
         while let Some(ahead) = self.bytes.get(self.at..) {
+            if self.skipped >= REPORTED {
+                return self.skipped();
+            }
             let before = ahead.iter().position(|&byte| byte == MARK).unwrap_or(ahead.len());
             if before > 0 {
                 self.pass(before);

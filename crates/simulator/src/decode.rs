@@ -98,14 +98,16 @@ impl Recording<'_> {
                 bytes += read as u64;
                 stream.feed(&chunk[..read]);
             }
-            match (writer.take(&mut stream, hooks), writer.frames()) {
+            // A few bytes may ask for much work, so it is stopped between two frames, too.
+            let is_all = match (writer.take(&mut stream, hooks, is_cancelled), writer.frames()) {
                 (Err(error), 1..) if error.is_full() => {
                     is_full = Some(full(&error, writer.frames(), folder));
                     break;
                 }
                 (other, _) => other?,
-            }
-            if ends {
+            };
+            is_cancelled |= !is_all;
+            if ends || !is_all {
                 break;
             }
         }
@@ -159,9 +161,25 @@ impl Writer<'_> {
         self.recorder.as_ref().map_or(0, Recorder::frames)
     }
 
-    /// Writes all that is there.
-    fn take(&mut self, stream: &mut Stream, hooks: &mut dyn Hooks) -> Result<(), SimulatorError> {
-        while let Some(received) = stream.receive()? {
+    /// Writes all that is there, or what there is until `hooks` cancels, unless that has been noticed already. Says whether it was all.
+    fn take(
+        &mut self,
+        stream: &mut Stream,
+        hooks: &mut dyn Hooks,
+        is_cancelled: bool,
+    ) -> Result<bool, SimulatorError> {
+        loop {
+            let received = match stream.receive() {
+                Ok(Some(received)) => received,
+                Ok(None) => return Ok(true),
+                // Another camera's FRAME behind frames of this one ends nothing.
+                Err(SimulatorError::Packets(error)) if stream.design().is_some() => {
+                    let frame = error.frame().unwrap_or_default();
+                    self.losses.push(Loss::Foreign { frame })?;
+                    continue;
+                }
+                Err(error) => return Err(error),
+            };
             match received {
                 Received::Loss(loss) => self.losses.push(loss)?,
                 Received::Register(_) => {}
@@ -170,10 +188,12 @@ impl Writer<'_> {
                         self.write(*frame, design, stream.has_scores())?;
                     }
                     hooks.progress(Progress { done: self.frames(), total: None });
+                    if !is_cancelled && hooks.cancelled() {
+                        return Ok(false);
+                    }
                 }
             }
         }
-        Ok(())
     }
 
     /// Writes a frame, if its time is known. What is drawn over the frame before the camera in a simulation is drawn

@@ -68,6 +68,21 @@ pub enum SimulatorError {
         /// The contrast as given.
         contrast: String,
     },
+    /// A stream that would take more memory than its sender may ask for.
+    #[error(
+        "frame {frame} of the stream says that frames have {width}x{height} pixels, which are more than the {most} that a stream \
+         alone may ask for; if that is right, give the camera's frame.width and frame.height in the configuration"
+    )]
+    ClaimedSize {
+        /// Number of the frame.
+        frame: u32,
+        /// Frame width in the stream.
+        width: u32,
+        /// Frame height in the stream.
+        height: u32,
+        /// Most pixels.
+        most: u32,
+    },
     /// Pixel events are differences in time.
     #[error("images of a set have no order in time; pixel events need a clip")]
     PixelEventsOfSet,

@@ -29,4 +29,4 @@ pub use output::{
     PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, write_packets,
 };
 pub use simulation::Simulation;
-pub use stream::{Received, ShownFrame, Stream};
+pub use stream::{CLAIMED_PIXELS, Received, ShownFrame, Stream};

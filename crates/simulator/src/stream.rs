@@ -9,11 +9,15 @@ use foveate_design::{Config, Design};
 use foveate_engine::{FrameOutcome, Receiver};
 use foveate_frame::{Plane, Raster};
 use foveate_packets::{
-    Assembler, Content, Found, FrameInfo, Layout, Loss, Packet, PacketError, ReceivedFrame,
-    Register, Splitter,
+    Assembler, Content, Found, FrameClock, FrameInfo, Layout, Loss, Packet, PacketError,
+    ReceivedFrame, Register, Splitter,
 };
 
 use crate::SimulatorError;
+
+/// Most pixels of a frame whose size only the stream says: those of 8K video, and a little more. Whoever sends a stream must not decide
+/// how much memory is taken for it.
+pub const CLAIMED_PIXELS: u32 = 1 << 25;
 
 /// What comes next in a stream.
 #[derive(Clone, Debug)]
@@ -31,7 +35,7 @@ pub enum Received {
 pub struct ShownFrame {
     /// Its number in the stream.
     pub number: u32,
-    /// When it began, in microseconds since the first; none where its FRAME is missing.
+    /// When it began, in microseconds since the first; none where its FRAME is missing. Times never go back.
     pub time_us: Option<u64>,
     /// What is on the screen.
     pub screen: Raster,
@@ -146,8 +150,7 @@ struct Run {
     design: Design,
     assembler: Assembler,
     receiver: Receiver,
-    /// When the first frame began, in ticks.
-    start: Option<u64>,
+    clock: FrameClock,
 }
 
 impl Run {
@@ -156,11 +159,17 @@ impl Run {
         if info.version != foveate_packets::VERSION {
             return Err(PacketError::Version { frame, version: info.version }.into());
         }
+        refuse_claim(config, frame, info)?;
         let design = config.for_frames(info.width.into(), info.height.into())?;
         let layout = Layout::new(&design, info.has_scores, info.ticks_per_second);
         let assembler = Assembler::new(layout);
         assembler.check(frame, info)?;
-        Ok(Self { receiver: Receiver::new(&design), assembler, design, start: None })
+        Ok(Self {
+            receiver: Receiver::new(&design),
+            assembler,
+            design,
+            clock: FrameClock::default(),
+        })
     }
 
     /// Adds what is missing so far, and then the frames that have ended.
@@ -171,14 +180,23 @@ impl Run {
     ) -> Result<(), SimulatorError> {
         found.extend(self.assembler.losses().into_iter().map(Received::Loss));
         for frame in ended.into_iter().flatten() {
-            let shown = self.shown(frame)?;
+            let number = frame.number;
+            let time = frame.info.as_ref().map(|info| self.clock.take(info));
+            if time.is_some_and(|time| time.is_wrong) {
+                found.push_back(Received::Loss(Loss::Time { frame: number }));
+            }
+            let shown = self.shown(frame, time.map(|time| time.time_us))?;
             found.push_back(Received::Frame(Box::new(shown)));
         }
         Ok(())
     }
 
     /// Puts a frame on the screen.
-    fn shown(&mut self, frame: ReceivedFrame) -> Result<ShownFrame, SimulatorError> {
+    fn shown(
+        &mut self,
+        frame: ReceivedFrame,
+        time_us: Option<u64>,
+    ) -> Result<ShownFrame, SimulatorError> {
         if frame.info.as_ref().is_some_and(|info| info.first) {
             self.receiver.reset();
         }
@@ -191,12 +209,6 @@ impl Run {
         }
         let actions = frame.actions(self.design.irrelevant());
         self.receiver.show(&actions);
-        let time_us = frame.info.as_ref().map(|info| {
-            let start = *self.start.get_or_insert(info.time);
-            let ticks = u128::from(info.time.saturating_sub(start));
-            let time_us = ticks * 1_000_000 / u128::from(info.ticks_per_second.max(1));
-            u64::try_from(time_us).unwrap_or(u64::MAX)
-        });
         let of = |bit: fn(&foveate_packets::Decision) -> bool| {
             frame.decisions.iter().map(bit).collect::<Vec<_>>()
         };
@@ -212,6 +224,17 @@ impl Run {
         let screen = raster(&self.design, self.receiver.rendered())?;
         Ok(ShownFrame { number: frame.number, time_us, screen, outcome })
     }
+}
+
+/// Refuses a stream whose frames are larger than is taken from a stream alone.
+fn refuse_claim(config: &Config, frame: u32, info: &FrameInfo) -> Result<(), SimulatorError> {
+    let (width, height) = (u32::from(info.width), u32::from(info.height));
+    let own = &config.camera.frame;
+    let is_given = own.width.is_some() && own.height.is_some();
+    if is_given || width.saturating_mul(height) <= CLAIMED_PIXELS {
+        return Ok(());
+    }
+    Err(SimulatorError::ClaimedSize { frame, width, height, most: CLAIMED_PIXELS })
 }
 
 /// A copy of the screen.

@@ -4,7 +4,7 @@
 
 use std::fs::File;
 use std::io::Write as _;
-use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::{Duration, Instant};
 
@@ -25,6 +25,8 @@ const ATTEMPTS: u32 = 3;
 const ROUND: Duration = Duration::from_secs(1);
 /// How long a browser waits for its write.
 const WRITE: Duration = Duration::from_secs(10);
+/// Answers that wait to be looked at; a board that sends more of them was not asked.
+const ANSWERS: usize = 256;
 /// The board's own register.
 const BOARD: u32 = 0x1000;
 
@@ -50,8 +52,8 @@ impl Board {
         config: &Config,
         live: &Arc<Live>,
         has_port: bool,
-    ) -> Result<Sender<Answer>, ViewError> {
-        let (answer, answers) = channel();
+    ) -> Result<SyncSender<Answer>, ViewError> {
+        let (answer, answers) = sync_channel(ANSWERS);
         // The size of frames does not change the map, but for what is constant.
         let design = config.validate().ok().filter(|design| has_port && design.is_on_axi());
         if let Some(table) = design.as_ref().and_then(table) {
@@ -146,7 +148,8 @@ impl Board {
     /// Sends a command until it is answered.
     fn ask(&self, command: Command, answers: &Receiver<Answer>) -> Option<u32> {
         for _ in 0..ATTEMPTS {
-            while answers.try_recv().is_ok() {}
+            // Answers to what was asked before; more than these may come meanwhile.
+            answers.try_iter().take(ANSWERS).for_each(drop);
             let port = self.port();
             port?.write_all(&command.bytes()).ok()?;
             let until = Instant::now() + ANSWER;

@@ -21,8 +21,10 @@ const SILENCE: Duration = Duration::from_secs(2);
 const HISTORY: usize = 240;
 /// Losses that the page lists, the newest.
 const LISTED: usize = 50;
-/// Losses that are told in the terminal, the first.
+/// Losses, and refusals, that are told in the terminal, the first.
 const TOLD: u64 = 10;
+/// Messages that wait for the terminal; further ones are left out while it takes none.
+const WAITING_NEWS: usize = 100;
 
 /// What becomes of the stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
@@ -80,7 +82,19 @@ struct State {
     losses: BTreeMap<&'static str, u64>,
     listed: VecDeque<String>,
     registers: (Change, Vec<Reading>),
+    /// Refusals that were told.
+    refusals: u64,
     news: Vec<String>,
+}
+
+impl State {
+    fn tell(&mut self, text: String) {
+        match self.news.len() {
+            0..WAITING_NEWS => self.news.push(text),
+            WAITING_NEWS => self.news.push("further messages were left out".to_owned()),
+            _ => {}
+        }
+    }
 }
 
 /// What is known of the stream.
@@ -111,6 +125,7 @@ impl Live {
             losses: BTreeMap::new(),
             listed: VecDeque::new(),
             registers: (0, Vec::new()),
+            refusals: 0,
             news: Vec::new(),
         };
         let (name, is_live) = (input.name(), input.is_live());
@@ -153,17 +168,31 @@ impl Live {
 
     pub(crate) fn status(&self, status: Status, text: String) {
         let mut state = self.lock();
-        state.news.push(text.clone());
+        state.tell(text.clone());
         (state.status, state.text, state.is_silent) = (status, text, false);
         state.heard = Instant::now();
         self.change(&mut state);
     }
 
-    /// A FRAME cannot be read. It is told once, until one can.
+    /// Says something that changes nothing.
+    pub(crate) fn tell(&self, text: String) {
+        self.lock().tell(text);
+    }
+
+    /// The next frame is not due for a while.
+    pub(crate) fn expect(&self, number: u32, left: Duration) {
+        let mut state = self.lock();
+        let seconds = left.as_secs();
+        state.text = format!("showing `{}`; frame {number} is due in {seconds} s", self.name);
+        self.change(&mut state);
+    }
+
+    /// A FRAME cannot be read. It is told once, until one can, and no more than ten times.
     pub(crate) fn refuse(&self, text: String) {
         let mut state = self.lock();
-        if state.refused.is_none() {
-            state.news.push(text.clone());
+        if state.refused.is_none() && state.refusals < TOLD {
+            state.refusals += 1;
+            state.tell(text.clone());
         }
         state.refused = Some(text);
         self.change(&mut state);
@@ -173,9 +202,9 @@ impl Live {
         let mut state = self.lock();
         *state.losses.entry(loss.kind()).or_default() += 1;
         match state.losses.values().sum::<u64>() {
-            0..=TOLD => state.news.push(loss.to_string()),
+            0..=TOLD => state.tell(loss.to_string()),
             count if count == TOLD + 1 => {
-                state.news.push("more losses follow; the page counts them".to_owned());
+                state.tell("more losses follow; the page counts them".to_owned());
             }
             _ => {}
         }
@@ -193,8 +222,8 @@ impl Live {
         if state.frames == 0 || state.status != Status::Running {
             state.design = facts(design);
             state.status = Status::Running;
-            state.text = format!("showing `{}`", self.name);
         }
+        state.text = format!("showing `{}`", self.name);
         state.refused = None;
         self.change(&mut state);
         let at = state.change;
@@ -253,7 +282,7 @@ impl Live {
         if comes && !state.is_silent && state.heard.elapsed() > SILENCE {
             state.is_silent = true;
             let seconds = SILENCE.as_secs();
-            state.news.push(format!("nothing has come from `{}` for {seconds} s", self.name));
+            state.tell(format!("nothing has come from `{}` for {seconds} s", self.name));
             self.change(&mut state);
         }
         state

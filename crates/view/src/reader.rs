@@ -3,7 +3,7 @@
 
 use std::io::{ErrorKind, Read};
 use std::sync::Arc;
-use std::sync::mpsc::Sender;
+use std::sync::mpsc::SyncSender;
 use std::thread::sleep;
 use std::time::{Duration, Instant};
 
@@ -19,6 +19,10 @@ use crate::live::{Live, Status};
 const CHUNK: usize = 1 << 16;
 /// Between two attempts to open a port that is gone.
 const AGAIN: Duration = Duration::from_secs(1);
+/// Longest pause between two frames that are shown by their times; a longer one is cut to this.
+const PAUSE: Duration = Duration::from_secs(10);
+/// From this wait on it is said when the next frame is due.
+const LONG: Duration = Duration::from_secs(2);
 /// Longest wait without a look at whether all is over.
 const NAP: Duration = Duration::from_millis(50);
 
@@ -27,7 +31,7 @@ pub(crate) struct Reader {
     pub(crate) input: Input,
     pub(crate) config: Config,
     pub(crate) play: Play,
-    pub(crate) answers: Sender<Register>,
+    pub(crate) answers: SyncSender<Register>,
     pub(crate) board: Arc<Board>,
     pub(crate) live: Arc<Live>,
 }
@@ -100,15 +104,15 @@ impl Reader {
         }
     }
 
-    /// Takes what there is.
+    /// Takes what there is. A few bytes may make many frames, so it ends between two of them when all is over.
     fn take(&self, stream: &mut Stream, pace: &mut Pace) {
-        loop {
+        while !self.live.is_over() {
             match stream.receive() {
                 Ok(None) => return,
                 Ok(Some(Received::Loss(loss))) => self.live.lose(&loss),
-                // Nobody waits for it where the board is not asked.
+                // Nobody waits for it where the board is not asked, or for more of them than were asked for.
                 Ok(Some(Received::Register(answer))) => {
-                    let _ = self.answers.send(answer);
+                    let _ = self.answers.try_send(answer);
                 }
                 Ok(Some(Received::Frame(frame))) => {
                     if self.play != Play::AtOnce {
@@ -132,30 +136,40 @@ impl Reader {
 /// How far a stream was shown.
 #[derive(Default)]
 struct Pace {
-    /// When a frame was shown, and its time; times go on from there.
-    from: Option<(Instant, u64)>,
+    /// When the first frame was shown, and its time.
+    start: Option<(Instant, u64)>,
     last_us: u64,
+    /// The parts of pauses that were left out.
+    cut: Duration,
     /// Bytes before the next frame.
     position: u64,
 }
 
 impl Pace {
-    /// Waits until the time of a frame has come. Times begin again where they go back, as those of a camera that was
-    /// reset do.
+    /// Waits until the time of a frame has come, but for no longer than [`PAUSE`] after the frame before.
     fn wait(&mut self, frame: &ShownFrame, live: &Live) {
         let Some(time_us) = frame.time_us else { return };
-        let is_back = time_us < self.last_us;
+        let (start, start_us) = *self.start.get_or_insert((Instant::now(), time_us));
+        let gap = Duration::from_micros(time_us.saturating_sub(self.last_us.max(start_us)));
         self.last_us = time_us;
-        let (start, start_us) = match self.from {
-            Some(from) if !is_back => from,
-            _ => *self.from.insert((Instant::now(), time_us)),
-        };
-        let due = Duration::from_micros(time_us - start_us);
-        while let Some(left) = due.checked_sub(start.elapsed()).filter(|left| !left.is_zero()) {
-            if live.is_over() {
-                return;
+        if let Some(more) = gap.checked_sub(PAUSE).filter(|more| !more.is_zero()) {
+            if self.cut.is_zero() {
+                live.tell(format!(
+                    "frame {} comes {} s after the frame before; pauses of more than {} s are cut to that",
+                    frame.number,
+                    gap.as_secs(),
+                    PAUSE.as_secs()
+                ));
             }
-            sleep(left.min(NAP));
+            self.cut = self.cut.saturating_add(more);
+        }
+        let due = Duration::from_micros(time_us.saturating_sub(start_us)).saturating_sub(self.cut);
+        let left = || due.saturating_sub(start.elapsed());
+        if left() > LONG {
+            live.expect(frame.number, left());
+        }
+        while !left().is_zero() && !live.is_over() {
+            sleep(left().min(NAP));
         }
     }
 }

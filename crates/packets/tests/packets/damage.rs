@@ -123,6 +123,6 @@ fn a_packet_that_comes_too_late_is_ignored() {
     let received = read(&mut rng, &layout, &bytes).0;
     let (again, losses) =
         read(&mut rng, &layout, &[&bytes[..second], late, &bytes[second..]].concat());
-    assert_eq!(losses, [Loss::Misplaced { frame: 0 }]);
+    assert_eq!(losses, [Loss::Misplaced { frame: 0, count: 1 }]);
     assert!(again == received, "the late packet changed a frame");
 }

@@ -7,6 +7,7 @@ mod batch;
 mod data_set;
 mod decode;
 mod explain;
+mod hostile;
 mod inputs;
 mod outputs;
 mod packets;

@@ -92,6 +92,83 @@ fn another_design_is_refused_until_the_right_one_comes() {
     wait_for(view.link(), "message again", |told| told["refused"].as_str().is_some_and(both));
 }
 
+/// The packets of a frame with another time.
+fn at_time(packets: &[u8], time: u64) -> Vec<u8> {
+    let mut packets = packets.to_vec();
+    packets[24..32].copy_from_slice(&time.to_le_bytes());
+    let mut crc = flate2::Crc::new();
+    crc.update(&packets[..52]);
+    packets[52..56].copy_from_slice(&crc.sum().to_le_bytes());
+    packets
+}
+
+#[test]
+fn a_time_that_cannot_be_right_does_not_stop_the_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    let sent = street(&CORE, 4);
+    for wrong in [1 << 63, u64::MAX, 0] {
+        let file = folder.path().join("packets.bin");
+        let mut frames = sent.frames.clone();
+        frames[2] = at_time(&frames[2], wrong);
+        fs::write(&file, frames.concat()).unwrap();
+        let view = open(&file, &CORE, None).unwrap();
+        let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
+        assert_eq!(page.told["frames"], 4, "{wrong}");
+        assert!(page.picture == sent.pictures[3]);
+        let losses = page.told["losses"]["time"].as_u64().unwrap();
+        assert!((1..=2).contains(&losses), "{losses} losses");
+        wait_for_news(&view, &["frame 2: its time is before the last frame or more than a day"]);
+    }
+}
+
+#[test]
+fn a_long_pause_is_said_and_cut() {
+    let folder = tempfile::tempdir().unwrap();
+    let sent = street(&CORE, 2);
+    let file = folder.path().join("packets.bin");
+    let late = at_time(&sent.frames[1], 3_600_000_000);
+    fs::write(&file, [&sent.frames[0][..], &late].concat()).unwrap();
+    let start = std::time::Instant::now();
+    let view = open(&file, &CORE, None).unwrap();
+    let due =
+        |told: &serde_json::Value| told["text"].as_str().unwrap().contains("frame 1 is due in");
+    wait_for(view.link(), "message", due);
+    wait_for_news(&view, &["frame 1 comes 3600 s after", "cut"]);
+    let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
+    assert!(page.picture == sent.pictures[1] && start.elapsed().as_secs() >= 10);
+}
+
+#[test]
+fn refusals_that_alternate_with_frames_do_not_flood_the_terminal() {
+    let folder = tempfile::tempdir().unwrap();
+    let other = ["frame={width=40,height=30}", "region.size=5"];
+    let (own, foreign) = (street(&CORE, 40), street(&other, 1));
+    let both = |frame: &Vec<u8>| [&foreign.frames[0][..56], frame].concat();
+    let file = folder.path().join("packets.bin");
+    fs::write(&file, own.frames.iter().flat_map(both).collect::<Vec<u8>>()).unwrap();
+    let view = open(&file, &CORE, Some(foveate_view::Play::AtOnce)).unwrap();
+    let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
+    assert_eq!(page.told["frames"], 40);
+    let news = wait_for_news(&view, &["has ended"]);
+    assert_eq!(news.iter().filter(|text| text.contains("was sent by design")).count(), 10);
+}
+
+#[test]
+fn noise_without_end_is_said() {
+    let sent = street(&CORE, 1);
+    let mut line = Line::new();
+    let view = open(&line.path, &CORE, None).unwrap();
+    for _ in 0..20 {
+        line.send(&[0x5A; 1 << 16]);
+    }
+    let page = wait_for(view.link(), "loss", |told| told["losses"]["bytes"] == 1);
+    assert_eq!(page.told["frames"], 0);
+    wait_for_news(&view, &["bytes from byte 0 on are no packet"]);
+    line.send(&sent.frames[0]);
+    let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
+    assert!(page.picture == sent.pictures[0]);
+}
+
 #[test]
 fn silence_is_said_until_something_comes() {
     let sent = street(&CORE, 2);

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Packets whose checks are right and whose numbers are not: a stream from somebody who means no good ends nothing, and costs no more
+//! memory than its bytes.
+
+use std::ops::Range;
+
+use fastrand::Rng;
+use foveate_packets::{Assembler, Found, Layout, Loss, ReceivedFrame, Splitter, write};
+
+use crate::damage::cases;
+use crate::stream::{Stream, random, read};
+
+/// Where the packets of a stream lie.
+fn packets(bytes: &[u8]) -> Vec<Range<usize>> {
+    let mut at = 0;
+    let next = || {
+        let head = bytes.get(at..at + 4)?;
+        let start = at;
+        at += 8 * usize::from(u16::from_le_bytes([head[2], head[3]]));
+        Some(start..at)
+    };
+    std::iter::from_fn(next).collect()
+}
+
+/// A number that programs get wrong.
+fn odd(rng: &mut Rng) -> u64 {
+    match rng.u8(0..5) {
+        0 => 0,
+        1 => u64::MAX,
+        2 => 1 << rng.u32(0..64),
+        3 => (1 << rng.u32(0..64)) - 1,
+        _ => rng.u64(..),
+    }
+}
+
+/// Puts another number into a packet, and makes its check right.
+fn forge(rng: &mut Rng, packet: &mut [u8]) {
+    let length = [1, 2, 4, 8][rng.usize(0..4)];
+    let at = rng.usize(0..(packet.len() - 4 - length) / length + 1) * length;
+    packet[at..at + length].copy_from_slice(&odd(rng).to_le_bytes()[..length]);
+    let end = packet.len() - 4;
+    let check = crc32fast::hash(&packet[..end]);
+    packet[end..].copy_from_slice(&check.to_le_bytes());
+}
+
+/// What is received of bytes, whether or not a FRAME is refused.
+fn receive(layout: &Layout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<Loss>) {
+    let (mut splitter, mut assembler) = (Splitter::default(), Assembler::new(layout.clone()));
+    let mut frames = Vec::new();
+    splitter.feed(bytes);
+    splitter.complete();
+    loop {
+        match splitter.next(Some(layout)) {
+            Found::Nothing => break,
+            Found::Skipped { offset, bytes } => assembler.lose(Loss::Bytes { offset, bytes }),
+            Found::Packet { frame, packet } => {
+                let ended = assembler.push(frame, packet).unwrap_or_default();
+                frames.extend(ended.into_iter().flatten());
+            }
+        }
+    }
+    frames.extend(assembler.end());
+    (frames, assembler.losses())
+}
+
+#[test]
+fn fuzz_a_stream_goes_on_behind_packets_with_any_numbers() {
+    for seed in 0..cases() {
+        let mut rng = Rng::with_seed(seed);
+        let Stream { layout, bytes, frames } = random(&mut rng, 6);
+        let whole = read(&mut rng, &layout, &bytes).0;
+        let mut forged = bytes[..frames[2].end].to_vec();
+        let all = packets(&forged);
+        for _ in 0..rng.usize(1..6) {
+            let packet = rng.choice(&all).unwrap().clone();
+            forge(&mut rng, &mut forged[packet]);
+        }
+        let again: Vec<u8> = (0..rng.usize(0..4)).flat_map(|_| forged.clone()).collect();
+        forged.extend(again);
+        let is_first = forged.clone();
+        forged.extend(&bytes[frames[3].start..]);
+        let (received, losses) = receive(&layout, &forged);
+        // Two frames at most are lost before it is known how frames are numbered now, and the last is there.
+        assert!(received.last() == whole.last(), "seed {seed}: {losses:?}");
+        let regions = u64::from(layout.columns() * layout.rows());
+        let most = (is_first.len() as u64 / 24 + 4) * (4 + 2 * u64::from(layout.rows()) + regions);
+        assert!(losses.len() as u64 <= most, "seed {seed}: {} losses", losses.len());
+    }
+}
+
+#[test]
+fn a_wrong_frame_number_costs_two_frames_at_most() {
+    let mut rng = Rng::with_seed(3);
+    let Stream { layout, bytes, frames } = random(&mut rng, 8);
+    for jump in [100, 1 << 16, 1 << 30, (1 << 31) - 1, 1 << 31, u32::MAX - 2] {
+        let at = frames[2].end;
+        let mut forged = bytes[..at].to_vec();
+        write::frame(&mut forged, &layout, 2u32.wrapping_add(jump), (120_000, false));
+        forged.extend(&bytes[at..]);
+        let received = read(&mut rng, &layout, &forged).0;
+        let numbers: Vec<u32> = received.iter().map(|frame| frame.number).collect();
+        assert!(numbers.ends_with(&[5, 6, 7]), "{jump}: {numbers:?}");
+    }
+}
+
+#[test]
+fn a_packet_of_a_later_frame_does_not_become_a_part_of_it() {
+    let mut rng = Rng::with_seed(5);
+    let Stream { layout, bytes, frames } = random(&mut rng, 4);
+    let whole = read(&mut rng, &layout, &bytes).0;
+    // A ROW that says of the last frame what nobody decided.
+    let at = frames[2].start + layout.frame_bytes();
+    let mut forged = bytes[..at].to_vec();
+    let decisions = vec![Default::default(); layout.columns().try_into().unwrap()];
+    write::row(&mut forged, &layout, 3, 0, &decisions);
+    forged.extend(&bytes[at..]);
+    let (received, losses) = read(&mut rng, &layout, &forged);
+    assert!(received.last() == whole.last(), "{losses:?}");
+}
+
+#[test]
+fn a_packet_again_and_again_is_one_loss() {
+    let mut rng = Rng::with_seed(4);
+    let Stream { layout, bytes, frames } = random(&mut rng, 2);
+    let at = frames[0].start + layout.frame_bytes()
+        ..packets(&bytes).into_iter().nth(1).map(|packet| packet.end).unwrap();
+    let mut forged = bytes[..at.end].to_vec();
+    (0..50_000).for_each(|_| forged.extend(&bytes[at.clone()]));
+    forged.extend(&bytes[at.end..]);
+    let (received, losses) = read(&mut rng, &layout, &forged);
+    assert_eq!(received.len(), 2);
+    assert_eq!(losses, [Loss::Misplaced { frame: 0, count: 50_000 }]);
+}
+
+#[test]
+fn noise_without_end_is_reported_on_the_way() {
+    for byte in [0, 0xFA] {
+        let (mut splitter, mut reported) = (Splitter::default(), 0);
+        for _ in 0..64 {
+            splitter.feed(&[byte; 1 << 16]);
+            while let Found::Skipped { bytes, .. } = splitter.next(None) {
+                reported += bytes;
+            }
+        }
+        assert!(reported >= 3 << 20, "{reported} of 4 MiB of {byte:#x}");
+    }
+}
