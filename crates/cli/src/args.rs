@@ -214,7 +214,7 @@ pub(crate) struct CosimArgs {
     /// `simulate` says of the same frames without any hardware, and compare the two
     #[arg(long, value_name = "DIR", requires = "inputs", conflicts_with = "packets")]
     pub(crate) end_to_end: Option<PathBuf>,
-    /// Folder to write if a run fails; it replays the mismatch
+    /// Folder to write if a run fails; it replays the mismatch. An earlier one makes way if nothing was added or changed in it
     #[arg(long, value_name = "DIR", default_value = "foveate-replay")]
     pub(crate) replay: PathBuf,
     /// Record waves (FST) of a failing run in its replay folder

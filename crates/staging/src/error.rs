@@ -36,7 +36,7 @@ pub enum StagingError {
     /// The folder is of the right kind, but nothing says which of its files may go.
     #[error(
         "output folder `{}` has no list of the files that Foveate wrote (.foveate), so it is not replaced; \
-         choose another folder, or delete this one",
+         choose another folder, or move what is in it",
         path.display()
     )]
     NoList {

@@ -34,7 +34,7 @@ fn a_folder_with_files_of_others_is_not_replaced() {
             fs::remove_file(out.join(name)).unwrap();
         }
         // As it was written before there were lists.
-        fail_in(dir.path(), 2, &again, &["`out`", "no list", "delete this one"]);
+        fail_in(dir.path(), 2, &again, &["`out`", "no list", "move what is in it"]);
         fs::remove_dir_all(&out).unwrap();
     }
 }
