@@ -52,6 +52,8 @@ fn seeds() -> Vec<(&'static str, Vec<u8>)> {
         ("png alpha", encoded(&alpha, ImageFormat::Png)),
         ("jpeg grey", encoded(&grey, ImageFormat::Jpeg)),
         ("jpeg colour", encoded(&colour, ImageFormat::Jpeg)),
+        ("jpeg progressive", pictured("grey_progressive")),
+        ("jpeg restarts", pictured("restarts")),
         ("bmp grey", encoded(&grey, ImageFormat::Bmp)),
         ("bmp colour", encoded(&colour, ImageFormat::Bmp)),
         ("pgm", encoded(&grey, ImageFormat::Pnm)),
@@ -66,6 +68,12 @@ fn seeds() -> Vec<(&'static str, Vec<u8>)> {
                 .to_vec(),
         ),
     ]
+}
+
+/// A JPEG of the folder of pictures.
+fn pictured(name: &str) -> Vec<u8> {
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures");
+    std::fs::read(folder.join(name).with_extension("jpg")).unwrap()
 }
 
 fn word(value: u32) -> u16 {
