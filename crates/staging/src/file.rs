@@ -62,7 +62,7 @@ fn followed(path: &Path) -> PathBuf {
 /// A new file is as readable as what other programs write.
 fn create(place: &Path, contents: &[u8]) -> io::Result<()> {
     const MODE: u32 = 0o666;
-    filled(place, contents, MODE)?.persist(place).map(drop).map_err(|error| plain(error.error))
+    filled(place, contents, MODE)?.persist(place).map(drop).map_err(|error| plain(&error.error))
 }
 
 /// A file that is there keeps what it is to others. Where that takes its own place on the disk, it is written over.
@@ -76,7 +76,7 @@ fn replace(place: &Path, contents: &[u8], earlier: &fs::Metadata) -> io::Result<
         Ok(Some(beside)) => match beside.persist(place) {
             Ok(_) => Ok(()),
             Err(error) if is_refused(&error.error) => write_over(place, contents),
-            Err(error) => Err(plain(error.error)),
+            Err(error) => Err(plain(&error.error)),
         },
         Ok(None) => write_over(place, contents),
         Err(error) if is_refused(&error) => write_over(place, contents),
@@ -100,7 +100,7 @@ fn filled(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile>
     #[cfg(not(unix))]
     let _ = mode;
     loop {
-        let mut beside = builder.tempfile_in(folder).map_err(plain)?;
+        let mut beside = builder.tempfile_in(folder).map_err(|error| plain(&error))?;
         // Where files cannot be locked nobody removes it either.
         let _ = beside.as_file().lock();
         if is_same_file(beside.as_file(), beside.path()) {

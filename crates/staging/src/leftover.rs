@@ -105,7 +105,8 @@ fn remove_file(path: &Path) {
     }
 }
 
-#[cfg(all(test, unix))]
+#[cfg(unix)]
+#[cfg(test)]
 mod tests {
     use super::*;
     use crate::lock::LOCK;

@@ -30,7 +30,7 @@ impl LockedFolder {
         builder.prefix(prefix).rand_bytes(LETTERS);
         #[cfg(unix)]
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
-        let root = builder.tempdir_in(parent).map_err(plain)?;
+        let root = builder.tempdir_in(parent).map_err(|error| plain(&error))?;
         let mut lock = File::create_new(root.path().join(LOCK))?;
         // It waits for whoever is just looking. Where files cannot be locked nobody takes this for a leftover, because nobody
         // gets the lock.
@@ -88,7 +88,7 @@ impl Drop for LockedFolder {
 }
 
 /// The error of a temporary file names that file, which nobody has asked for.
-pub(crate) fn plain(error: io::Error) -> io::Error {
+pub(crate) fn plain(error: &io::Error) -> io::Error {
     let inner = error.get_ref().and_then(|inner| inner.source());
     let code = error.raw_os_error().or_else(|| {
         inner.and_then(|inner| inner.downcast_ref::<io::Error>()).and_then(io::Error::raw_os_error)
