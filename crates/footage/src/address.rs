@@ -11,6 +11,8 @@ use std::path::Path;
 
 /// What stands in place of a secret.
 const HIDDEN: &str = "***";
+/// What stands behind the scheme of an address of which no part may be shown.
+const HIDDEN_ADDRESS: &str = "://***";
 /// Secrets from this length on are replaced wherever they stand, shorter ones where they are words.
 const LONG: usize = 4;
 
@@ -55,11 +57,14 @@ impl Address {
         if let Some((user, host)) = rest.rsplit_once('@') {
             found.push(user.to_owned());
             found.extend(user.split(':').map(str::to_owned));
-            // A password that holds a separator may pass for the end of the host.
             found.extend(user.split_once(':').map(|(_, password)| password.to_owned()));
             found.extend(values(host));
         }
         found.extend(values(rest));
+        if self.shown().ends_with(HIDDEN_ADDRESS) {
+            // Any part may be one of a password, and ffmpeg may repeat it alone.
+            found.extend(rest.split([':', '/', '?', '#', '@', '&', '=', ';']).map(str::to_owned));
+        }
         let decoded: Vec<String> = found.iter().map(|secret| percent_decoded(secret)).collect();
         found.extend(decoded);
         found.retain(|secret| !secret.is_empty());
@@ -119,7 +124,7 @@ fn shown_url(url: &str) -> String {
     let (authority, after) = rest.split_at(rest.find(['/', '?', '#']).unwrap_or(rest.len()));
     let host = authority.rsplit_once('@').map_or(authority, |(_, host)| host);
     if after.contains('@') || !has_plain_port(host) {
-        return format!("{scheme}://{HIDDEN}");
+        return format!("{scheme}{HIDDEN_ADDRESS}");
     }
     let (path, more) = after.split_at(after.find(['?', '#']).unwrap_or(after.len()));
     let segments: Vec<String> = path.split('/').map(hidden_value).collect();
