@@ -7,7 +7,11 @@ use std::path::Path;
 use foveate_frame::Frame;
 
 use crate::extension::is_image_name;
-use crate::input::{self, SkippedInput, expand, is_special, same_number, sentences};
+use crate::input::{
+    EntryKind, SkippedInput, entries, entry_kind, expand, in_clip, in_set, is_pattern, is_special,
+    same_number, sentences, skipped_by_pattern,
+};
+use crate::plan::tree;
 use crate::sets::{cifar, idx};
 use crate::source::files::ImageFile;
 use crate::{ImagesAs, InputOptions, picture};
@@ -17,7 +21,7 @@ use crate::{ImagesAs, InputOptions, picture};
 pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let mut said = Vec::new();
     for input in inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input)) {
-        said.extend(sentences(input, &input::skipped(input, options.images)));
+        said.extend(sentences(input, &skipped_of(input, options.images)));
         let files = expand(input, options.images).unwrap_or_default();
         said.extend(twice(&files, options.images));
         if options.labels.is_none() {
@@ -37,14 +41,33 @@ pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<Strin
 #[must_use]
 pub fn skipped<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<SkippedInput> {
     let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
-    inputs.flat_map(|input| input::skipped(input, options.images)).collect()
+    inputs.flat_map(|input| skipped_of(input, options.images)).collect()
+}
+
+/// The entries of an input that are not read. An input that cannot be read at all has none.
+fn skipped_of(input: &Path, images: ImagesAs) -> Vec<SkippedInput> {
+    let mut found = Vec::new();
+    if input.is_dir() {
+        let listed = entries(input).unwrap_or_default();
+        let has_images = listed.iter().any(|path| entry_kind(path) == EntryKind::Image);
+        match images {
+            ImagesAs::Set => in_set(&listed, 0, &mut found),
+            _ if has_images => in_clip(&listed, &mut found),
+            _ => found = tree(input).map(|tree| tree.skipped).unwrap_or_default(),
+        }
+    } else if !input.exists()
+        && let Some(text) = input.to_str().filter(|text| is_pattern(text))
+    {
+        found = skipped_by_pattern(text);
+    }
+    found
 }
 
 /// What is said of [`skipped`] entries: a sentence for each reason, with how many there are and one of them.
 #[must_use]
 pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
-    inputs.flat_map(|input| sentences(input, &input::skipped(input, options.images))).collect()
+    inputs.flat_map(|input| sentences(input, &skipped_of(input, options.images))).collect()
 }
 
 /// Two frames of a clip with one number.

@@ -8,14 +8,17 @@ mod content;
 mod entry;
 mod find;
 mod pattern;
+mod reason;
 mod skipped;
 mod sniff;
 
 pub(crate) use content::other_image;
 pub(crate) use entry::{EntryKind, entries, entry_kind};
 pub(crate) use find::expand;
-pub use skipped::{SkipReason, SkippedInput};
-pub(crate) use skipped::{below, in_clip, same_number, sentences, skipped, unreadable};
+pub(crate) use pattern::{is_pattern, skipped_by_pattern};
+pub use reason::{SkipReason, SkippedInput};
+pub(crate) use reason::{same_number, sentences};
+pub(crate) use skipped::{below, in_clip, in_set, unreadable};
 
 use std::io::BufReader;
 use std::path::{Path, PathBuf};

@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use super::content::{Content, content};
-use super::skipped::SkipReason;
+use super::reason::SkipReason;
 use crate::FootageError;
 use crate::extension::{is_image_name, is_note, is_other_video, is_video_name, other_image};
 use crate::natural_order;

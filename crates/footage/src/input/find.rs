@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use super::entry::{EntryKind, entries, entry_kind};
 use super::pattern::{is_pattern, pattern};
-use super::skipped::SkipReason;
+use super::reason::SkipReason;
 use super::sniff::{self, FileKind};
 use crate::address::shown_input;
 use crate::extension::is_image_name;
@@ -22,7 +22,7 @@ pub(crate) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, F
         };
     }
     if input.exists() {
-        return Ok(vec![plain(input.to_owned())]);
+        return Ok(vec![ImageFile::plain(input.to_owned())]);
     }
     match input.to_str() {
         Some(text) if is_url(text) => Err(FootageError::Url { url: shown_input(input) }),
@@ -55,15 +55,16 @@ pub(super) fn split(
     Ok((images, others))
 }
 
-pub(super) fn plain(path: PathBuf) -> ImageFile {
-    ImageFile { path, label: None }
-}
-
 /// The images of a folder, or the one clip that it holds.
 fn folder(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     let files = entries(path)?;
     let of = |kind: EntryKind| -> Vec<ImageFile> {
-        files.iter().filter(|path| entry_kind(path) == kind).cloned().map(plain).collect()
+        files
+            .iter()
+            .filter(|path| entry_kind(path) == kind)
+            .cloned()
+            .map(ImageFile::plain)
+            .collect()
     };
     let (images, clips) = (of(EntryKind::Image), of(EntryKind::Video));
     match (images.as_slice(), clips.as_slice()) {
@@ -100,7 +101,7 @@ fn labelled(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     let entries_here = entries(path)?;
     let is = |kind: EntryKind| move |path: &&PathBuf| entry_kind(path) == kind;
     let mut files: Vec<ImageFile> =
-        entries_here.iter().filter(is(EntryKind::Image)).cloned().map(plain).collect();
+        entries_here.iter().filter(is(EntryKind::Image)).cloned().map(ImageFile::plain).collect();
     let mut all = entries_here.clone();
     for class in entries_here.iter().filter(is(EntryKind::Folder)) {
         let label = class.file_name().map(|name| name.to_string_lossy().into_owned());

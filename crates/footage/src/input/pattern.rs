@@ -7,8 +7,8 @@ use std::path::PathBuf;
 use glob::{MatchOptions, Pattern};
 
 use super::entry::{EntryKind, entry_kind, in_order};
-use super::find::plain;
-use super::skipped::{self, SkipReason, SkippedInput};
+use super::reason::{SkipReason, SkippedInput};
+use super::skipped::in_clip;
 use crate::FootageError;
 use crate::source::files::ImageFile;
 
@@ -45,7 +45,7 @@ pub(super) fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
                 .display()
                 .to_string(),
         }),
-        ([_, ..], []) => Ok(images.into_iter().cloned().map(plain).collect()),
+        ([_, ..], []) => Ok(images.into_iter().cloned().map(ImageFile::plain).collect()),
     }
 }
 
@@ -60,10 +60,10 @@ fn no_match(text: &str, files: &[PathBuf]) -> FootageError {
 }
 
 /// What a pattern names that is not read.
-pub(super) fn skipped(text: &str) -> Vec<SkippedInput> {
+pub(crate) fn skipped_by_pattern(text: &str) -> Vec<SkippedInput> {
     let Ok(files) = matches(text, true) else { return Vec::new() };
     let mut found = Vec::new();
-    skipped::in_clip(&files, &mut found);
+    in_clip(&files, &mut found);
     let own: HashSet<&PathBuf> = files.iter().collect();
     let others = matches(text, false).unwrap_or_default();
     let others =

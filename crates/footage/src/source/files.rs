@@ -18,6 +18,13 @@ pub(crate) struct ImageFile {
     pub(crate) label: Option<String>,
 }
 
+impl ImageFile {
+    /// A file without a label.
+    pub(crate) fn plain(path: PathBuf) -> Self {
+        Self { path, label: None }
+    }
+}
+
 /// Image files in a given order.
 pub(crate) struct ImageFiles {
     files: std::vec::IntoIter<ImageFile>,
