@@ -86,7 +86,7 @@ fn ctrl_c_leaves_a_set_that_can_be_read() {
     let started = || {
         let mut entries = fs::read_dir(dir.path()).unwrap().map(|entry| entry.unwrap().path());
         let hidden = entries.find(|path| path.is_dir())?;
-        (fs::metadata(hidden.join("long-images")).ok()?.len() > 1000).then_some(())
+        (fs::metadata(hidden.join("work/long-images")).ok()?.len() > 1000).then_some(())
     };
     while started().is_none() {
         std::thread::sleep(std::time::Duration::from_millis(5));

@@ -296,7 +296,7 @@ fn an_interrupted_run_leaves_whole_outputs_and_a_page_that_says_so() {
         .unwrap();
     let begun = || {
         let mut entries = fs::read_dir(dir.path()).unwrap().flatten();
-        entries.any(|entry| entry.path().join("outputs/clean/000002.png").exists())
+        entries.any(|entry| entry.path().join("work/outputs/clean/000002.png").exists())
     };
     let patience = std::time::Instant::now() + std::time::Duration::from_secs(120);
     while !begun() && std::time::Instant::now() < patience {

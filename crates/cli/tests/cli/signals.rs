@@ -50,7 +50,7 @@ pub(crate) fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
 /// Whether a folder that is in the making below `folder` holds this file.
 fn has(folder: &Path, file: &str) -> bool {
     let entries = fs::read_dir(folder).unwrap().flatten();
-    entries.filter(|e| e.path().is_dir()).any(|entry| entry.path().join(file).exists())
+    entries.filter(|e| e.path().is_dir()).any(|entry| entry.path().join("work").join(file).exists())
 }
 
 fn problem(folder: &Path) -> (bool, String) {
@@ -200,7 +200,7 @@ fn a_signal_to_the_whole_job_leaves_what_was_done() {
         wait_for("frames", || {
             let entries = fs::read_dir(dir.path()).unwrap().flatten();
             entries
-                .map(|e| e.path().join("srs.npy"))
+                .map(|e| e.path().join("work/srs.npy"))
                 .any(|p| p.metadata().is_ok_and(|m| m.len() > 50_000))
         });
         let below = Command::new("pgrep").args(["-P", &child.id().to_string()]).output().unwrap();

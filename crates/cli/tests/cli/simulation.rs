@@ -86,7 +86,7 @@ fn ctrl_c_leaves_what_was_done() {
     // The hidden folder has its first picture when the first frame is done.
     let done = || {
         let hidden = fs::read_dir(dir.path()).unwrap().next()?.ok()?.path();
-        hidden.join("rendered/000001.png").exists().then_some(())
+        hidden.join("work/rendered/000001.png").exists().then_some(())
     };
     while done().is_none() {
         std::thread::sleep(std::time::Duration::from_millis(20));
