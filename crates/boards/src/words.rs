@@ -10,7 +10,7 @@ const WORD: usize = 64;
 const LINE: usize = 200;
 const CHANGE: usize = 1000;
 
-/// What a text is.
+/// The form that a text must have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
     /// A name, a pin, a level.
@@ -50,7 +50,7 @@ pub(crate) fn check(file: &Table) -> Result<(), String> {
 /// Checks the name of a board, which is that of its file and of its bitstream.
 ///
 /// # Errors
-/// What is wrong, and what would be right.
+/// The fault in a text, and the form that would be right.
 pub(crate) fn check_name(name: &str) -> Result<(), String> {
     Form::Word.check(name).map_err(|right| {
         format!("its name is that of its bitstream, in scripts: {right}; rename the file")
@@ -78,7 +78,7 @@ fn check_value(path: &str, key: &str, value: &Value) -> Result<(), String> {
 
 impl Form {
     /// # Errors
-    /// What would be right.
+    /// The form that would be right.
     fn check(self, text: &str) -> Result<(), String> {
         let most = match self {
             Self::Word | Self::Part => WORD,

@@ -39,7 +39,7 @@ run() {
     exit 1
 }
 
-# What this script makes, by its names: what else is in the folder belongs to somebody else.
+# The names of the files that this script makes. Any other file of the folder belongs to somebody else.
 made() {
     for file in build/yosys.log build/board.json build/seed[0-9]*.* build/clocks build/sorted build/pack.log build/report.json \
         build/packed {= bitstream =}; do

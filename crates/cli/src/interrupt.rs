@@ -32,7 +32,7 @@ pub(crate) struct DeafError {
     reason: String,
 }
 
-/// What was heard, and what it means to the command.
+/// The signals so far, and their meaning for the command.
 struct Heard {
     /// The first signal, and when it came.
     first: Option<(i32, Instant)>,

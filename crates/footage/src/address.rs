@@ -9,9 +9,9 @@
 use std::fmt;
 use std::path::Path;
 
-/// What stands in place of a secret.
+/// The text in place of a secret.
 const HIDDEN: &str = "***";
-/// What stands behind the scheme of an address of which no part may be shown.
+/// The text behind the scheme of an address of which no part may be shown.
 const HIDDEN_ADDRESS: &str = "://***";
 /// Secrets from this length on are replaced wherever they stand, shorter ones where they are words.
 const LONG: usize = 4;
@@ -41,7 +41,7 @@ impl Address {
         shown_url(&self.url)
     }
 
-    /// What ffmpeg says, without the secrets of this address, as it was given or percent-decoded.
+    /// A message of ffmpeg without the secrets of this address, as it was given or percent-decoded.
     pub(crate) fn redact(&self, said: &str) -> String {
         let mut text = said.replace(&self.url, &self.shown());
         for secret in self.secrets() {

@@ -63,7 +63,7 @@ fn skipped_of(input: &Path, images: ImagesAs) -> Vec<SkippedInput> {
     found
 }
 
-/// What is said of [`skipped`] entries: a sentence for each reason, with how many there are and one of them.
+/// The [`skipped`] entries in words: a sentence for each reason, with how many there are and one of them.
 #[must_use]
 pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));

@@ -88,7 +88,7 @@ pub fn plan<P: AsRef<Path>>(
     Ok(ClipPlan::Batch(clips))
 }
 
-/// What to say of folders without a clip.
+/// The error of folders without a clip.
 fn no_clip(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
     let other = skipped.into_iter().find_map(|one| match one.reason {
         SkipReason::ImageType { name } => Some(FootageError::ImageType { path: one.path, name }),

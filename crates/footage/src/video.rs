@@ -103,7 +103,7 @@ pub(crate) struct Video {
     medium: Medium,
     decoder: Decoder,
     total: Option<u64>,
-    /// Of its coded frames, as far as is known.
+    /// The number of its coded frames, as far as is known.
     pixel_format: String,
     interrupt: Interrupt,
     bits: u32,

@@ -4,7 +4,7 @@
 /// Text inside a comment, which two hyphens would end.
 pub(crate) fn comment(text: &str) -> String {
     let mut text = text.to_owned();
-    // Of three hyphens two are left after the first turn.
+    // The first turn leaves two of three hyphens.
     while text.contains("--") {
         text = text.replace("--", "- -");
     }

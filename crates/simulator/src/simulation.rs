@@ -134,7 +134,7 @@ enum End {
     Cancelled,
 }
 
-/// What a summary says of a run that found no room for one of its files in `folder`.
+/// The problem in the summary of a run that found no room for one of its files in `folder`.
 pub(crate) fn full(error: &SimulatorError, frames: u64, folder: &Path) -> String {
     let file = error.path().map(|path| path.strip_prefix(folder).unwrap_or(path));
     let at = file.map(|file| format!(", at {}", file.display())).unwrap_or_default();

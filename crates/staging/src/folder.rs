@@ -10,7 +10,7 @@ use crate::leftover::{EARLIER, partial, restore, sweep_once};
 use crate::list::{self, FileList, some_of};
 use crate::lock::LockedFolder;
 
-/// What kind of folder is written, to recognize one that may be replaced. Whatever it is, it is replaced only if every file in it
+/// The kind of folder that is written, to recognize one that may be replaced. A folder of any kind is replaced only if every file in it
 /// is on its list, `.foveate`, and unchanged.
 #[derive(Clone, Copy, Debug)]
 pub struct FolderKind {
@@ -90,7 +90,7 @@ impl StagedFolder {
         }
     }
 
-    /// What a program said, with such paths as the user will know them.
+    /// The message of a program, with paths as the user will know them.
     #[must_use]
     pub fn shown_text(&self, text: &str) -> String {
         text.replace(&*self.folder().to_string_lossy(), &self.given.to_string_lossy())

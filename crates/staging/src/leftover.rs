@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What processes that were killed have left beside what they wrote. The next command that writes there removes it, if its lock
-//! says that its process is gone and if it belongs to the same user.
+//! The leftovers of killed processes, beside the files that they wrote. The next command that writes there removes a leftover if its
+//! lock says that its process is gone and if it belongs to the same user.
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -15,7 +15,7 @@ use crate::lock::{LETTERS, LockedFolder, is_own, is_same_file};
 pub const TEMPORARY: &str = ".foveate-";
 /// How the names of folders for intermediate results begin.
 pub(crate) const SCRATCH: &str = "foveate-";
-/// What stands between the name of an output folder and the letters, while it is written.
+/// The part between the name of an output folder and the letters, while the folder is written.
 const PARTIAL: &str = ".partial-";
 /// The folder that is being replaced, beside the work.
 pub(crate) const EARLIER: &str = "earlier";
@@ -53,7 +53,7 @@ fn sweep(folder: &Path) {
     }
 }
 
-/// What a name says of a leftover.
+/// The kind of a leftover by its name.
 #[derive(Debug, PartialEq)]
 enum Leftover {
     File,
@@ -94,7 +94,7 @@ pub(crate) fn restore(left: &LockedFolder, target: &Path) {
     }
 }
 
-/// Whoever writes a temporary file holds its lock.
+/// A temporary file is locked by the process that writes it.
 fn remove_file(path: &Path) {
     if !fs::symlink_metadata(path).is_ok_and(|about| about.is_file() && is_own(&about)) {
         return;

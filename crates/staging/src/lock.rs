@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 /// The file that is locked.
 pub(crate) const LOCK: &str = ".foveate-lock";
-/// What the lock holds: a folder without it is not ours.
+/// The text in the lock. A folder without it is not ours.
 const MAGIC: &[u8] = b"Foveate works in this folder while this file is locked.\n";
 /// Where the work is.
 const WORK: &str = "work";
@@ -54,7 +54,7 @@ impl LockedFolder {
         lock.try_lock().ok()?;
         let mut text = Vec::new();
         (&lock).take(MAGIC.len() as u64 + 1).read_to_end(&mut text).ok()?;
-        // Who held it may have removed it while we opened it.
+        // Its holder may have removed it while we opened it.
         let is_same = is_same_file(&lock, &path);
         (text == MAGIC && is_same).then(|| Self {
             root: root.to_owned(),
@@ -77,7 +77,7 @@ impl LockedFolder {
 impl Drop for LockedFolder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.work);
-        // What else is in it stays, and the lock with it, so that the next run sees to it.
+        // Other files in it stay, and the lock with them, so that the next run sees to them.
         let others = fs::read_dir(&self.root).into_iter().flatten().flatten();
         if others.filter(|entry| entry.file_name() != LOCK).count() == 0 {
             let _ = fs::remove_file(self.root.join(LOCK));

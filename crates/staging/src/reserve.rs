@@ -16,7 +16,7 @@ impl Reserve {
     #[must_use]
     pub fn new(folder: &Path, name: &str, bytes: u64) -> Self {
         let reserve = Self { path: folder.join(name) };
-        // What cannot be taken is no loss: the end is then tried without.
+        // Room that cannot be taken is no loss: the end is then tried without it.
         let _ = fill(&reserve.path, bytes);
         reserve
     }

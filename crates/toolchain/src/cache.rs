@@ -117,7 +117,7 @@ impl Cache {
     /// remains but the log of the failure, in a cache that lasts.
     ///
     /// # Errors
-    /// Those of `build`, or that the folder cannot be written, or that somebody else can write to it.
+    /// The errors of `build`; when the folder cannot be written, or somebody else can write to it.
     pub fn get_or_build(
         &self,
         key: &Key,

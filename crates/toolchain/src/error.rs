@@ -181,7 +181,7 @@ pub enum ToolError {
         path: PathBuf,
         /// The reason.
         source: std::io::Error,
-        /// What to do.
+        /// The remedy.
         advice: &'static str,
     },
 
@@ -190,7 +190,7 @@ pub enum ToolError {
     Untrusted {
         /// The folder of the cache.
         path: PathBuf,
-        /// Who can write where.
+        /// The user or group that can write, and the folder.
         reason: String,
         /// What to do.
         advice: String,

@@ -60,7 +60,7 @@ impl fmt::Debug for Interrupt {
     }
 }
 
-/// What a read or write returns that an interrupt has ended. Its kind is not [`io::ErrorKind::Interrupted`], after
+/// The error of a read or write that an interrupt has ended. Its kind is not [`io::ErrorKind::Interrupted`], after
 /// which the standard library tries again.
 pub(crate) fn interrupted() -> io::Error {
     io::Error::other("interrupted")

@@ -116,7 +116,7 @@ impl<S: Site> Shared<S> {
             if admitted.is_ok() {
                 place.admit();
             }
-            // Whoever does not know the link is told so once.
+            // A browser without the token is told so once.
             let is_stranger = admitted.is_err();
             let answer = admitted.map_or_else(
                 |refusal| refusal,

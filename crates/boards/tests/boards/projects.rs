@@ -160,7 +160,7 @@ fn a_script_whose_tools_fail_says_so() {
     tool("other", clocks);
     let (code, said) = run(&other, &fine, "3");
     assert!(code == 0 && said.contains("core: 30.00 MHz (seed 3, packed)"), "{code}: {said}");
-    // What a script makes is listed, whatever its end, and nothing of others goes.
+    // A script lists the files that it makes, whatever its end, and removes no file of others.
     fs::write(folder.join("build/mine.txt"), "mine").unwrap();
     let (code, _) = run(&full, &fine, "1");
     assert_eq!(code, 1);

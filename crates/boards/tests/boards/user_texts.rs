@@ -137,7 +137,7 @@ impl Written {
     }
 }
 
-/// What differs between a project and one whose file has a hostile text is text in comments and in its page.
+/// A project and one whose file has a hostile text differ only in comments and in the page of the project.
 fn differs_in_words_alone(project: &Project, benign: &BTreeMap<String, String>, data: &str) {
     let files = files(project);
     assert!(files.keys().eq(benign.keys()));

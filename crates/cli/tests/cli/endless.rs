@@ -105,9 +105,10 @@ fn every_argument_that_names_a_file_is_tried() {
     let found = arguments_that_are_read(&fs::read_to_string(page).unwrap());
     let tried = CALLS.iter().map(|(command, argument, _)| (*command, *argument));
     let tried: BTreeSet<_> = tried.chain(STREAMS.iter().copied()).collect();
-    let tried =
-        tried.into_iter().map(|(command, argument)| (command.to_owned(), argument.to_owned()));
-    assert_eq!(found, tried.collect(), "each needs a call in CALLS, or a reason to be in STREAMS");
+    let is_tried = |one: &(String, String)| tried.contains(&(one.0.as_str(), one.1.as_str()));
+    let missing: Vec<_> = found.iter().filter(|one| !is_tried(one)).collect();
+    assert!(found.len() > 20, "the page is read wrongly: {found:?}");
+    assert!(missing.is_empty(), "{missing:?} need a call in CALLS, or a reason to be in STREAMS");
 }
 
 /// Files that calls name beside the endless one.

@@ -137,7 +137,7 @@ fn frames_are_kept_whatever_is_written_beside_them() {
         assert!(frames > 0, "{args}: {said}");
         let table = fs::read_to_string(out.join("frames.csv")).unwrap();
         assert_eq!(table.lines().count(), frames + 1, "{args}");
-        // What is there is whole, and what is not is named.
+        // Every file that is there is whole, and every file that is missing is named.
         let problem = summary["problem"].as_str().unwrap();
         for name in ["rendered", "overlay"] {
             let pictures = out.join(name);

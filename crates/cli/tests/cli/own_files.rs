@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What belongs to somebody else survives every command that writes a folder or a file. The commands come from the help of the
+//! Files of others survive every command that writes a folder or a file. The commands come from the help of the
 //! program, so that a new one is in the list, or this fails.
 
 use std::collections::BTreeSet;
@@ -269,7 +269,7 @@ fn a_file_that_is_replaced_keeps_its_mode() {
     }
 }
 
-/// What a killed run has left goes with the next one that writes beside it; that of a living one stays.
+/// The next run that writes beside them removes the leftovers of a killed run, and leaves those of a living one.
 #[cfg(target_os = "linux")]
 #[test]
 fn the_next_run_removes_what_a_killed_one_left() {

@@ -108,5 +108,7 @@ fn edited_serial_verilog_is_caught_and_replayed() {
         let text = fs::read_to_string(&broken).unwrap();
         fs::write(&broken, text.replace("score_o > minimum", "score_o >= minimum")).unwrap();
         assert_eq!(again("iverilog").status.code(), Some(0), "{simulator}");
+        // The next run would not replace a replay that was edited.
+        fs::remove_dir_all(&replay).unwrap();
     }
 }

@@ -48,7 +48,7 @@ pub(crate) fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
 }
 
 /// Whether a folder that is in the making below `folder` holds this file.
-fn has(folder: &Path, file: &str) -> bool {
+pub(crate) fn has(folder: &Path, file: &str) -> bool {
     let entries = fs::read_dir(folder).unwrap().flatten();
     entries.filter(|e| e.path().is_dir()).any(|entry| entry.path().join("work").join(file).exists())
 }

@@ -117,7 +117,7 @@ fn every_command_says_what_it_leaves_out_of_a_folder() {
         );
         assert_told(&told(&outcome.stderr), &OF_MIXED);
     }
-    // What it says comes before the search for tools.
+    // The warning comes before the search for tools.
     for args in [&["fit", "clip"][..], &["link", "clip", "-o", "out"], &["cosim", "clip"]] {
         let bare = foveate(&[args, if args[0] == "cosim" { &few } else { &[] }].concat())
             .current_dir(dir.path())

@@ -15,7 +15,7 @@ use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
 
 use crate::common::listening;
-use crate::signals::{SIGNALS, ended, kill, wait_for};
+use crate::signals::{SIGNALS, ended, has, kill, wait_for};
 
 /// Longer than the program may take, for a machine that does much else.
 const PATIENCE: Duration = Duration::from_secs(4);
@@ -139,7 +139,7 @@ fn stream(frames: usize) -> Vec<u8> {
 
 fn has_frames(folder: &Path, frames: usize) -> bool {
     let picture = format!("rendered/{:06}.png", frames - 1);
-    fs::read_dir(folder).unwrap().flatten().any(|entry| entry.path().join(&picture).exists())
+    has(folder, &picture)
 }
 
 const STALLED: &str = "exec sleep 600";
@@ -190,10 +190,7 @@ fn frames_before_an_ffmpeg_that_stalls_are_kept_and_so_are_finished_clips() {
     batch.clips(&["a.mkv", "b.mkv", "c.mkv"]);
     let clips = ["simulate", "a.mkv", "b.mkv", "c.mkv", "-o", "out", "--threads", "2"];
     let child = batch.start(&clips);
-    let done = |name: &str| {
-        let inside = |entry: fs::DirEntry| entry.path().join(name).join("summary.json").exists();
-        fs::read_dir(batch.dir.path()).unwrap().flatten().any(inside)
-    };
+    let done = |name: &str| has(batch.dir.path(), &format!("{name}/summary.json"));
     wait_for("clips", || done("a") && done("c"));
     batch.stopped(child, "TERM", 143);
     let whole = summary(&batch.at("out"));

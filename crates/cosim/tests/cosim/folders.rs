@@ -101,7 +101,7 @@ fn a_passing_run_leaves_no_earlier_replay() {
     assert_eq!(names(&output).len(), 4);
 }
 
-/// What a user adds to a replay, or changes in it, stays; what its script makes goes with it.
+/// A file that a user adds to a replay, or changes in it, stays; files that its script makes go with it.
 #[test]
 fn a_replay_in_which_somebody_works_stays() {
     if !require_tools(SIMULATOR.tools()) {

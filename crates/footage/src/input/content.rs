@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the first bytes of a file say of it, whatever its name.
+//! The kind of a file by its first bytes, whatever its name.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -13,7 +13,7 @@ use crate::y4m;
 /// Bytes that are looked at.
 const START: u64 = 512;
 
-/// What a file begins as.
+/// The kind of file that the first bytes belong to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Content {
     /// An image that is read.
@@ -57,7 +57,7 @@ pub(crate) fn other_image(start: &[u8]) -> Option<&'static str> {
     })
 }
 
-/// What a file with these first bytes is.
+/// The kind of a file with these first bytes.
 pub(crate) fn of_start(start: &[u8]) -> Content {
     if let Some(name) = other_image(start) {
         return Content::OtherImage(name);

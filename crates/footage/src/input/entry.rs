@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an entry of a folder is. One function decides it, for what is read and for what is said to be
+//! The kind of an entry of a folder. One function decides it, for entries that are read and for those that are said to be
 //! skipped.
 
 use std::fs;
@@ -12,7 +12,7 @@ use crate::FootageError;
 use crate::extension::{is_image_name, is_note, is_other_video, is_video_name, other_image};
 use crate::natural_order;
 
-/// What an entry of a folder is.
+/// The kind of an entry of a folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum EntryKind {
     Image,

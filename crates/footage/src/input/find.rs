@@ -84,7 +84,7 @@ fn folder(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     }
 }
 
-/// What to say of a folder with nothing to read: it is empty, or its images are of a type that is not read.
+/// The error of a folder with nothing to read: it is empty, or its images are of a type that is not read.
 fn no_footage(folder: &Path, files: &[PathBuf]) -> FootageError {
     let other = files.iter().find_map(|path| match entry_kind(path) {
         EntryKind::Skipped(Some(SkipReason::ImageType { name })) => Some((path, name)),

@@ -59,7 +59,7 @@ fn no_match(text: &str, files: &[PathBuf]) -> FootageError {
     other.unwrap_or_else(|| FootageError::NoMatch { pattern: text.to_owned() })
 }
 
-/// What a pattern names that is not read.
+/// The files that a pattern names and that are not read.
 pub(crate) fn skipped_by_pattern(text: &str) -> Vec<SkippedInput> {
     let Ok(files) = matches(text, true) else { return Vec::new() };
     let mut found = Vec::new();

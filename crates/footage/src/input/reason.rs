@@ -19,7 +19,7 @@ pub enum SkipReason {
     BrokenLink,
     /// A file or folder that cannot be opened.
     Unreadable {
-        /// What the system says.
+        /// The message of the system.
         problem: String,
     },
     /// A device, a pipe or a folder with the name of an image or a video.

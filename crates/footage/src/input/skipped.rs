@@ -9,7 +9,7 @@ use super::reason::{SkipReason, SkippedInput};
 use crate::FootageError;
 use crate::extension::is_image_name;
 
-/// What is skipped of the entries of a folder of images.
+/// The skipped entries of a folder of images.
 pub(crate) fn in_clip(listed: &[PathBuf], found: &mut Vec<SkippedInput>) {
     for path in listed {
         match entry_kind(path) {
@@ -25,7 +25,7 @@ pub(crate) fn in_clip(listed: &[PathBuf], found: &mut Vec<SkippedInput>) {
     }
 }
 
-/// What is skipped of the entries of a set and of its classes.
+/// The skipped entries of a set and of its classes.
 pub(crate) fn in_set(listed: &[PathBuf], depth: u32, found: &mut Vec<SkippedInput>) {
     for path in listed {
         match entry_kind(path) {

@@ -5,7 +5,7 @@
 use super::fault::PictureFault;
 use crate::limits::MAX_SIDE;
 
-/// What the header of a PNM says.
+/// The fields of the header of a PNM.
 struct Header {
     /// The digit after the `P`.
     kind: u8,

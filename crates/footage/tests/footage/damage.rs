@@ -29,7 +29,7 @@ fn jpeg(name: &str) -> Vec<u8> {
     fs::read(folder.join(name).with_extension("jpg")).unwrap()
 }
 
-/// What the reader says of bytes, if it refuses them.
+/// The message of the reader, if it refuses these bytes.
 fn problem(bytes: &[u8]) -> Option<String> {
     let error = decode(bytes, Path::new("picture"), 8).err()?;
     let expected = matches!(
@@ -214,7 +214,7 @@ fn every_byte_of_a_png_counts() {
         }
         refused(&whole[..at], "`picture`", &format!("cut to {at}"));
     }
-    // What stands behind the end chunk is no part of the picture.
+    // Bytes behind the end chunk are no part of the picture.
     assert_eq!(pixels(&[&whole[..], b"more"].concat()), pixels(&whole));
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a file may be, whatever its name says: containers are read, lists of other files are not. Pixel formats that
+//! Formats of files, whatever their names say: containers are read, lists of other files are not. Pixel formats that
 //! are rare end in frames, not in silence.
 
 use std::fs;

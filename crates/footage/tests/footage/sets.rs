@@ -81,7 +81,7 @@ fn labels_of_a_cifar_batch_are_classes() {
     let batch =
         |labels: [&[u8]; 2]| labels.map(|labels| [labels, &[40; 3072][..]].concat()).concat();
     for labels in [[&[0][..], &[9]], [&[19, 99], &[0, 0]]] {
-        // Of dark pixels and a label like a tabulator, a batch is all text.
+        // A batch of dark pixels with a label like a tabulator is all text.
         fs::write(&path, batch(labels)).unwrap();
         assert_eq!(frames(&path), Ok(2));
     }

@@ -43,7 +43,7 @@ fn forge(rng: &mut Rng, packet: &mut [u8]) {
     packet[end..].copy_from_slice(&check.to_le_bytes());
 }
 
-/// What is received of bytes, whether or not a FRAME is refused.
+/// The frames and losses that are received from bytes, whether or not a FRAME is refused.
 fn receive(layout: &Layout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<Loss>) {
     let (mut splitter, mut assembler) = (Splitter::default(), Assembler::new(layout.clone()));
     let mut frames = Vec::new();

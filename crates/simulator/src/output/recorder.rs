@@ -169,7 +169,7 @@ impl Recorder {
         {
             return Err(error);
         }
-        // What other programs write ends first: they would take the room that the rest needs.
+        // Files that other programs write end first: they would take the room that the rest needs.
         drop(self.spare.take());
         let (apart, sinks): (Vec<_>, Vec<_>) =
             std::mem::take(&mut self.sinks).into_iter().partition(|sink| sink.is_written_apart());

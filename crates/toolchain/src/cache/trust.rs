@@ -56,7 +56,7 @@ mod unix {
 
     const GROUP: u32 = 0o020;
     const ALL: u32 = 0o002;
-    /// Who is neither the owner nor root cannot rename what others have put into the folder.
+    /// A user who is neither the owner nor root cannot rename entries of others in the folder.
     const STICKY: u32 = 0o1000;
 
     /// Refuses a place without links into which others can put something. `root` is what the user calls the cache, and `is_cache`

@@ -75,7 +75,7 @@ impl<'a> BitReader<'a> {
         Ok(value)
     }
 
-    /// What it means that bits are missing: the file is cut, or a marker comes too early.
+    /// The fault behind missing bits: the file is cut, or a marker comes too early.
     fn short(&self) -> PictureFault {
         match self.marker() {
             None => PictureFault::truncated("its coded pixels end before the last row"),
@@ -101,7 +101,7 @@ impl<'a> BitReader<'a> {
 
     /// Whether the last bits that were read, as many as a full block has, are zeros.
     pub(super) fn follows_zeros(&self) -> bool {
-        /// Of 63 codes of three bits each.
+        /// The bits of 63 codes of three bits each.
         const FULL_BLOCK: usize = 23;
         let unread = self.count.div_ceil(8) as usize;
         let read = self.at.checked_sub(unread);

@@ -216,7 +216,7 @@ fn every_pixel_format_gives_its_luma_or_says_that_it_cannot() {
         }
     });
     let (exact, inexact) = (exact.into_inner().unwrap(), inexact.into_inner().unwrap());
-    // Of packed colours, palettes and numbers only that there is a picture is known.
+    // Packed colours, palettes and numbers are only known to give a picture.
     let has_luma = |name: &&String| name.starts_with("yuv") || name.starts_with("p0");
     assert_eq!(inexact.iter().find(has_luma), None);
     assert!(exact >= 100, "{exact} formats are exact, of {inexact:?} a picture is there");
