@@ -114,7 +114,9 @@ pub(super) fn allowed() -> String {
 /// The format of a file that ffmpeg has refused, by what it says of its first bytes when asked for everything.
 pub(super) fn refused(said: &str) -> Option<&str> {
     let (_, rest) = said.split_once("] Format ").or_else(|| said.split_once("Format "))?;
-    rest.split_once(" probed with ").map(|(name, _)| name)
+    // The second follows where the first bytes are hardly enough for a guess.
+    let ends = [" probed with ", " detected only with "];
+    ends.into_iter().find_map(|end| rest.split_once(end)).map(|(name, _)| name)
 }
 
 /// Whether ffmpeg has refused a file because of the list.
@@ -169,6 +171,9 @@ mod tests {
         let said = "[hls @ 0x5a] Format hls probed with size=2048 and score=100\n[hls @ 0x5a] Format not on whitelist 'mov'";
         assert!(is_refusal(said));
         assert_eq!(refused(said), Some("hls"));
+        let said =
+            "[tty @ 0x1] Format tty detected only with low score of 1, misdetection possible!\n";
+        assert_eq!(refused(said), Some("tty"));
         assert_eq!(refused("Format not on whitelist 'mov'"), None);
     }
 }
