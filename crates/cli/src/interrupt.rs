@@ -16,7 +16,7 @@ use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::iterator::Signals;
 use thiserror::Error;
 
-use crate::output;
+use crate::notice;
 
 /// What shells add to the number of the signal that ended a program.
 const OF_SIGNALS: i32 = 128;
@@ -96,7 +96,7 @@ fn hear(signal: i32) {
             heard.first = Some((signal, Instant::now()));
             REQUEST.flag().store(true, Ordering::Relaxed);
             if !heard.has_results {
-                output::say("interrupted; nothing was written");
+                notice::say("interrupted; nothing was written");
                 exit(signal);
             }
         }

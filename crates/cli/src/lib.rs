@@ -11,6 +11,7 @@ mod command;
 mod error;
 mod hint;
 mod interrupt;
+mod notice;
 mod output;
 mod progress;
 mod serving;
@@ -30,14 +31,14 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
         Ok(cli) => cli,
         Err(error) => {
             let error = hint::with_hint(error);
-            output::usage(&error);
+            notice::usage(&error);
             return u8::try_from(error.exit_code()).expect("clap ends with 0 or 2");
         }
     };
     let code = match run_command(&cli, &words) {
         Ok(()) => 0,
         Err(error) => {
-            output::say(&error);
+            notice::say(&error);
             error.exit_code()
         }
     };

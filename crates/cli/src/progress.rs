@@ -12,7 +12,7 @@ use std::time::{Duration, Instant};
 
 use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
 
-use crate::output::printable;
+use crate::notice::printable;
 use lines::Lines;
 use stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, WORK, locked};
 

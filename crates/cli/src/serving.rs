@@ -7,7 +7,7 @@ use std::thread::sleep;
 use std::time::Duration;
 
 use crate::error::CliError;
-use crate::{interrupt, output};
+use crate::{interrupt, notice, output};
 
 /// Between two looks at what there is to say.
 const LOOK: Duration = Duration::from_millis(50);
@@ -32,7 +32,7 @@ impl Serving {
         output::text(&format!("{link}\n"))?;
         while !self.interrupted.load(Ordering::Relaxed) {
             for text in news() {
-                output::say(&text);
+                notice::say(&text);
             }
             sleep(LOOK);
         }

@@ -9,7 +9,7 @@ use foveate_footage::{
 };
 
 use super::at_least_one;
-use crate::{interrupt, output};
+use crate::{interrupt, notice};
 
 /// How inputs are read.
 #[derive(Args, Debug)]
@@ -55,7 +55,7 @@ pub(crate) enum ImagesChoice {
 /// Says what the user should know of inputs that can be read, but perhaps not as was meant.
 pub(crate) fn warn_of<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) {
     for sentence in advice(inputs, options) {
-        output::warn(&sentence);
+        notice::warn(&sentence);
     }
 }
 

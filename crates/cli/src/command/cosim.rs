@@ -17,7 +17,7 @@ use serde::Serialize;
 use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
-use crate::{interrupt, output};
+use crate::{interrupt, notice, output};
 use end_to_end::{EndToEnd, Trip};
 use plan::{Plan, Work};
 
@@ -59,7 +59,7 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
         Verdict::Incomplete => incomplete(&summary),
     };
     if let Err(error) = written {
-        output::say(&error);
+        notice::say(&error);
     }
     Err(CliError::Failed(complaint))
 }
@@ -128,7 +128,7 @@ fn told_to_ci<T>(
 ) -> Result<T, CosimError> {
     result.inspect_err(|error| {
         if let Err(second) = write_junit(args, &junit_error(name, &error.to_string())) {
-            output::say(&second);
+            notice::say(&second);
         }
     })
 }

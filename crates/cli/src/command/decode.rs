@@ -10,7 +10,7 @@ use foveate_toolchain::{InterruptibleReader, open_interruptibly, standard_input}
 use super::simulate::{Terminal, text};
 use crate::args::DecodeArgs;
 use crate::error::CliError;
-use crate::{interrupt, output};
+use crate::{interrupt, notice, output};
 
 pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
     let config = args.design.read()?;
@@ -23,12 +23,12 @@ pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
     hooks.shown.finish();
     let Decoded { summary, losses, loss_count } = decoded?;
     for loss in &losses {
-        output::say(loss);
+        notice::say(loss);
     }
     let more = loss_count - losses.len() as u64;
     if more > 0 {
         let file = args.output.join("losses.csv");
-        output::say(&format_args!("and {more} more, in `{}`", file.display()));
+        notice::say(&format_args!("and {more} more, in `{}`", file.display()));
     }
     match (args.json, args.quiet) {
         (true, _) => output::json(&summary)?,

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 use crate::args::GenerateArgs;
 use crate::error::CliError;
-use crate::{interrupt, output};
+use crate::{interrupt, notice, output};
 
 #[derive(Serialize)]
 struct Listing<'a> {
@@ -44,7 +44,7 @@ pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
     let prefix = Prefix::asked(args.prefix.as_deref(), &design)?;
     let cancel = interrupt::flag()?;
     let core = write_core(&design, &prefix, &args.output, args.force, &cancel)?;
-    core.warnings().for_each(|warning| output::warn(&warning));
+    core.warnings().for_each(|warning| notice::warn(&warning));
     let shown = args.output.display().to_string();
     if args.json {
         return output::json(&Listing {

@@ -12,7 +12,7 @@ use indicatif::DecimalBytes;
 use super::simulate::Terminal;
 use crate::args::{InferArgs, warn_of};
 use crate::error::CliError;
-use crate::output;
+use crate::{notice, output};
 
 pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
     let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
@@ -33,7 +33,7 @@ pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> 
     let summary = inference.run(&args.output, &options, &mut hooks);
     hooks.shown.finish();
     let summary = summary?;
-    summary.warnings.iter().for_each(|warning| output::warn(warning));
+    summary.warnings.iter().for_each(|warning| notice::warn(warning));
     match (args.json, args.quiet) {
         (true, _) => output::json(&summary)?,
         (false, false) => output::text(&text(&args.output, &summary))?,

@@ -10,7 +10,7 @@ use std::time::{Duration, Instant};
 use indicatif::{HumanDuration, ProgressBar};
 
 use super::stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, locked};
-use crate::output;
+use crate::notice;
 
 /// Seconds between lines; `0` for none.
 const VARIABLE: &str = "FOVEATE_PROGRESS";
@@ -35,7 +35,7 @@ impl Lines {
             None => None,
             Some(None) => {
                 let asked = asked.unwrap_or_default();
-                output::warn(&format!(
+                notice::warn(&format!(
                     "{VARIABLE} is `{asked}`; expected seconds between lines of progress, 0 (none) to {LONGEST}"
                 ));
                 None
@@ -51,7 +51,7 @@ impl Lines {
                 }
                 let stage = locked(&stage).clone();
                 if let Some(line) = line(&bar, &stage, start, Instant::now()) {
-                    output::say(&line);
+                    notice::say(&line);
                 }
             }
         };

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Notices on standard error: errors, warnings, and text that is safe on a terminal.
+
+use std::borrow::Cow;
+use std::fmt::Display;
+use std::io::{self, Write};
+
+use foveate_footage::redacted;
+
+/// Text in which no name of a file, no message of a tool and no data gives orders to a terminal: control characters are
+/// written out, such as `\u{1b}`, but for tabs and ends of lines.
+pub(crate) fn printable(text: &str) -> Cow<'_, str> {
+    let is_order = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
+    if !text.contains(is_order) {
+        return text.into();
+    }
+    let mut shown = String::with_capacity(text.len());
+    for letter in text.chars() {
+        if is_order(letter) {
+            shown.extend(letter.escape_default());
+        } else {
+            shown.push(letter);
+        }
+    }
+    shown.into()
+}
+
+/// Says on standard error what the user should know. Nothing that is said has the secrets of an address, wherever it comes from,
+/// and none of it moves the cursor of a terminal.
+pub(crate) fn say(text: &(impl Display + ?Sized)) {
+    // A terminal that was closed hears nothing, and that changes no exit code.
+    let _ = writeln!(io::stderr(), "foveate: {}", printable(&redacted(&text.to_string())));
+}
+
+/// Says on standard error what the user should know although the command goes on.
+pub(crate) fn warn(text: &str) {
+    say(&format_args!("warning: {text}"));
+}
+
+/// Prints help, or what is wrong with the words of the command line.
+pub(crate) fn usage(error: &clap::Error) {
+    let plain = error.render().to_string();
+    if error.use_stderr() && redacted(&plain) != plain {
+        let _ = write!(io::stderr(), "{}", redacted(&plain));
+        return;
+    }
+    // Help goes to standard output, which may be closed.
+    let _ = error.print();
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_text_gives_orders_to_a_terminal() {
+        assert_eq!(printable("a\tb\n\u{e4}"), "a\tb\n\u{e4}");
+        assert_eq!(printable("\u{1b}[2J\r\u{9b}"), "\\u{1b}[2J\\r\\u{9b}");
+    }
+}
