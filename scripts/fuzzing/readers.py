@@ -204,7 +204,7 @@ READERS = [
     Reader("idx", "images-idx3-ubyte", simulate, just(idx_images())),
     Reader("idx-packed", "images-idx3-ubyte.gz", simulate, just(gzip.compress(idx_images(), mtime=0))),
     Reader("idx-labels", "labels-idx1-ubyte", simulate_set, just(idx_labels())),
-    Reader("cifar", "batch.bin", simulate, just(bytes(i % 251 for i in range(3 * 3073)))),
+    Reader("cifar", "batch.bin", simulate, just(b"".join(bytes([i]) + bytes(j % 251 for j in range(3072)) for i in range(3)))),
     Reader("boxes-mot", "gt.txt", boxes, just(b"".join(b"%d,%d,5,6,20,15,1,1,1\n" % (f, t) for f in range(1, 4) for t in range(5))), is_text=True),
     Reader("boxes-coco", "boxes.json", boxes, just(coco()), is_text=True),
     Reader("boxes-yolo", "000002.txt", boxes, just(b"0 0.5 0.5 0.25 0.25\n1 0.1 0.2 0.1 0.1\n"), is_text=True),
