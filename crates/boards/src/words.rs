@@ -111,7 +111,7 @@ impl Form {
             ),
             Self::Change => (is_line(text), "KEY=VALUE in a line without control characters"),
         };
-        if is_right { Ok(()) } else { Err(right.to_owned()) }
+        if is_right { Ok(()) } else { Err(format!("expected {right}")) }
     }
 }
 
@@ -209,7 +209,7 @@ mod tests {
     fn a_wrong_text_is_named_and_shown() {
         let check = |text: &str| check(&text.parse().unwrap()).unwrap_err();
         let said = check("[pins]\ndata = [\"1\", \"a\\nb\"]");
-        assert!(said.starts_with("pins.data[1] = \"a\\nb\": letters, digits"), "{said}");
+        assert!(said.starts_with("pins.data[1] = \"a\\nb\": expected letters, digits"), "{said}");
         let said = check(&format!("title = '{}'", "x".repeat(201)));
         assert!(said.ends_with("...\": it has 201 characters; 200 is the most"), "{said}");
     }
