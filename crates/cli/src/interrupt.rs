@@ -33,7 +33,7 @@ pub(crate) struct DeafError {
 }
 
 /// The signals so far, and their meaning for the command.
-struct Heard {
+struct SignalHistory {
     /// The first signal, and when it came.
     first: Option<(i32, Instant)>,
     /// Whether the command ends by itself.
@@ -41,9 +41,9 @@ struct Heard {
 }
 
 static REQUEST: LazyLock<Interrupt> = LazyLock::new(Interrupt::default);
-static HEARD: Mutex<Heard> = Mutex::new(Heard { first: None, has_results: false });
+static HEARD: Mutex<SignalHistory> = Mutex::new(SignalHistory { first: None, has_results: false });
 
-fn heard() -> MutexGuard<'static, Heard> {
+fn heard() -> MutexGuard<'static, SignalHistory> {
     HEARD.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -124,7 +124,7 @@ pub(crate) struct Tree {
 }
 
 /// A folder of a tree on the way down.
-struct Branch<'a> {
+struct TreeFolder<'a> {
     /// Where its clips go in the output.
     place: &'a Path,
     label: Option<&'a str>,
@@ -136,7 +136,7 @@ struct Branch<'a> {
 pub(crate) fn tree(folder: &Path) -> Result<Tree, FootageError> {
     let mut tree = Tree::default();
     let above = [real(folder)];
-    let root = Branch { place: Path::new(""), label: None, above: &above };
+    let root = TreeFolder { place: Path::new(""), label: None, above: &above };
     tree.search(&root, &entries(folder)?);
     Ok(tree)
 }
@@ -147,7 +147,7 @@ fn real(folder: &Path) -> PathBuf {
 }
 
 impl Tree {
-    fn search(&mut self, branch: &Branch<'_>, listed: &[PathBuf]) {
+    fn search(&mut self, branch: &TreeFolder<'_>, listed: &[PathBuf]) {
         for entry in listed {
             match entry_kind(entry) {
                 EntryKind::Video => {
@@ -164,7 +164,7 @@ impl Tree {
     }
 
     /// A folder in a folder: a clip if it holds images, else a further branch.
-    fn enter(&mut self, branch: &Branch<'_>, folder: &Path) {
+    fn enter(&mut self, branch: &TreeFolder<'_>, folder: &Path) {
         let real = real(folder);
         if branch.above.contains(&real) {
             self.skipped.push(SkippedInput::new(folder, SkipReason::Loop));
@@ -191,11 +191,11 @@ impl Tree {
         let own = folder.file_name().map(|name| name.to_string_lossy().into_owned());
         let above = [branch.above, &[real]].concat();
         let label = branch.label.or(own.as_deref());
-        self.search(&Branch { place: &place, label, above: &above }, &listed);
+        self.search(&TreeFolder { place: &place, label, above: &above }, &listed);
     }
 }
 
-impl Branch<'_> {
+impl TreeFolder<'_> {
     fn clip(&self, input: &Path, place: PathBuf) -> Clip {
         Clip { inputs: vec![input.to_owned()], place, label: self.label.map(str::to_owned) }
     }

@@ -11,7 +11,7 @@ const MICROSECONDS: u128 = 1_000_000;
 /// from there; so have the first frames of cameras that count anew.
 #[derive(Clone, Debug, Default)]
 pub struct FrameClock {
-    last: Option<Tick>,
+    last: Option<ClockReference>,
 }
 
 /// The time of a frame.
@@ -24,7 +24,7 @@ pub struct FrameTime {
 }
 
 #[derive(Clone, Copy, Debug)]
-struct Tick {
+struct ClockReference {
     /// Ticks and microseconds from which times are counted.
     start: (u64, u64),
     /// The frame before.
@@ -37,7 +37,7 @@ impl FrameClock {
     pub fn take(&mut self, info: &FrameInfo) -> FrameTime {
         let per_second = u64::from(info.ticks_per_second.max(1));
         let ticks = info.time;
-        let last = self.last.unwrap_or(Tick { start: (ticks, 0), ticks, time_us: 0 });
+        let last = self.last.unwrap_or(ClockReference { start: (ticks, 0), ticks, time_us: 0 });
         let step = ticks.checked_sub(last.ticks);
         let is_right = step.is_some_and(|step| step / per_second < LONGEST_GAP_SECONDS);
         let start = if is_right { last.start } else { (ticks, last.time_us) };
@@ -45,7 +45,7 @@ impl FrameClock {
             u128::from(ticks.saturating_sub(start.0)) * MICROSECONDS / u128::from(per_second);
         let since = u64::try_from(since).unwrap_or(u64::MAX);
         let time_us = start.1.saturating_add(since);
-        self.last = Some(Tick { start, ticks, time_us });
+        self.last = Some(ClockReference { start, ticks, time_us });
         FrameTime { time_us, is_wrong: !is_right && !info.first }
     }
 }

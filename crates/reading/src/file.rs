@@ -5,7 +5,7 @@ use std::fs::File;
 use std::io::{self, Read};
 use std::path::Path;
 
-use crate::size::in_words;
+use crate::LimitedReader;
 
 /// The largest file of settings, in bytes; one has a few KiB.
 pub const SETTINGS_LIMIT: u64 = 1 << 20;
@@ -16,11 +16,7 @@ pub const SETTINGS_LIMIT: u64 = 1 << 20;
 /// When it cannot be read, or holds more bytes ([`io::ErrorKind::FileTooLarge`]).
 pub fn bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
-    File::open(path)?.take(limit.saturating_add(1)).read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > limit {
-        let message = format!("it is larger than {}, which is the limit", in_words(limit));
-        return Err(io::Error::new(io::ErrorKind::FileTooLarge, message));
-    }
+    LimitedReader::new(File::open(path)?, limit).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 

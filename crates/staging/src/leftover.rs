@@ -11,16 +11,16 @@ use std::sync::{Mutex, PoisonError};
 use crate::list;
 use crate::lock::{LETTERS, LockedFolder, is_own, is_same_file};
 
-/// How the names of files begin that [`write_file`](crate::write_file) has not finished.
+/// The beginning of the names of files that [`write_file`](crate::write_file) has not finished.
 pub const TEMPORARY: &str = ".foveate-";
-/// How the names of folders for intermediate results begin.
+/// The beginning of the names of folders for intermediate results.
 pub(crate) const SCRATCH: &str = "foveate-";
 /// The part between the name of an output folder and the letters, while the folder is written.
 const PARTIAL: &str = ".partial-";
 /// The folder that is being replaced, beside the work.
 pub(crate) const EARLIER: &str = "earlier";
 
-/// How the name of the folder begins in which the output `name` is written.
+/// The beginning of the name of the folder in which the output `name` is written.
 pub(crate) fn partial(name: &OsStr) -> OsString {
     let mut prefix = OsString::from(".");
     prefix.push(name);
@@ -86,7 +86,7 @@ pub(crate) fn restore(left: &LockedFolder, target: &Path) {
     if !earlier.is_dir() {
         return;
     }
-    // Each of the two may fail; the folder then stays where it is.
+    // Both the removal and the move may fail; the folder then stays where it is.
     if fs::symlink_metadata(target).is_ok() {
         let _ = list::remove(&earlier);
     } else {
@@ -161,14 +161,14 @@ mod tests {
         }
         fs::write(parent.join(".other.partial-0123456789").join(LOCK), "my notes").unwrap();
         let linked = killed(parent, "linked");
-        fs::rename(&linked, parent.join("place")).unwrap();
-        std::os::unix::fs::symlink(parent.join("place"), &linked).unwrap();
+        fs::rename(&linked, parent.join("target")).unwrap();
+        std::os::unix::fs::symlink(parent.join("target"), &linked).unwrap();
         fs::write(parent.join(".foveate-abcdefghij"), "half").unwrap();
         let before = names(parent).len();
         sweep(parent);
         assert!(!root.exists() && !parent.join(".foveate-abcdefghij").exists());
         assert_eq!(names(parent).len(), before - 2, "{:?}", names(parent));
-        assert!(living.work().is_dir() && parent.join("place/work/half").is_file());
+        assert!(living.work().is_dir() && parent.join("target/work/half").is_file());
     }
 
     #[test]

@@ -21,7 +21,7 @@ type Sum = Vec<u8>;
 pub(crate) struct FileList(BTreeMap<Vec<u8>, Vec<Sum>>);
 
 /// A file below a folder. A link is a file, too, and is not followed.
-pub(crate) struct Found {
+pub(crate) struct FolderFile {
     pub(crate) name: Vec<u8>,
     pub(crate) path: PathBuf,
 }
@@ -47,7 +47,7 @@ impl FileList {
     /// Every file that is in a folder.
     pub(crate) fn of(folder: &Path) -> io::Result<Self> {
         let mut list = Self::default();
-        for Found { name, path } in files(folder)? {
+        for FolderFile { name, path } in files(folder)? {
             list.add(name, sum_of_file(&path)?);
         }
         Ok(list)
@@ -105,7 +105,7 @@ pub(crate) fn write(folder: &Path) {
 }
 
 /// Every file below a folder but the list itself, sorted.
-pub(crate) fn files(folder: &Path) -> io::Result<Vec<Found>> {
+pub(crate) fn files(folder: &Path) -> io::Result<Vec<FolderFile>> {
     let mut found = Vec::new();
     let mut open = vec![(folder.to_owned(), Vec::new())];
     while let Some((next, place)) = open.pop() {
@@ -117,7 +117,7 @@ pub(crate) fn files(folder: &Path) -> io::Result<Vec<Found>> {
                 name.push(b'/');
                 open.push((entry.path(), name));
             } else if name != NAME.as_bytes() {
-                found.push(Found { name, path: entry.path() });
+                found.push(FolderFile { name, path: entry.path() });
             }
         }
     }
@@ -130,7 +130,7 @@ pub(crate) fn files(folder: &Path) -> io::Result<Vec<Found>> {
 pub(crate) fn remove(folder: &Path) -> io::Result<bool> {
     let list = FileList::read(folder)?.unwrap_or_default();
     let mut is_all = true;
-    for Found { name, path } in files(folder)? {
+    for FolderFile { name, path } in files(folder)? {
         if list.holds(&name, &path) {
             fs::remove_file(&path)?;
         } else {

@@ -192,7 +192,7 @@ pub enum ToolError {
         path: PathBuf,
         /// The user or group that can write, and the folder.
         reason: String,
-        /// What to do.
+        /// The remedy.
         advice: String,
     },
 

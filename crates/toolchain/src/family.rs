@@ -11,15 +11,16 @@ use std::process::{Child, Command, ExitStatus};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The heads of families that nobody has waited for, by their process numbers.
-struct Living {
+struct FamilyRegistry {
     heads: BTreeSet<u32>,
     /// Whether this process is about to exit, so that no family may start any more.
     is_closed: bool,
 }
 
-static LIVING: Mutex<Living> = Mutex::new(Living { heads: BTreeSet::new(), is_closed: false });
+static LIVING: Mutex<FamilyRegistry> =
+    Mutex::new(FamilyRegistry { heads: BTreeSet::new(), is_closed: false });
 
-fn living() -> MutexGuard<'static, Living> {
+fn living() -> MutexGuard<'static, FamilyRegistry> {
     LIVING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -49,7 +50,7 @@ impl Family {
         Ok(Self { head })
     }
 
-    /// How the head has ended, if it has.
+    /// The status with which the head has ended, if it has.
     pub(crate) fn try_wait(&mut self) -> io::Result<Option<ExitStatus>> {
         // Once it was waited for, its number may be another's: nobody may read the list in between.
         let mut living = living();

@@ -148,7 +148,7 @@ pub(crate) fn wait_until(
 ) -> io::Result<()> {
     use rustix::event::{PollFd, Timespec, poll};
     let step = Timespec { tv_sec: 0, tv_nsec: i64::from(STEP.subsec_nanos()) };
-    let mut patience = Patience::new(interrupt, grace);
+    let mut patience = GracePeriod::new(interrupt, grace);
     loop {
         if patience.is_over() {
             return Err(interrupted());
@@ -162,13 +162,13 @@ pub(crate) fn wait_until(
 }
 
 /// How long something is waited for once an interrupt has come.
-pub(crate) struct Patience<'a> {
+pub(crate) struct GracePeriod<'a> {
     interrupt: &'a Interrupt,
     grace: Duration,
     seen: Option<Instant>,
 }
 
-impl<'a> Patience<'a> {
+impl<'a> GracePeriod<'a> {
     pub(crate) fn new(interrupt: &'a Interrupt, grace: Duration) -> Self {
         Self { interrupt, grace, seen: None }
     }

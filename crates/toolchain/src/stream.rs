@@ -13,7 +13,7 @@ use std::time::Duration;
 
 use crate::error::ToolError;
 use crate::family::Family;
-use crate::interrupt::{Interrupt, InterruptibleReader, Patience, STEP};
+use crate::interrupt::{GracePeriod, Interrupt, InterruptibleReader, STEP};
 use crate::invocation::Invocation;
 
 /// Bytes of a line that are kept; what follows them is dropped, so that it cannot pass for a line of its own.
@@ -196,7 +196,7 @@ impl Running {
     fn wait(&mut self, grace: Duration) -> Result<ExitStatus, ToolError> {
         let failed =
             |source| ToolError::Io { action: "wait for", path: "the end of a tool".into(), source };
-        let mut patience = Patience::new(&self.interrupt, grace);
+        let mut patience = GracePeriod::new(&self.interrupt, grace);
         let mut pause = Duration::from_micros(200);
         loop {
             if let Some(status) = self.family.try_wait().map_err(failed)? {

@@ -59,12 +59,12 @@ impl Answer {
 
 /// A browser's requests, each with its answer.
 #[derive(Debug)]
-pub(crate) struct Dialogue {
+pub(crate) struct RequestStream {
     requests: BufReader<TimedStream>,
     is_begun: bool,
 }
 
-impl Dialogue {
+impl RequestStream {
     pub(crate) fn new(stream: Arc<TcpStream>) -> Self {
         Self { requests: BufReader::new(TimedStream::new(stream)), is_begun: false }
     }

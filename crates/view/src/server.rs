@@ -10,7 +10,7 @@ use std::time::Duration;
 
 use crate::ViewError;
 use crate::connections::{ConnectionPlace, ConnectionTable};
-use crate::http::{Answer, Dialogue, Request};
+use crate::http::{Answer, Request, RequestStream};
 
 /// How long it is waited for the server's own attention.
 const WAKE: Duration = Duration::from_millis(200);
@@ -110,7 +110,7 @@ fn serve(listener: &TcpListener, shared: &Arc<Shared<impl Site>>) {
 impl<S: Site> Shared<S> {
     fn talk(&self, stream: Arc<TcpStream>, place: &ConnectionPlace) -> std::io::Result<()> {
         stream.set_nodelay(true)?;
-        let mut dialogue = Dialogue::new(stream);
+        let mut dialogue = RequestStream::new(stream);
         while let Some(request) = dialogue.next()? {
             let admitted = self.admitted(&request);
             if admitted.is_ok() {

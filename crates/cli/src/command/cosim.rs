@@ -18,7 +18,7 @@ use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::progress::Progress as Shown;
 use crate::{interrupt, notice, output};
-use end_to_end::{EndToEnd, Trip};
+use end_to_end::{EndToEnd, EndToEndFolder};
 use plan::{Plan, Work};
 
 /// All that is told.
@@ -35,7 +35,7 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     if let Some(file) = &args.junit {
         check_file(file)?;
     }
-    let trip = args.end_to_end.as_deref().map(Trip::begin).transpose()?;
+    let trip = args.end_to_end.as_deref().map(EndToEndFolder::begin).transpose()?;
     if let Some(trip) = &trip {
         plan.keep_packets(&trip.packets());
     }
@@ -48,7 +48,7 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     let passed = summary.verdict() == Verdict::Passed;
     let compared = trip.as_ref().filter(|_| passed);
     let compared = compared.map(|trip| end_to_end::compare(args, trip)).transpose();
-    trip.map_or(Ok(()), Trip::end)?;
+    trip.map_or(Ok(()), EndToEndFolder::end)?;
     let end_to_end = compared?;
     let is_received = end_to_end.as_ref().is_none_or(EndToEnd::agrees);
     tell(args, &Told { summary: &summary, end_to_end })?;

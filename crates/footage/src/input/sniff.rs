@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a file that is no image is read, by its first bytes.
+//! The reader of a file that is no image, chosen by the first bytes.
 
 use std::io::Read;
 use std::path::Path;

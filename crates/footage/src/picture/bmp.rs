@@ -6,7 +6,9 @@ use super::fault::PictureFault;
 
 /// Follows the runs of a picture of which the decoder has read the header; other pictures have none.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
-    let Some(Runs { width, height, half, mut codes }) = runs(bytes) else { return Ok(()) };
+    let Some(RunLengthReader { width, height, half, mut codes }) = runs(bytes) else {
+        return Ok(());
+    };
     let short = || PictureFault::truncated("its runs of pixels have no end");
     let (mut x, mut y) = (0_u32, 0_u32);
     // A jump leaves pixels out on purpose.
@@ -45,7 +47,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
 }
 
 /// A picture coded in runs.
-struct Runs<'a> {
+struct RunLengthReader<'a> {
     width: u32,
     height: u32,
     /// Whether a pixel has four bits.
@@ -53,7 +55,7 @@ struct Runs<'a> {
     codes: &'a [u8],
 }
 
-fn runs(bytes: &[u8]) -> Option<Runs<'_>> {
+fn runs(bytes: &[u8]) -> Option<RunLengthReader<'_>> {
     let word = |at: usize| Some(u32::from_le_bytes(*bytes.get(at..)?.first_chunk()?));
     let (offset, header, compression) = (word(10)?, word(14)?, word(30)?);
     let half = match compression {
@@ -64,5 +66,5 @@ fn runs(bytes: &[u8]) -> Option<Runs<'_>> {
     // Shorter headers have no field for it.
     (header >= 40).then_some(())?;
     let height = i32::from_le_bytes(word(22)?.to_le_bytes()).unsigned_abs();
-    Some(Runs { width: word(18)?, height, half, codes: bytes.get(offset as usize..)? })
+    Some(RunLengthReader { width: word(18)?, height, half, codes: bytes.get(offset as usize..)? })
 }

@@ -16,13 +16,13 @@ mod scan;
 use self::bits::marker_at;
 use self::frame::{Component, FrameHeader, Process};
 use self::huffman::HuffmanTable;
-use self::scan::{ScanHeader, Tables};
+use self::scan::{HuffmanTables, ScanHeader};
 use super::fault::PictureFault;
 
 /// Finds damage between the start and the end marker; what comes after it is of no concern. Kinds of
 /// JPEG that the decoder does not read either, such as lossless ones, are left to it.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
-    let mut tables = Tables::default();
+    let mut tables = HuffmanTables::default();
     let mut frame: Option<FrameHeader> = None;
     // After the start marker, SOI.
     let mut at = 2;
@@ -88,7 +88,7 @@ fn segment(bytes: &[u8], at: usize) -> Result<&[u8], PictureFault> {
 }
 
 /// Reads the tables of a segment DHT.
-fn huffman_tables(mut segment: &[u8], tables: &mut Tables) -> Result<(), PictureFault> {
+fn huffman_tables(mut segment: &[u8], tables: &mut HuffmanTables) -> Result<(), PictureFault> {
     let wrong = || PictureFault::damaged("a segment of Huffman tables (DHT) is wrong");
     while let Some((&name, rest)) = segment.split_first() {
         let counts: [u8; 16] = *rest.first_chunk().ok_or_else(wrong)?;

@@ -18,7 +18,7 @@ const SHARED: [(&str, &str); 8] = [
     ("ayuv64", "yuva444p"),
 ];
 
-/// How the samples of a frame lie in the pipe.
+/// The layout of the samples of a frame in the pipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SampleFormat {
     /// Bits per sample.
@@ -69,7 +69,7 @@ fn bits(name: &str) -> Option<u32> {
     }
 }
 
-/// How the samples of a format lie in which frames may come.
+/// The layout of the samples of a format in which frames may come.
 pub(super) fn samples(format: &str) -> Option<SampleFormat> {
     let plain = |depth, colour| Some(SampleFormat { depth, colour, big_endian: false });
     match format {

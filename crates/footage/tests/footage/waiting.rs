@@ -52,7 +52,7 @@ fn a_pipe_gives_its_frames_once() {
     writer.join().unwrap();
 }
 
-/// Each of these would wait without end.
+/// A read of any of these pipes would wait without end.
 #[test]
 fn a_pipe_among_files_is_not_waited_for() {
     let dir = tempfile::tempdir().unwrap();

@@ -17,7 +17,7 @@ const ROOM: u64 = 1 << 20;
 
 /// Why there is no video.
 #[derive(Clone)]
-struct Failure {
+struct EncoderFailure {
     said: String,
     is_full: bool,
 }
@@ -36,7 +36,7 @@ enum State {
     First(RawImage, u64),
     Running(Feeder),
     /// ffmpeg has ended too early, and said this.
-    Failed(Failure),
+    Failed(EncoderFailure),
 }
 
 impl VideoFile {
@@ -75,7 +75,7 @@ impl VideoFile {
 
     /// Whether ffmpeg has taken all pictures so far.
     pub(super) fn check(&self) -> Result<(), SimulatorError> {
-        let State::Failed(Failure { said, is_full }) = &self.state else { return Ok(()) };
+        let State::Failed(EncoderFailure { said, is_full }) = &self.state else { return Ok(()) };
         let (path, problem) = (self.path.clone(), said.clone());
         Err(SimulatorError::VideoOutput { path, problem, is_full: *is_full })
     }
@@ -150,13 +150,16 @@ impl VideoFile {
         let words = ["No space left on device", "Disk quota exceeded"];
         let has_room = || self.path.parent().is_none_or(|folder| has_room(folder, ROOM));
         let is_full = words.iter().any(|words| said.contains(words)) || !has_room();
-        State::Failed(Failure { said, is_full })
+        State::Failed(EncoderFailure { said, is_full })
     }
 }
 
 impl State {
     fn given_up(error: &ToolError) -> Self {
-        Self::Failed(Failure { said: format!("ffmpeg was given up: {error}"), is_full: false })
+        Self::Failed(EncoderFailure {
+            said: format!("ffmpeg was given up: {error}"),
+            is_full: false,
+        })
     }
 }
 

@@ -173,9 +173,9 @@ fn a_stream_alone_asks_for_no_more_memory_than_8k_video() {
 
 /// Cancels once a frame is written.
 #[derive(Default)]
-struct AfterOne(u64);
+struct FirstFrameCanceller(u64);
 
-impl Hooks for AfterOne {
+impl Hooks for FirstFrameCanceller {
     fn progress(&mut self, progress: Progress) {
         self.0 = progress.done;
     }
@@ -196,7 +196,8 @@ fn decoding_is_stopped_between_frames_that_cost_few_bytes() {
         write::frame(&mut bytes, &layout, number, (u64::from(number), false));
     }
     let folder = tempfile::tempdir().unwrap();
-    let decoded = decode(&bytes, &folder.path().join("seen"), &mut AfterOne::default()).unwrap();
+    let decoded =
+        decode(&bytes, &folder.path().join("seen"), &mut FirstFrameCanceller::default()).unwrap();
     assert_eq!(decoded.summary.problem.as_deref(), Some("interrupted"));
     assert_eq!(decoded.summary.frames, 1);
 }

@@ -27,9 +27,9 @@ const END_TO_END: FolderKind = FolderKind {
 };
 
 /// The folder in the making.
-pub(super) struct Trip(StagedFolder);
+pub(super) struct EndToEndFolder(StagedFolder);
 
-impl Trip {
+impl EndToEndFolder {
     pub(super) fn begin(folder: &Path) -> Result<Self, CliError> {
         Ok(Self(StagedFolder::new(folder, END_TO_END, true)?))
     }
@@ -85,8 +85,8 @@ impl EndToEnd {
 }
 
 /// Decodes the packets that a core has sent, simulates the same frames, and compares.
-pub(super) fn compare(args: &CosimArgs, trip: &Trip) -> Result<EndToEnd, CliError> {
-    let Trip(staged) = trip;
+pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEnd, CliError> {
+    let EndToEndFolder(staged) = trip;
     let told = |folder: &Path| staged.shown(folder);
     let folder = staged.folder();
     let config = args.design.read()?;

@@ -8,7 +8,7 @@ use crate::picture::fault::PictureFault;
 
 /// The coefficients that a scan sends, and which bits of them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Band {
+pub(super) struct SpectralBand {
     /// The first and the last coefficient.
     pub(super) first: u8,
     pub(super) last: u8,
@@ -22,7 +22,7 @@ const LARGEST_DC: i32 = 2047;
 
 /// State between the blocks of a scan.
 pub(super) struct Block {
-    band: Band,
+    band: SpectralBand,
     process: Process,
     /// The last DC coefficient of every component.
     predicted: [i32; 4],
@@ -35,7 +35,7 @@ pub(super) struct Block {
 type TablePair<'a> = (Option<&'a HuffmanTable>, Option<&'a HuffmanTable>);
 
 impl Block {
-    pub(super) fn new(band: Band, process: Process) -> Self {
+    pub(super) fn new(band: SpectralBand, process: Process) -> Self {
         Self { band, process, predicted: [0; 4], empty: 0, erased: 0 }
     }
 

@@ -2,14 +2,14 @@
 //! Follows the coded data of one scan, block by block, without computing a pixel.
 
 use super::bits::{BitReader, marker_at};
-use super::block::{Band, Block};
+use super::block::{Block, SpectralBand};
 use super::frame::{FrameHeader, Process};
 use super::huffman::HuffmanTable;
 use crate::picture::fault::PictureFault;
 
-/// Tables and the restart interval, as the segments before a scan left them.
+/// The Huffman tables and the restart interval, as the segments before a scan left them.
 #[derive(Default)]
-pub(super) struct Tables {
+pub(super) struct HuffmanTables {
     pub(super) dc: [Option<HuffmanTable>; 4],
     pub(super) ac: [Option<HuffmanTable>; 4],
     /// Units between two restart markers; 0 is none.
@@ -17,7 +17,7 @@ pub(super) struct Tables {
 }
 
 /// A component in a scan.
-struct Part {
+struct ScanComponent {
     /// Its place in the frame.
     component: usize,
     dc: usize,
@@ -26,8 +26,8 @@ struct Part {
 
 /// The header of a scan.
 pub(super) struct ScanHeader {
-    parts: Vec<Part>,
-    band: Band,
+    parts: Vec<ScanComponent>,
+    band: SpectralBand,
 }
 
 impl ScanHeader {
@@ -40,7 +40,7 @@ impl ScanHeader {
             return Err(wrong());
         }
         let (named, last) = rest.split_at(2 * count);
-        let mut parts: Vec<Part> = Vec::new();
+        let mut parts: Vec<ScanComponent> = Vec::new();
         for pair in named.chunks_exact(2) {
             let component = frame.components.iter().position(|known| known.id == pair[0]);
             let component = component.ok_or_else(wrong)?;
@@ -48,13 +48,17 @@ impl ScanHeader {
             if dc > 3 || ac > 3 || parts.iter().any(|part| part.component == component) {
                 return Err(wrong());
             }
-            parts.push(Part { component, dc, ac });
+            parts.push(ScanComponent { component, dc, ac });
         }
         let band = match frame.process {
-            Process::Sequential => Band { first: 0, last: 63, high: 0, low: 0 },
+            Process::Sequential => SpectralBand { first: 0, last: 63, high: 0, low: 0 },
             Process::Progressive => {
-                let band =
-                    Band { first: last[0], last: last[1], high: last[2] >> 4, low: last[2] & 15 };
+                let band = SpectralBand {
+                    first: last[0],
+                    last: last[1],
+                    high: last[2] >> 4,
+                    low: last[2] & 15,
+                };
                 let of_one = if band.first == 0 { band.last == 0 } else { count == 1 };
                 let refines = band.high == 0 || band.high == band.low + 1;
                 if band.first > band.last || band.last > 63 || band.low > 13 || !of_one || !refines
@@ -71,7 +75,7 @@ impl ScanHeader {
     pub(super) fn follow(
         &self,
         frame: &mut FrameHeader,
-        tables: &Tables,
+        tables: &HuffmanTables,
         bytes: &[u8],
         at: usize,
     ) -> Result<usize, PictureFault> {
@@ -106,7 +110,7 @@ impl ScanHeader {
     fn unit(
         &self,
         frame: &mut FrameHeader,
-        tables: &Tables,
+        tables: &HuffmanTables,
         (x, y): (u32, u32),
         block: &mut Block,
         bits: &mut BitReader<'_>,
@@ -130,7 +134,7 @@ impl ScanHeader {
     /// Notes which bits of the coefficients this scan sends. A coefficient comes once, or, in a progressive
     /// picture, from its high bits to its low ones.
     fn note_progress(&self, frame: &mut FrameHeader) -> Result<(), PictureFault> {
-        let Band { first, last, high, low } = self.band;
+        let SpectralBand { first, last, high, low } = self.band;
         for part in &self.parts {
             let sent = &mut frame.components[part.component].sent;
             let mut known = sent[usize::from(first)..=usize::from(last)].iter_mut();

@@ -21,20 +21,20 @@ const HEIGHT: usize = 8;
 const AREA: usize = WIDTH * HEIGHT;
 
 #[derive(Deserialize)]
-struct Listed {
+struct ListedFormat {
     pixel_formats: Vec<PixelFormat>,
 }
 
 #[derive(Deserialize)]
 struct PixelFormat {
     name: String,
-    flags: Flags,
+    flags: FormatFlags,
     #[serde(default)]
     components: Vec<Component>,
 }
 
 #[derive(Deserialize)]
-struct Flags {
+struct FormatFlags {
     hwaccel: u8,
 }
 
@@ -45,7 +45,7 @@ struct Component {
 
 /// Where the samples of one plane or channel are.
 #[derive(Clone, Copy)]
-struct Place {
+struct ComponentPlace {
     offset: usize,
     step: usize,
     shift: u32,
@@ -53,7 +53,7 @@ struct Place {
     big_endian: bool,
 }
 
-impl Place {
+impl ComponentPlace {
     fn samples(self, bytes: &[u8]) -> Vec<u16> {
         let word = |at: usize| match (self.depth + self.shift > 8, self.big_endian) {
             (false, _) => u16::from(bytes[at]),
@@ -66,10 +66,11 @@ impl Place {
 }
 
 /// Luma of a format that has it, by its name.
-fn place_of_luma(name: &str, depth: u32) -> Option<Place> {
+fn place_of_luma(name: &str, depth: u32) -> Option<ComponentPlace> {
     let big_endian = name.ends_with("be");
     let wide = if depth > 8 { 2 } else { 1 };
-    let place = |offset, step, shift| Some(Place { offset, step, shift, depth, big_endian });
+    let place =
+        |offset, step, shift| Some(ComponentPlace { offset, step, shift, depth, big_endian });
     let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
     match name {
         "yuyv422" | "yvyu422" | "ya8" => place(0, 2, 0),
@@ -90,7 +91,7 @@ fn place_of_luma(name: &str, depth: u32) -> Option<Place> {
 }
 
 /// Red, green and blue of a format of 8 or 16 bits whose samples stand alone.
-fn places_of_colours(name: &str) -> Option<[Place; 3]> {
+fn places_of_colours(name: &str) -> Option<[ComponentPlace; 3]> {
     let big_endian = name.ends_with("be");
     let (channels, depth) = match name {
         "rgb24" | "bgr24" | "rgba" | "bgra" | "argb" | "abgr" => (name.trim_end_matches("24"), 8),
@@ -104,7 +105,7 @@ fn places_of_colours(name: &str) -> Option<[Place; 3]> {
     let step = channels.len() * wide;
     let place = |channel: char| {
         let offset = channels.find(channel)? * wide;
-        Some(Place { offset, step, shift: 0, depth, big_endian })
+        Some(ComponentPlace { offset, step, shift: 0, depth, big_endian })
     };
     Some([place('r')?, place('g')?, place('b')?])
 }
@@ -141,7 +142,7 @@ fn noise(format: &PixelFormat) -> Vec<u8> {
     .collect();
     let depth = format.components.first().map_or(8, |component| component.bit_depth);
     let place = place_of_luma(&format.name, depth);
-    let is_narrow = |place: Place| place.depth > 8 && place.depth < 16 && place.shift == 0;
+    let is_narrow = |place: ComponentPlace| place.depth > 8 && place.depth < 16 && place.shift == 0;
     if let Some(place) = place.filter(|&place| is_narrow(place)) {
         let high = if place.big_endian { 0 } else { 1 };
         let mask = u8::MAX >> (16 - place.depth);
@@ -176,7 +177,7 @@ fn every_pixel_format_gives_its_luma_or_says_that_it_cannot() {
         .args(["-v", "error", "-show_pixel_formats", "-of", "json"])
         .output()
         .unwrap();
-    let listed: Listed = serde_json::from_slice(&listed.stdout).unwrap();
+    let listed: ListedFormat = serde_json::from_slice(&listed.stdout).unwrap();
     let dir = tempfile::tempdir().unwrap();
     let found = Toolchain::system().find(Tool::Ffmpeg).unwrap();
     let formats =
