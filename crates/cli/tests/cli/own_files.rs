@@ -331,6 +331,7 @@ fn a_cache_that_others_can_write_is_refused() {
         foveate(&args)
             .current_dir(dir.path())
             .env("XDG_CACHE_HOME", dir.path())
+            .env_remove("FOVEATE_CACHE")
             .env(name, value)
             .output()
             .unwrap()
