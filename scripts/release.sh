@@ -76,12 +76,17 @@ step_boards() { scripts/board_parts.sh --faults && scripts/boards.sh; }
 step_newer() { scripts/newer_tools.sh; }
 step_mutation() { scripts/mutation.sh --table --resume; }
 step_memory() { scripts/memory.sh; }
+step_networks() {
+    local python
+    python=$(scripts/python_tools.sh --package)/python
+    "$python" scripts/onnx_schemas.py && "$python" scripts/onnx_nodes.py
+}
 step_fuzz() { scripts/fuzz.py; }
 step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart cosim benches netlists area lint formal buses boards coverage artefacts newer mutation memory fuzz bench)
+steps=(test quickstart cosim benches netlists area lint formal buses boards coverage artefacts newer mutation memory networks fuzz bench)
 
 # What no step does. Ends with 1 while this commit lacks something.
 left() {

@@ -48,13 +48,15 @@ step "the engine of the live page, in a browser and natively"
 scripts/web.sh --test
 step "book"
 scripts/book.sh
-step "Python package; the documents with it, workflow on this machine, mutated files for every reader"
+step "Python package; the documents with it, workflow on this machine, mutated files for every reader, ONNX's tests of operators"
 wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(env --unset=FOVEATE_PACKAGE scripts/python.sh)
 scripts/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
 # One of two processors for each.
-(scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/fuzz.py --quick) >"$beside" 2>&1 &
+python=$(scripts/python_tools.sh --package)/python
+(scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/fuzz.py --quick &&
+    "$python" scripts/onnx_schemas.py && "$python" scripts/onnx_nodes.py) >"$beside" 2>&1 &
 scripts/python.sh --test
 wait $! || { cat "$beside" && exit 1; }
 cat "$beside"

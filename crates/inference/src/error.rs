@@ -7,8 +7,10 @@ use std::path::PathBuf;
 use foveate_accelerator::AcceleratorError;
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
+use foveate_files::npy::NpyError;
 use foveate_footage::FootageError;
 use foveate_footage::boxes::BoxError;
+use foveate_network::NetworkError;
 use foveate_network::sight::SightError;
 use foveate_pictures::chart::ChartError;
 use foveate_pictures::page::PageError;
@@ -22,6 +24,12 @@ pub enum InferenceError {
     /// The network cannot be read, or cannot be shown the frames.
     #[error(transparent)]
     Sight(#[from] SightError),
+    /// The network cannot be read for arrays.
+    #[error(transparent)]
+    Network(#[from] NetworkError),
+    /// An array cannot be read.
+    #[error(transparent)]
+    Array(#[from] NpyError),
     /// A file that was named cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Read {

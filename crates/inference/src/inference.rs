@@ -253,7 +253,7 @@ fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
 }
 
 /// What a run leaves, and what it may replace.
-const INFERENCE: FolderKind =
+pub(crate) const INFERENCE: FolderKind =
     FolderKind { what: "an inference (its inference.json)", is: is_inference };
 
 fn is_inference(folder: &Path) -> bool {

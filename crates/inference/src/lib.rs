@@ -6,8 +6,10 @@
 //! and writes how much was needed, layer by layer and frame by frame.
 
 mod album;
+mod arrays;
 mod camera;
 mod charts;
+mod checked;
 mod choices;
 mod clips;
 mod closeness;
@@ -31,7 +33,9 @@ mod tally;
 mod traffic;
 mod tune;
 
+pub use arrays::{ArrayFile, ArraySummary, infer_arrays, is_array};
 pub use camera::frames_of;
+pub use checked::{CheckedNetwork, NetworkFacts, OPEN_SIZE, check_network};
 pub use choices::{parse_goal, parse_mode, read_accelerator};
 pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};

@@ -10,7 +10,7 @@ use image::{ExtendedColorType, ImageEncoder};
 use serde::Serialize;
 
 /// The folder of all outputs.
-const FOLDER: &str = "outputs";
+pub(crate) const FOLDER: &str = "outputs";
 /// Letters of a file's name.
 const LETTERS: usize = 100;
 
@@ -77,7 +77,8 @@ impl<'a> Recording<'a> {
         std::fs::create_dir(&folder)
             .map_err(|source| StagingError::Write { path: folder.clone(), source })?;
         for (&value, name) in values() {
-            let file = free_name(name, &outputs);
+            let taken = outputs.iter().flat_map(|output| output.told.files());
+            let file = free_name(name, &taken.collect::<Vec<_>>());
             let shape = network.form(value).shape().to_vec();
             let path = folder.join(format!("{file}.npy"));
             let array = record.arrays.then(|| NpyWriter::create(&path, Element::Float32, &shape));
@@ -152,18 +153,24 @@ fn png(form: &Form, values: &[f32]) -> Vec<u8> {
     file
 }
 
-/// A name of files for a tensor that no output before it has, whatever the tensor is called, also where cases are alike.
-fn free_name(name: &str, before: &[Output]) -> String {
+impl Recorded {
+    /// Its files and folders.
+    fn files(&self) -> impl Iterator<Item = String> {
+        [self.array.clone(), self.pictures.clone()].into_iter().flatten()
+    }
+}
+
+/// A name of files for a tensor, whatever the tensor is called, so that none of those `taken` is its array or the folder of its pictures, also
+/// where cases are alike.
+pub(crate) fn free_name(name: &str, taken: &[String]) -> String {
     let safe = |letter: char| {
         if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' }
     };
     let stem: String = name.chars().map(safe).take(LETTERS).collect();
     let stem = if stem.is_empty() { "output".to_owned() } else { stem };
     let is_taken = |file: &str| {
-        let of = |output: &Output| [output.told.array.clone(), output.told.pictures.clone()];
-        let taken = before.iter().flat_map(of).flatten();
         let all = [format!("{FOLDER}/{file}"), format!("{FOLDER}/{file}.npy")];
-        taken.into_iter().any(|taken| all.iter().any(|file| file.eq_ignore_ascii_case(&taken)))
+        taken.iter().any(|taken| all.iter().any(|file| file.eq_ignore_ascii_case(taken)))
     };
     let numbered = (2..).map(|number| format!("{stem}_{number}"));
     let mut names = std::iter::once(stem.clone()).chain(numbered);
@@ -179,29 +186,15 @@ fn by(shape: &[usize]) -> String {
 mod tests {
     use super::*;
 
-    fn output(name: &str, before: &[Output]) -> Output {
-        let file = free_name(name, before);
-        let told = Recorded {
-            name: name.to_owned(),
-            shape: Vec::new(),
-            dtype: "float32",
-            array: Some(format!("{FOLDER}/{file}.npy")),
-            pictures: None,
-        };
-        Output { value: 0, told, array: None }
-    }
-
     #[test]
     fn names_are_safe_and_no_two_are_alike() {
-        let mut outputs = Vec::new();
+        let mut files = Vec::new();
         let long = "x".repeat(300);
         for name in ["output", "Output", "../a/b:0", "__/a.b:0", "", "\"<é>\"", &long, "output_2"]
         {
-            let output = output(name, &outputs);
-            outputs.push(output);
+            let file = free_name(name, &files);
+            files.push(format!("{FOLDER}/{file}.npy"));
         }
-        let files: Vec<String> =
-            outputs.into_iter().filter_map(|output| output.told.array).collect();
         let long = format!("outputs/{}.npy", "x".repeat(100));
         let expected = [
             "outputs/output.npy",

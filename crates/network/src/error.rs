@@ -24,7 +24,7 @@ pub enum NetworkError {
     },
     /// An operator is unknown.
     #[error(
-        "node `{}` has the operator `{}`, which is not supported; {advice}",
+        "node `{}` has the operator `{}`, which is not supported{advice}",
         shown(node),
         shown(operator)
     )]
@@ -33,7 +33,7 @@ pub enum NetworkError {
         node: String,
         /// The operator with its domain.
         operator: String,
-        /// What can be done.
+        /// What can be done, behind a semicolon; nothing where that has been said.
         advice: &'static str,
     },
     /// A node is not valid, or uses its operator in a way that is not supported.

@@ -10,6 +10,7 @@
 mod compare;
 mod element;
 mod error;
+mod evaluate;
 mod executor;
 mod form;
 mod kernel;
@@ -27,11 +28,12 @@ mod values;
 
 pub use element::{Element, Encoding};
 pub use error::NetworkError;
+pub use evaluate::{Evaluation, evaluate};
 pub use executor::{Executor, Mode, Work};
 pub use form::Form;
 pub use layout::Layout;
 pub use mask::{Mask, Window};
 pub use network::{Network, Node};
 pub use operator::Products;
-pub use read::{FrameSize, operators};
+pub use read::{FrameSize, NetworkCheck, operators};
 pub use tensor::Tensor;

@@ -71,6 +71,10 @@ pub struct AttributeProto {
     pub floats: Vec<f32>,
     #[prost(int64, repeated, tag = "8")]
     pub ints: Vec<i64>,
+    #[prost(int32, optional, tag = "20")]
+    pub r#type: Option<i32>,
+    #[prost(string, optional, tag = "21")]
+    pub ref_attr_name: Option<String>,
 }
 
 /// A constant tensor.
@@ -162,4 +166,71 @@ pub mod data_type {
     pub const FLOAT16: i32 = 10;
     pub const DOUBLE: i32 = 11;
     pub const BFLOAT16: i32 = 16;
+
+    /// The names of all types, in the order of their numbers.
+    const NAMES: [&str; 27] = [
+        "UNDEFINED",
+        "FLOAT",
+        "UINT8",
+        "INT8",
+        "UINT16",
+        "INT16",
+        "INT32",
+        "INT64",
+        "STRING",
+        "BOOL",
+        "FLOAT16",
+        "DOUBLE",
+        "UINT32",
+        "UINT64",
+        "COMPLEX64",
+        "COMPLEX128",
+        "BFLOAT16",
+        "FLOAT8E4M3FN",
+        "FLOAT8E4M3FNUZ",
+        "FLOAT8E5M2",
+        "FLOAT8E5M2FNUZ",
+        "UINT4",
+        "INT4",
+        "FLOAT4E2M1",
+        "FLOAT8E8M0",
+        "UINT2",
+        "INT2",
+    ];
+
+    /// The name of a type in the standard; of a number that it does not have, the number.
+    #[must_use]
+    pub fn name(kind: i64) -> String {
+        let known = usize::try_from(kind).ok().and_then(|kind| NAMES.get(kind));
+        known
+            .map_or_else(|| format!("number {kind}, which ONNX does not have"), ToString::to_string)
+    }
+}
+
+/// Types of attributes, by their numbers.
+pub mod attribute_type {
+    /// The names of all types, in the order of their numbers.
+    const NAMES: [&str; 15] = [
+        "UNDEFINED",
+        "FLOAT",
+        "INT",
+        "STRING",
+        "TENSOR",
+        "GRAPH",
+        "FLOATS",
+        "INTS",
+        "STRINGS",
+        "TENSORS",
+        "GRAPHS",
+        "SPARSE_TENSOR",
+        "SPARSE_TENSORS",
+        "TYPE_PROTO",
+        "TYPE_PROTOS",
+    ];
+
+    /// The name of a type in the standard, if it has the number.
+    #[must_use]
+    pub fn name(kind: i32) -> Option<&'static str> {
+        usize::try_from(kind).ok().and_then(|kind| NAMES.get(kind)).copied()
+    }
 }

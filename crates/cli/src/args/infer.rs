@@ -22,6 +22,8 @@ use crate::error::CliError;
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --outputs npy,png
           foveate infer denoiser.onnx scene:street scene:shake -o out --max-frames 8
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --whole-frames
+          foveate infer yolox_nano.onnx --check
+          foveate infer yolox_nano.onnx images.npy -o out
           foveate infer yolox_nano.onnx street.mp4 -o out --framing letterbox --scale 1/255 --detect yolox
           foveate infer resnet50.onnx street.mp4 -o out --resize 224x224 --mean 0.485,0.456,0.406 --scale 0.229,0.224,0.225")]
 pub(crate) struct InferArgs {
@@ -30,14 +32,19 @@ pub(crate) struct InferArgs {
     #[arg(value_name = "MODEL")]
     pub(crate) network: PathBuf,
     /// Clips and sets of images of one size, as of `foveate simulate`: image files together are one clip, every
-    /// other input is one of its own
-    #[arg(value_name = "INPUT", required = true)]
+    /// other input is one of its own. Or NumPy arrays (.npy), one for each input of the network in the order of the
+    /// model: it runs on them once, without a camera, and its outputs are written as arrays
+    #[arg(value_name = "INPUT", required_unless_present = "check")]
     pub(crate) inputs: Vec<PathBuf>,
+    /// Say whether the network can be run, with all nodes that cannot, and end with 1 if there are such. A network
+    /// that takes frames of any size is looked at for 224x224 pixels, or those of --resize
+    #[arg(long, conflicts_with_all = ["inputs", "output", "force", "quiet"])]
+    pub(crate) check: bool,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
     /// Folder to write
-    #[arg(long, short, value_name = "DIR")]
-    pub(crate) output: PathBuf,
+    #[arg(long, short, value_name = "DIR", required_unless_present = "check")]
+    pub(crate) output: Option<PathBuf>,
     /// What is computed for a frame: dense, everything; exact, what depends on a changed region; compare,
     /// the same without what came out equal; truncate=T, the same without changes of at most T; fixed, what
     /// lies under changed regions

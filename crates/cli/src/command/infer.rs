@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate infer`: a network behind the camera, and what the camera's masks save it.
 
+mod network;
+
 use std::ffi::OsString;
 use std::fmt::Write as _;
 use std::path::Path;
 
 use foveate_footage::{ImagesAs, shown_input};
-use foveate_inference::{Clip, Found, Inference, Options, Sight, Summary, Tuning};
+use foveate_inference::{Clip, Found, Inference, Options, Sight, Summary, Tuning, is_array};
 use indicatif::DecimalBytes;
 
 use super::simulate::Terminal;
@@ -15,6 +17,16 @@ use crate::error::CliError;
 use crate::{notice, output};
 
 pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
+    match &args.output {
+        None => network::check(args, words),
+        Some(output) if args.inputs.iter().any(|input| is_array(input)) => {
+            network::arrays(args, words, output)
+        }
+        Some(output) => clip(args, words, output),
+    }
+}
+
+fn clip(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
     let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
     warn_of(&args.inputs, &input);
     let footage = (&args.inputs[..], &args.boxes[..]);
@@ -30,16 +42,16 @@ pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> 
         overwrite: args.force,
     };
     let mut hooks = Terminal::new(args.quiet)?;
-    let summary = inference.run(&args.output, &options, &mut hooks);
+    let summary = inference.run(folder, &options, &mut hooks);
     hooks.shown.finish();
     let summary = summary?;
     summary.warnings.iter().for_each(|warning| notice::warn(warning));
     match (args.json, args.quiet) {
         (true, _) => output::json(&summary)?,
-        (false, false) => output::text(&text(&args.output, &summary))?,
+        (false, false) => output::text(&text(folder, &summary))?,
         (false, true) => {}
     }
-    hooks.verdict(&args.output, summary.problem)
+    hooks.verdict(folder, summary.problem)
 }
 
 /// The words of the command line, for the page.

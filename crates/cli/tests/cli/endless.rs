@@ -41,7 +41,7 @@ const CALLS: &[(&str, &str, &str)] = &[
     ("fit", "--boxes", "fit scene:street --frames 8 --min-recall 50% --boxes ENDLESS"),
     ("fit", "--network", "fit scene:street --frames 8 --network ENDLESS"),
     ("infer", "<MODEL>", "infer ENDLESS scene:street -o out"),
-    ("infer", "<INPUT>...", "infer NETWORK ENDLESS -o out"),
+    ("infer", "[INPUT]...", "infer NETWORK ENDLESS -o out"),
     (
         "infer",
         "--accelerator",

@@ -20,6 +20,7 @@ mod full_disk;
 mod hardware;
 mod help;
 mod infer;
+mod infer_alone;
 mod infer_clips;
 mod infer_files;
 mod inputs;

@@ -65,10 +65,11 @@ impl Operator for DepthToSpace {
     }
 }
 
-/// Squares of so many places become channels, the square first.
+/// Squares of so many places become channels.
 #[derive(Clone, Debug)]
 pub(crate) struct SpaceToDepth {
     pub(crate) side: usize,
+    pub(crate) order: Order,
 }
 
 impl Operator for SpaceToDepth {
@@ -97,7 +98,10 @@ impl Operator for SpaceToDepth {
         typed!(form.encoding().element, T => job.fill::<T>(|run, to| {
             for (place, to) in run.zip(to) {
                 let (channel, y, x) = form.coordinates(place);
-                let (square, channel) = (channel / channels, channel % channels);
+                let (square, channel) = match self.order {
+                    Order::SquareFirst => (channel / channels, channel % channels),
+                    Order::ChannelFirst => (channel % (side * side), channel / (side * side)),
+                };
                 let (y, x) = (y * side + square / side, x * side + square % side);
                 *to = input.values()[channel * places + y * width + x];
             }

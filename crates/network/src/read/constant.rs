@@ -5,6 +5,7 @@ use crate::element::{Element, Encoding};
 use crate::form::{Form, MAX_AXES};
 use crate::onnx::{TensorProto, data_type};
 use crate::tensor::Tensor;
+use crate::values::Number;
 use std::cell::Cell;
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};
@@ -14,8 +15,8 @@ use std::path::{Component, Path, PathBuf};
 pub(super) struct Constant {
     pub(super) shape: Vec<usize>,
     pub(super) values: Values,
-    /// How ONNX stores it, if in a way that tensors have, too.
-    pub(super) element: Option<Element>,
+    /// Its type, a number of `data_type`.
+    pub(super) kind: i32,
 }
 
 #[derive(Clone, Debug, PartialEq)]
@@ -29,15 +30,19 @@ pub(super) struct Folder {
     path: PathBuf,
     /// Bytes of constants that may still be read.
     left: Cell<u64>,
+    /// Bytes of constants that may still be computed.
+    room: Cell<u64>,
 }
 
-/// Bytes of all constants of a model.
+/// Bytes of all constants in the files of a model.
 const MAX_BYTES: u64 = 1 << 32;
+/// Bytes of all constants that are computed when a model is read. A few bytes of a file are enough to ask for them.
+const MAX_COMPUTED: u64 = 1 << 30;
 
 impl Folder {
     pub(super) fn of(model: &Path) -> Self {
         let path = model.parent().unwrap_or_else(|| Path::new("")).to_owned();
-        Self { path, left: Cell::new(MAX_BYTES) }
+        Self { path, left: Cell::new(MAX_BYTES), room: Cell::new(MAX_COMPUTED) }
     }
 
     /// Counts bytes that are to be read.
@@ -46,15 +51,35 @@ impl Folder {
         self.left.set(left.ok_or("all constants together have more than 4 GiB")?);
         Ok(())
     }
+
+    /// The number of values of a shape, if there is room for them as a computed constant of this type.
+    pub(super) fn check_room(&self, shape: &[usize], like: &Values) -> Result<usize, String> {
+        let count = shape.iter().try_fold(1usize, |count, &length| count.checked_mul(length));
+        let bytes = count.and_then(|count| (count as u64).checked_mul(like.bytes_each()));
+        match (count, bytes.and_then(|bytes| self.room.get().checked_sub(bytes))) {
+            (Some(count), Some(_)) => Ok(count),
+            _ => Err(format!(
+                "it makes a constant of shape {shape:?}, and all computed constants together have at most 1 GiB, of which {} MiB are left",
+                self.room.get() >> 20
+            )),
+        }
+    }
+
+    /// Counts a computed constant, which is kept.
+    pub(super) fn keep(&self, made: &Constant) -> Result<(), String> {
+        let count = self.check_room(&made.shape, &made.values)? as u64;
+        self.room.set(self.room.get() - count * made.values.bytes_each());
+        Ok(())
+    }
 }
 
 impl Constant {
     pub(super) fn integers(shape: Vec<usize>, values: Vec<i64>) -> Self {
-        Self { shape, values: Values::Integers(values), element: None }
+        Self { shape, values: Values::Integers(values), kind: data_type::INT64 }
     }
 
     pub(super) fn floats(shape: Vec<usize>, values: Vec<f32>) -> Self {
-        Self { shape, values: Values::Floats(values), element: Some(Element::F32) }
+        Self { shape, values: Values::Floats(values), kind: data_type::FLOAT }
     }
 
     /// Decodes a tensor. Memory grows with the data that is there, not with what the shape claims.
@@ -78,7 +103,84 @@ impl Constant {
         if wanted != Some(values.count()) {
             return Err(format!("it has {} values, but the shape {shape:?}", values.count()));
         }
-        Ok(Self { shape, values, element: element(kind) })
+        Ok(Self { shape, values, kind })
+    }
+
+    /// The values of a tensor as they are stored.
+    pub(super) fn of_tensor(tensor: &Tensor) -> Self {
+        fn integers<T: Number + Into<i64>>(tensor: &Tensor) -> Values {
+            Values::Integers(tensor.values::<T>().iter().map(|&value| value.into()).collect())
+        }
+        let (values, kind) = match tensor.form().encoding().element {
+            Element::F32 => (Values::Floats(tensor.values().to_vec()), data_type::FLOAT),
+            Element::U8 => (integers::<u8>(tensor), data_type::UINT8),
+            Element::I8 => (integers::<i8>(tensor), data_type::INT8),
+            Element::I32 => (integers::<i32>(tensor), data_type::INT32),
+        };
+        Self { shape: tensor.form().shape().to_vec(), values, kind }
+    }
+
+    /// The message of its values as a type, in bytes; floating-point ones have 32 bits, whatever the type.
+    pub(super) fn encode(&self, kind: i32) -> Result<TensorProto, String> {
+        let own = self.cast(kind)?;
+        let (bytes, kind) = match &own.values {
+            Values::Floats(values) => {
+                (values.iter().flat_map(|value| value.to_le_bytes()).collect(), data_type::FLOAT)
+            }
+            Values::Integers(values) => {
+                let width = match kind {
+                    data_type::BOOL | data_type::UINT8 | data_type::INT8 => 1,
+                    data_type::INT32 => 4,
+                    _ => 8,
+                };
+                let low = |value: &i64| value.to_le_bytes().into_iter().take(width);
+                (values.iter().flat_map(low).collect(), kind)
+            }
+        };
+        Ok(TensorProto {
+            dims: self
+                .shape
+                .iter()
+                .map(|&length| i64::try_from(length).expect("a length is below 2^63"))
+                .collect(),
+            data_type: Some(kind),
+            raw_data: Some(bytes),
+            ..TensorProto::default()
+        })
+    }
+
+    /// How tensors store its values, if they can.
+    pub(super) fn element(&self) -> Option<Element> {
+        element(self.kind)
+    }
+
+    /// The same values as a type, as `Cast` has it.
+    pub(super) fn cast(&self, kind: i32) -> Result<Self, String> {
+        #[allow(clippy::cast_precision_loss, reason = "a cast rounds")]
+        let float = |&value: &i64| value as f32;
+        let values = match (element(kind), &self.values) {
+            (Some(Element::F32), Values::Floats(_)) => self.values.clone(),
+            (Some(Element::F32), Values::Integers(values)) => {
+                Values::Floats(values.iter().map(float).collect())
+            }
+            (None, _) if kind != data_type::INT64 => {
+                return Err(format!(
+                    "a cast of a constant to {} is not supported",
+                    data_type::name(kind.into())
+                ));
+            }
+            (_, Values::Integers(values)) => {
+                Values::Integers(values.iter().map(|&value| cut(value, kind)).collect())
+            }
+            (_, Values::Floats(values)) if kind == data_type::BOOL => {
+                Values::Integers(values.iter().map(|&value| i64::from(value != 0.0)).collect())
+            }
+            #[allow(clippy::cast_possible_truncation, reason = "a cast cuts off")]
+            (_, Values::Floats(values)) => {
+                Values::Integers(values.iter().map(|&value| cut(value as i64, kind)).collect())
+            }
+        };
+        Ok(Self { shape: self.shape.clone(), values, kind })
     }
 
     /// How many values are infinite or no numbers.
@@ -93,9 +195,10 @@ impl Constant {
     pub(super) fn as_integers(&self) -> Result<&[i64], String> {
         match &self.values {
             Values::Integers(values) => Ok(values),
-            Values::Floats(_) => {
-                Err("a constant must be of integers, but is of floating-point values".to_owned())
-            }
+            Values::Floats(_) => Err(format!(
+                "a constant must be of integers, but is of {}",
+                data_type::name(self.kind.into())
+            )),
         }
     }
 
@@ -111,12 +214,12 @@ impl Constant {
 
     /// Its only value, as one of a tensor of these.
     pub(super) fn single(&self, wanted: Element) -> Result<Tensor, String> {
-        if self.element != Some(wanted) || self.values.count() != 1 {
+        if self.element() != Some(wanted) || self.values.count() != 1 {
             let count = self.values.count();
             return Err(format!(
                 "a constant must be one value of {}, but is {count} of {}",
                 wanted.describe(),
-                self.element.map_or("another type", Element::describe)
+                data_type::name(self.kind.into())
             ));
         }
         let form = Form::whole(Vec::new()).encoded(Encoding::plain(wanted));
@@ -128,7 +231,12 @@ impl Constant {
 
     /// Its values as a tensor of the same element; integers of other types are refused.
     pub(super) fn tensor(&self) -> Result<Tensor, String> {
-        let element = self.element.ok_or("a constant must be of floating-point values or of integers of 8 or 32 bits, but is of another type")?;
+        let element = self.element().ok_or_else(|| {
+            format!(
+                "a constant must be of floating-point values or of integers of 8 or 32 bits, but is of {}",
+                data_type::name(self.kind.into())
+            )
+        })?;
         if self.values.count() == 0 {
             return Err(format!("a constant is empty: {:?}", self.shape));
         }
@@ -139,13 +247,23 @@ impl Constant {
         })
     }
 
+    /// Its values as floating-point ones, whatever they are; integers are rounded to 24 bits.
+    pub(super) fn floats_of(&self) -> Vec<f32> {
+        match &self.values {
+            Values::Floats(values) => values.clone(),
+            #[allow(clippy::cast_precision_loss, reason = "as documented")]
+            Values::Integers(values) => values.iter().map(|&value| value as f32).collect(),
+        }
+    }
+
     /// Its values as floating-point ones.
     pub(super) fn as_floats(&self) -> Result<&[f32], String> {
         match &self.values {
             Values::Floats(values) => Ok(values),
-            Values::Integers(_) => {
-                Err("a constant must be of floating-point values, but is of integers".to_owned())
-            }
+            Values::Integers(_) => Err(format!(
+                "a constant must be of floating-point values, but is of {}",
+                data_type::name(self.kind.into())
+            )),
         }
     }
 }
@@ -156,6 +274,26 @@ impl Values {
             Self::Floats(values) => values.len(),
             Self::Integers(values) => values.len(),
         }
+    }
+
+    /// Bytes of a value.
+    fn bytes_each(&self) -> u64 {
+        match self {
+            Self::Floats(_) => 4,
+            Self::Integers(_) => 8,
+        }
+    }
+}
+
+/// An integer as one of a type: its lowest bits, or whether it is not 0.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast cuts off")]
+fn cut(value: i64, kind: i32) -> i64 {
+    match kind {
+        data_type::BOOL => i64::from(value != 0),
+        data_type::UINT8 => i64::from(value as u8),
+        data_type::INT8 => i64::from(value as i8),
+        data_type::INT32 => i64::from(value as i32),
+        _ => value,
     }
 }
 
@@ -228,7 +366,7 @@ fn unpacked(kind: i32, tensor: &TensorProto) -> Result<Values, String> {
 }
 
 fn unknown(kind: i32) -> String {
-    format!("values of type {kind} of ONNX are not supported")
+    format!("values of {} are not supported", data_type::name(kind.into()))
 }
 
 /// The lowest 16 bits, which are a value.

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Arithmetic, comparisons and choices of constants, each repeated where it has one element.
 
-use super::constant::{Constant, Values};
-use super::rearrange::{MAX_FOLDED, spread};
+use super::constant::{Constant, Folder, Values};
+use super::rearrange::spread;
+use crate::onnx::data_type;
 use crate::operator::{Activation, broadcast};
 
 type Result<T> = std::result::Result<T, String>;
@@ -39,7 +40,12 @@ pub(super) fn unary(kind: &str, from: &Constant) -> Result<Option<Constant>> {
 }
 
 /// A function of two values.
-pub(super) fn binary(kind: &str, a: &Constant, b: &Constant) -> Result<Option<Constant>> {
+pub(super) fn binary(
+    folder: &Folder,
+    kind: &str,
+    a: &Constant,
+    b: &Constant,
+) -> Result<Option<Constant>> {
     let is_known = ["Add", "Sub", "Mul", "Div", "Pow", "Min", "Max"].contains(&kind);
     let is_comparison =
         ["Equal", "Greater", "GreaterOrEqual", "Less", "LessOrEqual"].contains(&kind);
@@ -47,7 +53,10 @@ pub(super) fn binary(kind: &str, a: &Constant, b: &Constant) -> Result<Option<Co
         return Ok(None);
     }
     let shape = together(&[a, b])?;
-    let (a, b) = (spread(a, &shape)?, spread(b, &shape)?);
+    let (a, mut b) = (spread(folder, a, &shape)?, spread(folder, b, &shape)?);
+    if kind == "Pow" {
+        b = exponent(&b, a.kind)?;
+    }
     let values = match (&a.values, &b.values) {
         (Values::Integers(of_a), Values::Integers(of_b)) => {
             let pairs = of_a.iter().zip(of_b);
@@ -66,8 +75,26 @@ pub(super) fn binary(kind: &str, a: &Constant, b: &Constant) -> Result<Option<Co
             return Err("one of its constants is of integers, the other is not".to_owned());
         }
     };
-    let element = if is_comparison { Some(crate::element::Element::U8) } else { a.element };
-    Ok(Some(Constant { shape, values, element }))
+    let kind = if is_comparison { data_type::BOOL } else { a.kind };
+    Ok(Some(Constant { shape, values, kind }))
+}
+
+/// An exponent as a power of this base takes it, which may be of another type.
+pub(super) fn exponent(exponent: &Constant, base: i32) -> Result<Constant> {
+    let largest = 1 << f32::MANTISSA_DIGITS;
+    if let Values::Integers(values) = &exponent.values
+        && let Some(odd) = values.iter().find(|value| !(-largest..=largest).contains(*value))
+    {
+        return Err(format!("its exponent is {odd}; integers are from {} to {largest}", -largest));
+    }
+    let is_whole = |value: &f32| value.fract() == 0.0;
+    let is_integer = base == data_type::INT64 || base == data_type::INT32;
+    match &exponent.values {
+        Values::Floats(values) if is_integer && !values.iter().all(is_whole) => {
+            Err("a power of integers with an exponent that is none is not supported".to_owned())
+        }
+        _ => exponent.cast(base),
+    }
 }
 
 fn compared<T: PartialOrd>(kind: &str, a: &T, b: &T) -> bool {
@@ -106,10 +133,15 @@ fn float(kind: &str, a: f32, b: f32) -> f32 {
 }
 
 /// The second constant where the first is not 0, else the third.
-pub(super) fn select(condition: &Constant, a: &Constant, b: &Constant) -> Result<Constant> {
+pub(super) fn select(
+    folder: &Folder,
+    condition: &Constant,
+    a: &Constant,
+    b: &Constant,
+) -> Result<Constant> {
     let shape = together(&[condition, a, b])?;
-    let is = spread(condition, &shape)?;
-    let (a, b) = (spread(a, &shape)?, spread(b, &shape)?);
+    let is = spread(folder, condition, &shape)?;
+    let (a, b) = (spread(folder, a, &shape)?, spread(folder, b, &shape)?);
     let is = is.as_integers()?;
     fn chosen<T: Copy>(is: &[i64], a: &[T], b: &[T]) -> Vec<T> {
         is.iter().zip(a.iter().zip(b)).map(|(&is, (&a, &b))| if is == 0 { b } else { a }).collect()
@@ -123,15 +155,15 @@ pub(super) fn select(condition: &Constant, a: &Constant, b: &Constant) -> Result
             return Err("one of its constants is of integers, the other is not".to_owned());
         }
     };
-    Ok(Constant { shape, values, element: a.element })
+    Ok(Constant { shape, values, kind: a.kind })
 }
 
 /// Numbers from a first one to before a last one.
-pub(super) fn range(inputs: &[&Constant]) -> Result<Constant> {
+pub(super) fn range(folder: &Folder, inputs: &[&Constant]) -> Result<Constant> {
     let &[start, limit, delta] = inputs else {
         return Err(format!("it has {} inputs, not 3", inputs.len()));
     };
-    let too_many = || format!("it makes a constant of more than {MAX_FOLDED} values");
+    let kind = start.kind;
     if let (Ok(&[start]), Ok(&[limit]), Ok(&[delta])) =
         (start.as_integers(), limit.as_integers(), delta.as_integers())
     {
@@ -142,15 +174,11 @@ pub(super) fn range(inputs: &[&Constant]) -> Result<Constant> {
                 (way / delta + i128::from(way % delta != 0 && (way < 0) == (delta < 0))).max(0)
             }
         };
-        let count = usize::try_from(count).ok().filter(|&count| count <= MAX_FOLDED);
-        let numbers = (0..).take(count.ok_or_else(too_many)?);
+        let shape = vec![usize::try_from(count).unwrap_or(usize::MAX)];
+        let count = folder.check_room(&shape, &Values::Integers(Vec::new()))?;
+        let numbers = (0..).take(count);
         let values = numbers.map(|at: i64| start.wrapping_add(at.wrapping_mul(delta))).collect();
-        let count = count.unwrap_or(0);
-        return Ok(Constant {
-            shape: vec![count],
-            values: Values::Integers(values),
-            element: None,
-        });
+        return Ok(Constant { shape, values: Values::Integers(values), kind });
     }
     let one = |of: &Constant| match of.as_floats()? {
         &[value] => Ok(value),
@@ -158,14 +186,17 @@ pub(super) fn range(inputs: &[&Constant]) -> Result<Constant> {
     };
     let (start, limit, delta) = (one(start)?, one(limit)?, one(delta)?);
     let count = ((limit - start) / delta).ceil().max(0.0);
-    #[allow(clippy::cast_precision_loss, reason = "a small number")]
-    let most = MAX_FOLDED as f32;
-    if count.is_nan() || count > most {
-        return Err(too_many());
+    if count.is_nan() {
+        return Err(format!("no numbers go from {start} to {limit} in steps of {delta}"));
     }
-    #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is small")]
-    let count = count as usize;
-    #[allow(clippy::cast_precision_loss, reason = "a small number")]
+    #[allow(
+        clippy::cast_possible_truncation,
+        clippy::cast_sign_loss,
+        reason = "it is not negative"
+    )]
+    let shape = [count as usize];
+    let count = folder.check_room(&shape, &Values::Floats(Vec::new()))?;
+    #[allow(clippy::cast_precision_loss, reason = "as the operator says")]
     let values = (0..count).map(|at| start + at as f32 * delta).collect();
     Ok(Constant::floats(vec![count], values))
 }

@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Nodes whose outputs are known when the network is read: shapes and what is computed of them.
 
-use super::constant::{Constant, Values};
+use super::constant::Constant;
 use super::elementwise;
 use super::moves::{axes, axes_of};
 use super::node::{Known, NodeReader, from_start, signed};
 use super::quantized;
-use super::rearrange::{
-    MAX_FOLDED, filled, gathered, joined, reshaped, sliced, spread, transposed,
-};
-use crate::element::Element;
+use super::rearrange::{filled, gathered, joined, reshaped, sliced, spread, transposed};
 use crate::form::MAX_AXES;
 use crate::operator::broadcast;
 
@@ -27,8 +24,11 @@ pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
             let float = node
                 .has("value_float")
                 .then(|| Constant::floats(Vec::new(), vec![node.float("value_float", 0.0)]));
-            let value = node.tensor("value")?.or(ints).or(int).or(float);
-            one(value.ok_or("its value is of a kind that is not supported")?)
+            let floats = node
+                .floats("value_floats")
+                .map(|floats| Constant::floats(vec![floats.len()], floats.to_vec()));
+            let value = node.tensor("value")?.or(ints).or(int).or(float).or(floats);
+            one(value.ok_or("it has none of the attributes value, value_float, value_floats, value_int and value_ints")?)
         }
         "Shape" => {
             let shape: Vec<usize> = match node.input(0) {
@@ -50,7 +50,12 @@ pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
             let part = lengths.get(start..end).unwrap_or_default().to_vec();
             one(Constant::integers(vec![part.len()], part))
         }
-        _ => constants(node).map_or(Ok(None), |inputs| computed(node, &inputs)),
+        _ => {
+            let Some(inputs) = constants(node) else { return Ok(None) };
+            let made = computed(node, &inputs)?;
+            made.iter().try_for_each(|made| node.folder.keep(made))?;
+            Ok(made)
+        }
     }
 }
 
@@ -69,37 +74,10 @@ fn constants<'a>(node: &NodeReader<'a>) -> Option<Vec<&'a Constant>> {
 fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Constant>, String> {
     let first = inputs[0];
     let made = match node.kind() {
-        "Cast" => match (node.int("to", 1), &first.values) {
-            #[allow(clippy::cast_precision_loss, reason = "a cast rounds")]
-            (1 | 10 | 16, Values::Integers(values)) => Constant::floats(
-                first.shape.clone(),
-                values.iter().map(|&value| value as f32).collect(),
-            ),
-            #[allow(clippy::cast_possible_truncation, reason = "a cast cuts off")]
-            (6 | 7, Values::Floats(values)) => Constant::integers(
-                first.shape.clone(),
-                values.iter().map(|&value| value as i64).collect(),
-            ),
-            (1 | 10 | 16, Values::Floats(_)) | (6 | 7, Values::Integers(_)) => first.clone(),
-            (9, values) => {
-                let is = match values {
-                    Values::Floats(values) => values.iter().map(|&value| value != 0.0).collect(),
-                    Values::Integers(values) => {
-                        values.iter().map(|&value| value != 0).collect::<Vec<bool>>()
-                    }
-                };
-                Constant {
-                    shape: first.shape.clone(),
-                    values: Values::Integers(is.into_iter().map(i64::from).collect()),
-                    element: Some(Element::U8),
-                }
-            }
-            (other, _) => {
-                return Err(format!("a cast of a constant to type {other} is not supported"));
-            }
-        },
-        "DequantizeLinear" => return quantized::dequantized(node, first).map(Some),
-        "QuantizeLinear" => return quantized::quantized(node, first).map(Some),
+        "Cast" => first.cast(node.kind_of("to")?)?,
+        "CastLike" => first.cast(inputs.get(1).ok_or("it has no type")?.kind)?,
+        "DequantizeLinear" => quantized::dequantized(node, first)?,
+        "QuantizeLinear" => quantized::quantized(node, first)?,
         "Gather" => gathered(node, first, inputs.get(1).ok_or("it has no indices")?)?,
         "Unsqueeze" => {
             let new = node.ints_of("axes", 1)?.ok_or("it has no axes")?;
@@ -131,21 +109,21 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
             let wanted = wanted.ok_or("its shape has too many axes, or a negative length")?;
             let shape = broadcast(&first.shape, &wanted)
                 .ok_or_else(|| format!("{:?} cannot become {wanted:?}", first.shape))?;
-            spread(first, &shape)?
+            spread(node.folder, first, &shape)?
         }
-        "Range" => elementwise::range(inputs)?,
+        "Range" => elementwise::range(node.folder, inputs)?,
         "Where" => match inputs {
-            [condition, a, b] => elementwise::select(condition, a, b)?,
+            [condition, a, b] => elementwise::select(node.folder, condition, a, b)?,
             _ => return Err(format!("it has {} inputs, not 3", inputs.len())),
         },
         "ConstantOfShape" => filled(node, first)?,
-        "Reshape" => reshaped(first, inputs.get(1).ok_or("it has no shape")?)?,
+        "Reshape" => reshaped(node, first, inputs.get(1).ok_or("it has no shape")?)?,
         "Transpose" => transposed(node, first)?,
-        "Slice" => sliced(first, inputs)?,
+        "Slice" => sliced(node, first)?,
         kind => {
             let made = match inputs {
                 [one] => elementwise::unary(kind, one)?,
-                [a, b] => elementwise::binary(kind, a, b)?,
+                [a, b] => elementwise::binary(node.folder, kind, a, b)?,
                 _ => None,
             };
             match made {
@@ -154,13 +132,5 @@ fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Consta
             }
         }
     };
-    let count = made.values.count();
-    let most = inputs.iter().map(|input| input.values.count()).max().unwrap_or(0);
-    if count > MAX_FOLDED.max(most) {
-        return Err(format!("it makes a constant of more than {MAX_FOLDED} values"));
-    }
-    if count > MAX_FOLDED {
-        node.folder.charge(4 * count as u64)?;
-    }
     Ok(Some(made))
 }

@@ -1,29 +1,111 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The graph of a model, node by node.
 
+use super::attributes::Attributes;
 use super::constant::{Constant, Folder};
 use super::fold;
-use super::input::{FrameSize, input_form, puts_channels_first};
+use super::input::{FrameSize, arrays_of, frame_input, puts_channels_first};
 use super::made::Made;
 use super::names::{full_kind, name_of, shown_name};
 use super::node::{Known, NodeReader, Operand};
 use super::operators;
 use super::pointwise;
+use super::schema::Schema;
+use crate::element::Element;
 use crate::error::NetworkError;
 use crate::layout::Layout;
 use crate::network::Network;
-use crate::onnx::{GraphProto, NodeProto};
-use crate::operator::{Activation, Fixed, Operator, Placed};
+use crate::onnx::{GraphProto, NodeProto, TensorProto};
+use crate::operator::{Fixed, Operator, Placed, Quantize, Scales};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// Reads a graph for frames of a size, or of its own.
+/// Where the values of the inputs come from.
+pub(super) enum InputSource<'a> {
+    /// Frames of a size, or of the network's own: one input takes them.
+    Frames(Option<FrameSize>),
+    /// Frames of the network's own size, or of this one where it takes any.
+    Open(FrameSize),
+    /// Arrays, one for each input.
+    Arrays(&'a [TensorProto]),
+}
+
+/// What is done about a node that cannot be read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OnProblem {
+    /// The reading ends.
+    Stop,
+    /// The problem is noted, and nodes that depend on this one are only looked up.
+    Note,
+}
+
+/// A graph that was read.
+pub(super) struct ReadGraph {
+    pub(super) network: Network,
+    /// The outputs in order: values of the network, or constants.
+    pub(super) outputs: Vec<(String, Known)>,
+    /// The values of the network's input, if an array is it.
+    pub(super) picture: Vec<f32>,
+    pub(super) problems: Vec<NetworkError>,
+}
+
+/// Reads a graph.
 pub(super) fn read(
     graph: &GraphProto,
     folder: &Folder,
-    frames: Option<FrameSize>,
-    opset: i64,
-) -> Result<Network, NetworkError> {
+    source: &InputSource<'_>,
+    (opset, on_problem): (i64, OnProblem),
+) -> Result<ReadGraph, NetworkError> {
+    let (mut known, odd) = constants(graph, folder)?;
+    let inputs: Vec<_> =
+        graph.input.iter().filter(|input| !known.contains_key(name_of(input))).collect();
+    let bound = match source {
+        &InputSource::Frames(frames) => frame_input(&inputs, graph, frames, None)?,
+        &InputSource::Open(open) => frame_input(&inputs, graph, None, Some(open))?,
+        InputSource::Arrays(arrays) => arrays_of(&inputs, arrays, folder)?,
+    };
+    let network = Network::new(bound.form, bound.layout)?;
+    known.extend(bound.known);
+    let mut reading = Reading {
+        network,
+        known,
+        unknown: HashSet::new(),
+        folder,
+        opset,
+        on_problem,
+        uses: uses(graph),
+        aliased: HashSet::new(),
+    };
+    if let Some((name, element)) = bound.stored {
+        reading.store(&name, element)?;
+    }
+    let mut problems = Vec::new();
+    for (index, node) in graph.node.iter().enumerate() {
+        let first = inputs.first().map_or("", |input| name_of(input));
+        let read = if bound.layout == Layout::Nhwc && puts_channels_first(node, first) {
+            // The input is read as what this makes of it.
+            reading.same(node, index, 0)
+        } else {
+            reading.node(node, index)
+        };
+        match read {
+            Err(problem) if on_problem == OnProblem::Note => {
+                problems.push(problem);
+                reading.unknown.extend(node.output.iter().cloned());
+            }
+            read => read?,
+        }
+    }
+    let outputs = if problems.is_empty() { reading.outputs(graph)? } else { Vec::new() };
+    let mut network = reading.network;
+    network.finish(values_of(&outputs), odd);
+    Ok(ReadGraph { network, outputs, picture: bound.picture, problems })
+}
+
+/// All constants by their names, and those that hold values that are not finite.
+type Constants = (HashMap<String, Known>, Vec<(String, usize)>);
+
+fn constants(graph: &GraphProto, folder: &Folder) -> Result<Constants, NetworkError> {
     let (mut known, mut odd) = (HashMap::new(), Vec::new());
     for tensor in &graph.initializer {
         let name = tensor.name.clone().unwrap_or_default();
@@ -35,109 +117,104 @@ pub(super) fn read(
         }
         known.insert(name, Known::Constant(Arc::new(constant)));
     }
-    let inputs: Vec<_> =
-        graph.input.iter().map(name_of).filter(|name| !known.contains_key(*name)).collect();
-    let &[name] = inputs.as_slice() else {
-        return Err(NetworkError::Network(format!(
-            "it must have one input, the picture, but it has {} ({})",
-            inputs.len(),
-            inputs.join(", ")
-        )));
+    Ok((known, odd))
+}
+
+/// The outputs that are values, with their names.
+fn values_of(outputs: &[(String, Known)]) -> Vec<(String, usize)> {
+    let value = |(name, known): &(String, Known)| match known {
+        &Known::Value(value) => Some((name.clone(), value)),
+        Known::Constant(_) => None,
     };
-    let input = graph.input.iter().find(|input| name_of(input) == name).expect("it is one of them");
-    let (form, layout) = input_form(input, graph, frames)?;
-    let network = Network::new(form, layout)?;
-    known.insert(name.to_owned(), Known::Value(0));
-    let mut reading =
-        Reading { network, known, folder, opset, uses: uses(graph), aliased: HashSet::new() };
-    for (index, node) in graph.node.iter().enumerate() {
-        if layout == Layout::Nhwc && puts_channels_first(node, name) {
-            // The input is read as what this makes of it.
-            reading.same(node, index, 0)?;
-        } else {
-            reading.node(node, index)?;
-        }
-    }
-    let named = |name: &str| Ok::<_, NetworkError>((name.to_owned(), reading.output(name)?));
-    let outputs = graph.output.iter().map(|output| named(name_of(output)));
-    let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
-    if outputs.is_empty() {
-        return Err(NetworkError::Network("it has no output".to_owned()));
-    }
-    reading.network.finish(outputs, odd);
-    Ok(reading.network)
+    outputs.iter().filter_map(value).collect()
 }
 
 /// A graph of which some nodes have been read.
-struct Reading<'a> {
-    network: Network,
-    known: HashMap<String, Known>,
+pub(super) struct Reading<'a> {
+    pub(super) network: Network,
+    pub(super) known: HashMap<String, Known>,
+    /// Values of which nothing is known, because a node before them cannot be read.
+    unknown: HashSet<String>,
     folder: &'a Folder,
     opset: i64,
+    on_problem: OnProblem,
     /// How often each name is taken.
-    uses: HashMap<&'a str, usize>,
+    pub(super) uses: HashMap<&'a str, usize>,
     /// Values that have a second name.
-    aliased: HashSet<usize>,
+    pub(super) aliased: HashSet<usize>,
 }
 
 impl Reading<'_> {
     fn node(&mut self, node: &NodeProto, index: usize) -> Result<(), NetworkError> {
-        let kind = node.op_type.clone().unwrap_or_default();
         let name = shown_name(node, index);
         let operator = full_kind(node);
         if !operators::is_known(&operator) {
-            return Err(NetworkError::Operator {
-                node: name,
-                operator,
-                advice: "docs/guides/infer.md lists those that are",
-            });
+            let advice = match self.on_problem {
+                OnProblem::Stop => "; `foveate infer --check MODEL` lists all nodes that are not",
+                OnProblem::Note => "",
+            };
+            return Err(NetworkError::Operator { node: name, operator, advice });
+        }
+        let problem = |problem| NetworkError::Node {
+            node: shown_name(node, index),
+            operator: node.op_type.clone().unwrap_or_default(),
+            problem,
+        };
+        Schema::check(node, self.opset).map_err(problem)?;
+        if node.input.iter().any(|input| self.unknown.contains(input)) {
+            self.unknown.extend(node.output.iter().cloned());
+            return Ok(());
         }
         if let Some(value) = self.swish(node) {
-            self.is_new(&node.output[0]).map_err(|problem| NetworkError::Node {
-                node: name.clone(),
-                operator: kind.clone(),
-                problem,
-            })?;
+            self.is_new(&node.output[0]).map_err(problem)?;
             self.known.insert(node.output[0].clone(), Known::Value(value));
             return Ok(());
         }
-        let made = self.made(node).map_err(|problem| NetworkError::Node {
-            node: name.clone(),
-            operator: kind.clone(),
-            problem,
-        })?;
-        for (made, output) in made.into_iter().zip(&node.output) {
-            self.is_new(output).map_err(|problem| NetworkError::Node {
-                node: name.clone(),
-                operator: kind.clone(),
-                problem,
-            })?;
-            let what = match made {
-                Made::Constant(constant) => Known::Constant(Arc::new(constant)),
-                Made::Same(what) => {
-                    if let Known::Value(value) = what {
-                        self.aliased.insert(value);
-                    }
-                    what
-                }
-                Made::Operator(operator, operands) => {
-                    Known::Value(self.push(&name, &kind, operator, operands)?)
-                }
-                Made::Finish(activation, value) => {
-                    let fused = self.fuse(&kind, activation, value, &node.input[0]);
-                    Known::Value(match fused {
-                        Some(value) => value,
-                        None => self.network.push(
-                            &name,
-                            &kind,
-                            pointwise::pointwise(activation),
-                            vec![value],
-                        )?,
-                    })
-                }
-            };
-            self.known.insert(output.clone(), what);
+        let made = self.made(node).map_err(problem)?;
+        let mut beyond = node.output.iter().enumerate().skip(made.len());
+        if let Some((at, output)) =
+            beyond.find(|(_, output)| self.uses.contains_key(output.as_str()))
+        {
+            return Err(problem(format!("its output {at}, `{output}`, is not supported")));
         }
+        for (made, output) in made.into_iter().zip(&node.output) {
+            self.is_new(output).map_err(problem)?;
+            let known = self.known(node, &name, made)?;
+            self.known.insert(output.clone(), known);
+        }
+        Ok(())
+    }
+
+    /// Adds what makes an output of a node, and returns what the output is.
+    fn known(&mut self, node: &NodeProto, name: &str, made: Made) -> Result<Known, NetworkError> {
+        let kind = node.op_type.clone().unwrap_or_default();
+        Ok(match made {
+            Made::Constant(constant) => Known::Constant(Arc::new(constant)),
+            Made::Same(known) => {
+                if let Known::Value(value) = known {
+                    self.aliased.insert(value);
+                }
+                known
+            }
+            Made::Operator(operator, operands) => {
+                Known::Value(self.push(name, &kind, operator, operands)?)
+            }
+            Made::Finish(activation, value) => {
+                let fused = self.fuse(&kind, activation, value, &node.input[0]);
+                let own = pointwise::pointwise(activation);
+                Known::Value(match fused {
+                    Some(value) => value,
+                    None => self.network.push(name, &kind, own, vec![value])?,
+                })
+            }
+        })
+    }
+
+    /// Lets a name stand for the input stored as integers of 8 bits.
+    fn store(&mut self, name: &str, element: Element) -> Result<(), NetworkError> {
+        let quantize = Arc::new(Quantize { scales: Scales::one(1.0, 0), to: element });
+        let value = self.network.push(&format!("{name}/stored"), "Cast", quantize, vec![0])?;
+        self.known.insert(name.to_owned(), Known::Value(value));
         Ok(())
     }
 
@@ -198,91 +275,36 @@ impl Reading<'_> {
             }
         }
         let forms = |value: usize| self.network.form(value).clone();
+        let attributes = Attributes::of(node);
         let reader = NodeReader {
             node,
+            attributes: &attributes,
             known: &self.known,
             folder: self.folder,
             opset: self.opset,
             forms: &forms,
         };
-        match fold::fold(&reader)? {
-            Some(constant) => Ok(vec![Made::Constant(constant)]),
-            None => operators::make(&reader),
-        }
-    }
-
-    /// Lets the operator just before apply an activation itself, if nobody else wants what it makes.
-    fn fuse(
-        &mut self,
-        kind: &str,
-        activation: Activation,
-        value: usize,
-        input: &str,
-    ) -> Option<usize> {
-        let is_alone = value == self.network.nodes().len()
-            && self.uses.get(input) == Some(&1)
-            && !self.aliased.contains(&value);
-        let last = self.network.nodes().last().filter(|_| is_alone)?;
-        let operator = last.operator.finished(activation)?;
-        let fused = format!("{}+{kind}", last.kind());
-        self.network.replace_last(&fused, operator);
-        Some(value)
-    }
-
-    /// Lets a value times its own `Sigmoid`, which is the last node, be one activation, and the operator before apply it, if nobody else wants
-    /// what it makes.
-    fn swish(&mut self, node: &NodeProto) -> Option<usize> {
-        let ([a, b], [_]) = (node.input.as_slice(), node.output.as_slice()) else { return None };
-        let value = |name: &str| match self.known.get(name) {
-            Some(&Known::Value(value)) => Some(value),
-            Some(Known::Constant(_)) | None => None,
+        let made = match fold::fold(&reader)? {
+            Some(constant) => vec![Made::Constant(constant)],
+            None => operators::make(&reader)?,
         };
-        let (of_a, of_b) = (value(a)?, value(b)?);
-        let gate = self.network.nodes().len();
-        let (input, input_name, gate_name) = match (of_a, of_b) {
-            (input, other) if other == gate => (input, a, b),
-            (other, input) if other == gate => (input, b, a),
-            _ => return None,
-        };
-        let last = self.network.nodes().last()?;
-        let is_swish = full_kind(node) == "Mul"
-            && last.kind() == "Sigmoid"
-            && last.inputs() == [input]
-            && self.uses.get(gate_name.as_str()) == Some(&1)
-            && !self.aliased.contains(&gate);
-        if !is_swish {
-            return None;
-        }
-        let swish = Activation::Swish { alpha: 1.0 };
-        let is_alone = input > 0
-            && input + 1 == gate
-            && self.uses.get(input_name.as_str()) == Some(&2)
-            && !self.aliased.contains(&input);
-        let before = is_alone.then(|| &self.network.nodes()[input - 1]);
-        let finished =
-            before.and_then(|before| Some((before.kind(), before.operator.finished(swish)?)));
-        match finished {
-            Some((kind, operator)) => {
-                let kind = format!("{kind}+Sigmoid+Mul");
-                self.network.remove_last();
-                self.network.replace_last(&kind, operator);
-                Some(input)
-            }
-            None => {
-                self.network.replace_last("Sigmoid+Mul", pointwise::pointwise(swish));
-                Some(gate)
-            }
-        }
+        Schema::check_read(&attributes, self.opset)?;
+        Ok(made)
     }
 
-    fn output(&self, name: &str) -> Result<usize, NetworkError> {
-        match self.known.get(name) {
-            Some(&Known::Value(value)) => Ok(value),
-            Some(Known::Constant(_)) => {
-                Err(NetworkError::Network(format!("its output `{name}` is constant")))
-            }
-            None => Err(NetworkError::Network(format!("no node makes its output `{name}`"))),
+    /// What the outputs are.
+    fn outputs(&self, graph: &GraphProto) -> Result<Vec<(String, Known)>, NetworkError> {
+        if graph.output.is_empty() {
+            return Err(NetworkError::Network("it has no output".to_owned()));
         }
+        let of = |output| {
+            let name = name_of(output);
+            let known = self.known.get(name).cloned().ok_or_else(|| {
+                NetworkError::Network(format!("no node makes its output `{name}`"))
+            })?;
+            Ok((name.to_owned(), known))
+        };
+        graph.output.iter().map(of).collect()
     }
 }
 

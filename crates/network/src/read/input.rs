@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The input of a network, and the frames that it is to take.
 
+use super::constant::{Constant, Folder};
 use super::names::{full_kind, is_standard, name_of, shown_name};
+use super::node::Known;
+use crate::element::Element;
 use crate::error::NetworkError;
 use crate::form::Form;
 use crate::layout::Layout;
-use crate::onnx::{GraphProto, NodeProto, ValueInfoProto, data_type};
+use crate::onnx::{GraphProto, NodeProto, TensorProto, ValueInfoProto, data_type};
+use std::sync::Arc;
 
 /// Width and height of the frames, for a network that takes any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,11 +60,126 @@ fn layout(
     }
 }
 
+/// The inputs of a network, as it is read.
+pub(super) struct BoundInputs {
+    /// The form of the input with channels first.
+    pub(super) form: Form,
+    pub(super) layout: Layout,
+    /// What the inputs are called.
+    pub(super) known: Vec<(String, Known)>,
+    /// The name of the input and how it is stored, if in 8 bits.
+    pub(super) stored: Option<(String, Element)>,
+    /// The values of the input, if they are given.
+    pub(super) picture: Vec<f32>,
+}
+
+/// The only input, which takes frames.
+pub(super) fn frame_input(
+    inputs: &[&ValueInfoProto],
+    graph: &GraphProto,
+    frames: Option<FrameSize>,
+    open: Option<FrameSize>,
+) -> Result<BoundInputs, NetworkError> {
+    let &[input] = inputs else {
+        let names: Vec<_> = inputs.iter().map(|input| name_of(input)).collect();
+        return Err(NetworkError::Network(format!(
+            "it must have one input, the picture, but it has {} ({})",
+            inputs.len(),
+            names.join(", ")
+        )));
+    };
+    let (form, layout) = input_form(input, graph, frames, open)?;
+    let known = vec![(name_of(input).to_owned(), Known::Value(0))];
+    Ok(BoundInputs { form, layout, known, stored: None, picture: Vec::new() })
+}
+
+/// An array for each input. The first that the executor can take is the input of the network, the others are constants of it.
+pub(super) fn arrays_of(
+    inputs: &[&ValueInfoProto],
+    arrays: &[TensorProto],
+    folder: &Folder,
+) -> Result<BoundInputs, NetworkError> {
+    if inputs.len() != arrays.len() {
+        let names: Vec<_> = inputs.iter().map(|input| name_of(input)).collect();
+        return Err(NetworkError::Network(format!(
+            "it has {} inputs ({}), but {} arrays are given; give one for each, in this order",
+            inputs.len(),
+            names.join(", "),
+            arrays.len()
+        )));
+    }
+    let mut bound = BoundInputs {
+        form: Form::whole(vec![1]),
+        layout: Layout::Nchw,
+        known: Vec::new(),
+        stored: None,
+        picture: vec![0.0],
+    };
+    let mut is_taken = false;
+    for (input, array) in inputs.iter().zip(arrays) {
+        let name = name_of(input).to_owned();
+        check_array(input, array)?;
+        let constant = Constant::read(array, folder)
+            .map_err(|problem| NetworkError::Network(format!("its input `{name}`: {problem}")))?;
+        let is_float = matches!(constant.element(), Some(Element::F32));
+        let is_byte = [data_type::UINT8, data_type::INT8].contains(&constant.kind);
+        if is_taken || !(is_float || is_byte) || constant.values.count() == 0 {
+            bound.known.push((name, Known::Constant(Arc::new(constant))));
+            continue;
+        }
+        is_taken = true;
+        bound.form = Form::features(constant.shape.clone());
+        bound.known.push((name.clone(), Known::Value(0)));
+        bound.stored = constant.element().filter(|_| is_byte).map(|element| (name, element));
+        bound.picture = constant.floats_of();
+    }
+    Ok(bound)
+}
+
+/// Refuses an array of another type or shape than its input.
+fn check_array(input: &ValueInfoProto, array: &TensorProto) -> Result<(), NetworkError> {
+    let name = name_of(input);
+    let tensor = input.r#type.as_ref().and_then(|of| of.tensor_type.as_ref());
+    let tensor = tensor.ok_or_else(|| {
+        NetworkError::Network(format!(
+            "its input `{name}` is no tensor, and others are not supported"
+        ))
+    })?;
+    let type_of = |kind: Option<i32>| data_type::name(kind.unwrap_or(0).into());
+    if tensor.elem_type != array.data_type {
+        return Err(NetworkError::Network(format!(
+            "its input `{name}` takes {}, but the array holds {}",
+            type_of(tensor.elem_type),
+            type_of(array.data_type)
+        )));
+    }
+    let Some(shape) = &tensor.shape else { return Ok(()) };
+    let fits = shape.dim.len() == array.dims.len()
+        && shape
+            .dim
+            .iter()
+            .zip(&array.dims)
+            .all(|(own, length)| own.dim_value.is_none_or(|own| own == *length || own == -1));
+    if fits {
+        return Ok(());
+    }
+    let own = shape.dim.iter().map(|own| match own.dim_value.filter(|&length| length != -1) {
+        Some(length) => length.to_string(),
+        None => "any".to_owned(),
+    });
+    Err(NetworkError::Network(format!(
+        "its input `{name}` takes an array of shape [{}], but the array has {:?}",
+        own.collect::<Vec<_>>().join(", "),
+        array.dims
+    )))
+}
+
 /// The form of the input with channels first, features of which the size may be open, and the layout in which the model takes it.
-pub(super) fn input_form(
+fn input_form(
     input: &ValueInfoProto,
     graph: &GraphProto,
     frames: Option<FrameSize>,
+    open: Option<FrameSize>,
 ) -> Result<(Form, Layout), NetworkError> {
     let wrong = |what: String| {
         NetworkError::Network(format!(
@@ -72,7 +191,8 @@ pub(super) fn input_form(
     let kind = tensor.and_then(|tensor| tensor.elem_type).unwrap_or(data_type::FLOAT);
     if ![data_type::FLOAT, data_type::FLOAT16, data_type::BFLOAT16].contains(&kind) {
         return Err(wrong(format!(
-            "of floating-point values of 32 or 16 bits, but it is of type {kind} of ONNX"
+            "of FLOAT, FLOAT16 or BFLOAT16, but it is of {}",
+            data_type::name(kind.into())
         )));
     }
     let shape = tensor
@@ -80,8 +200,8 @@ pub(super) fn input_form(
         .ok_or_else(|| wrong("but it has no shape".to_owned()))?;
     let mut lengths = Vec::new();
     for (axis, dim) in shape.dim.iter().enumerate() {
-        // Without a length the axis is open. A length of 0 is one, and no picture has it.
-        let length = dim.dim_value.map(|length| {
+        // Without a length, or with -1, as some exporters write it, the axis is open. A length of 0 is one, and no picture has it.
+        let length = dim.dim_value.filter(|&length| length != -1).map(|length| {
             usize::try_from(length).ok().filter(|&length| length > 0).ok_or_else(|| {
                 wrong(format!(
                     "but its axis {axis} has the length {length}; lengths are 1 and more, and an axis of any length has a name instead (dim_param)"
@@ -104,6 +224,8 @@ pub(super) fn input_form(
     if channels != 1 && channels != 3 {
         return Err(wrong(format!("with 1 or 3 channels, but it has {channels}")));
     }
+    let height = height.or(open.map(|open| open.height));
+    let width = width.or(open.map(|open| open.width));
     let (height, width) = match frames {
         Some(frames) => {
             let (own_height, own_width) =

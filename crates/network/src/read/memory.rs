@@ -6,7 +6,7 @@ use crate::onnx::{AttributeProto, NodeProto, TensorProto};
 use prost::decode_length_delimiter as varint;
 
 /// Bytes in memory of a field: of the largest message, in a list that grows to twice its length beside what it had.
-const FIELD: u64 = 1024;
+const FIELD: u64 = 1280;
 const fn fits(bytes: usize) -> bool {
     3 * bytes as u64 <= FIELD
 }

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Reads a network from an ONNX file.
 
+mod arrays;
+mod attributes;
 mod constant;
 mod elementwise;
 mod fold;
+mod fuse;
 mod graph;
 mod input;
 mod made;
@@ -18,6 +21,7 @@ mod pointwise;
 mod quantized;
 mod rearrange;
 mod scales;
+mod schema;
 mod sizes;
 mod sums;
 mod transposed;
@@ -26,11 +30,14 @@ use crate::error::NetworkError;
 use crate::network::Network;
 use crate::onnx::ModelProto;
 use constant::Folder;
+use graph::{InputSource, OnProblem, ReadGraph};
+use node::Known;
 use prost::Message as _;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
+pub(crate) use arrays::read_for_arrays;
 pub use input::FrameSize;
 pub use operators::operators;
 
@@ -49,20 +56,7 @@ impl Network {
     /// # Errors
     /// When the file cannot be read, is not a valid ONNX model, or has an operator that is not supported; without a size when its own is open.
     pub fn read(path: &Path, frames: impl Into<Option<FrameSize>>) -> Result<Self, NetworkError> {
-        let not_onnx = |problem: &str| NetworkError::NotOnnx {
-            path: path.to_owned(),
-            problem: problem.to_owned(),
-        };
-        if !path.metadata().map_err(NetworkError::io(path))?.is_file() {
-            return Err(not_onnx("it is not a file"));
-        }
-        let mut bytes = Vec::new();
-        let file = File::open(path).map_err(NetworkError::io(path))?;
-        file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(NetworkError::io(path))?;
-        if bytes.len() as u64 > MAX_FILE {
-            return Err(not_onnx("it is larger than 2 GiB"));
-        }
-        Self::parse(&bytes, path, frames)
+        Self::parse(&contents(path)?, path, frames)
     }
 
     /// As [`Network::read`], with what the file `path` holds. Data outside of the file is looked for in its folder.
@@ -74,24 +68,93 @@ impl Network {
         path: &Path,
         frames: impl Into<Option<FrameSize>>,
     ) -> Result<Self, NetworkError> {
-        let not_onnx = |problem| NetworkError::NotOnnx { path: path.to_owned(), problem };
-        let memory = memory::of_model(bytes);
-        if memory > MAX_MEMORY {
-            return Err(NetworkError::Network(format!(
-                "it may take {} MiB of memory to read; at most {} are supported",
-                memory >> 20,
-                MAX_MEMORY >> 20
-            )));
+        let source = InputSource::Frames(frames.into());
+        let read = read_graph(bytes, path, &source, OnProblem::Stop)?;
+        let constant = read.outputs.iter().find(|(_, of)| matches!(of, Known::Constant(_)));
+        match constant {
+            None => Ok(read.network),
+            Some((name, _)) => {
+                Err(NetworkError::Network(format!("its output `{name}` is constant")))
+            }
         }
-        let model = ModelProto::decode(bytes).map_err(|error| not_onnx(error.to_string()))?;
-        let graph = model.graph.as_ref().ok_or_else(|| not_onnx("it has no graph".to_owned()))?;
-        let own = model.opset_import.iter().find(|set| names::is_standard(set.domain.as_deref()));
-        let opset = own.and_then(|set| set.version).unwrap_or(MAX_OPSET);
-        if !(MIN_OPSET..=MAX_OPSET).contains(&opset) {
-            return Err(NetworkError::Network(format!(
-                "it uses version {opset} of the ONNX operators; versions {MIN_OPSET} to {MAX_OPSET} are supported"
-            )));
-        }
-        graph::read(graph, &Folder::of(path), frames.into(), opset)
     }
+
+    /// Reads a network, and goes on behind a node that cannot be read. `open` is the size of frames where the network takes any.
+    /// Of a node that depends on one that cannot be read only the operator and its attributes are looked at.
+    ///
+    /// # Errors
+    /// As [`Network::read`], but for nodes.
+    pub fn check(path: &Path, open: FrameSize) -> Result<NetworkCheck, NetworkError> {
+        let model = decoded(&contents(path)?, path)?;
+        let read = graph_of(&model, path, &InputSource::Open(open), OnProblem::Note)?;
+        let nodes = model.graph.map_or(0, |graph| graph.node.len());
+        let network = if read.problems.is_empty() { Ok(read.network) } else { Err(read.problems) };
+        Ok(NetworkCheck { nodes, network })
+    }
+}
+
+/// What is said of all nodes of a network.
+#[derive(Debug)]
+pub struct NetworkCheck {
+    /// Nodes of the model. The network has fewer where an operator does the work of several.
+    pub nodes: usize,
+    /// The network, or the problems of the nodes that cannot be read.
+    pub network: Result<Network, Vec<NetworkError>>,
+}
+
+/// What a file holds, up to a limit.
+fn contents(path: &Path) -> Result<Vec<u8>, NetworkError> {
+    if !path.metadata().map_err(NetworkError::io(path))?.is_file() {
+        return Err(not_onnx(path, "it is not a file"));
+    }
+    let mut bytes = Vec::new();
+    let file = File::open(path).map_err(NetworkError::io(path))?;
+    file.take(MAX_FILE + 1).read_to_end(&mut bytes).map_err(NetworkError::io(path))?;
+    if bytes.len() as u64 > MAX_FILE {
+        return Err(not_onnx(path, "it is larger than 2 GiB"));
+    }
+    Ok(bytes)
+}
+
+fn not_onnx(path: &Path, problem: &str) -> NetworkError {
+    NetworkError::NotOnnx { path: path.to_owned(), problem: problem.to_owned() }
+}
+
+fn read_graph(
+    bytes: &[u8],
+    path: &Path,
+    source: &InputSource<'_>,
+    on_problem: OnProblem,
+) -> Result<ReadGraph, NetworkError> {
+    graph_of(&decoded(bytes, path)?, path, source, on_problem)
+}
+
+fn graph_of(
+    model: &ModelProto,
+    path: &Path,
+    source: &InputSource<'_>,
+    on_problem: OnProblem,
+) -> Result<ReadGraph, NetworkError> {
+    let graph = model.graph.as_ref().ok_or_else(|| not_onnx(path, "it has no graph"))?;
+    let own = model.opset_import.iter().find(|set| names::is_standard(set.domain.as_deref()));
+    let opset = own.and_then(|set| set.version).unwrap_or(MAX_OPSET);
+    if !(MIN_OPSET..=MAX_OPSET).contains(&opset) {
+        return Err(NetworkError::Network(format!(
+            "it uses version {opset} of the ONNX operators; versions {MIN_OPSET} to {MAX_OPSET} are supported"
+        )));
+    }
+    graph::read(graph, &Folder::of(path), source, (opset, on_problem))
+}
+
+/// The model in a file.
+fn decoded(bytes: &[u8], path: &Path) -> Result<ModelProto, NetworkError> {
+    let memory = memory::of_model(bytes);
+    if memory > MAX_MEMORY {
+        return Err(NetworkError::Network(format!(
+            "it may take {} MiB of memory to read; at most {} are supported",
+            memory >> 20,
+            MAX_MEMORY >> 20
+        )));
+    }
+    ModelProto::decode(bytes).map_err(|error| not_onnx(path, &error.to_string()))
 }

@@ -23,6 +23,11 @@ pub(super) fn shown_name(node: &NodeProto, index: usize) -> String {
     name.unwrap_or_else(|| format!("{}_{index}", node.op_type.as_deref().unwrap_or_default()))
 }
 
+/// The type of an input or an output, if the model says it.
+pub(super) fn element_type(value: &ValueInfoProto) -> Option<i32> {
+    value.r#type.as_ref()?.tensor_type.as_ref()?.elem_type
+}
+
 /// What the model calls an input or an output.
 pub(super) fn name_of(value: &ValueInfoProto) -> &str {
     value.name.as_deref().unwrap_or_default()

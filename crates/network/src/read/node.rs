@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A node as operators read it: attributes with their defaults, constants, and values.
 
+use super::attributes::Attributes;
 use super::constant::{Constant, Folder};
 use super::names;
 use crate::element::{Element, typed_byte};
 use crate::form::Form;
 use crate::mask::Window;
-use crate::onnx::{AttributeProto, NodeProto};
+use crate::onnx::{AttributeProto, NodeProto, data_type};
 use crate::operator::Geometry;
 use crate::tensor::Tensor;
 use std::collections::HashMap;
@@ -28,6 +29,7 @@ pub(super) enum Operand {
 
 pub(super) struct NodeReader<'a> {
     pub(super) node: &'a NodeProto,
+    pub(super) attributes: &'a Attributes<'a>,
     pub(super) known: &'a HashMap<String, Known>,
     pub(super) folder: &'a Folder,
     /// The version of the operators.
@@ -46,7 +48,7 @@ impl<'a> NodeReader<'a> {
     }
 
     fn attribute(&self, name: &str) -> Option<&AttributeProto> {
-        self.node.attribute.iter().find(|attribute| attribute.name.as_deref() == Some(name))
+        self.attributes.get(name)
     }
 
     pub(super) fn has(&self, name: &str) -> bool {
@@ -54,16 +56,25 @@ impl<'a> NodeReader<'a> {
     }
 
     pub(super) fn int(&self, name: &str, default: i64) -> i64 {
-        self.attribute(name).and_then(|attribute| attribute.i).unwrap_or(default)
+        // A writer may leave out a field that is 0.
+        self.attribute(name).map_or(default, |attribute| attribute.i.unwrap_or(0))
+    }
+
+    /// A type of values that an attribute names, a number of `data_type`.
+    pub(super) fn kind_of(&self, name: &str) -> Result<i32, String> {
+        let kind = self.int(name, 0);
+        i32::try_from(kind).map_err(|_| format!("its {name} is {}", data_type::name(kind)))
     }
 
     pub(super) fn float(&self, name: &str, default: f32) -> f32 {
-        self.attribute(name).and_then(|attribute| attribute.f).unwrap_or(default)
+        self.attribute(name).map_or(default, |attribute| attribute.f.unwrap_or(0.0))
     }
 
     pub(super) fn text(&self, name: &str, default: &'static str) -> String {
-        let text = self.attribute(name).and_then(|attribute| attribute.s.as_deref());
-        text.map_or_else(|| default.to_owned(), |text| String::from_utf8_lossy(text).into_owned())
+        match self.attribute(name).map(|attribute| attribute.s.as_deref().unwrap_or_default()) {
+            Some(text) => String::from_utf8_lossy(text).into_owned(),
+            None => default.to_owned(),
+        }
     }
 
     pub(super) fn ints(&self, name: &str) -> Option<&[i64]> {

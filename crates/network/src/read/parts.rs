@@ -58,6 +58,10 @@ pub(super) fn split(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let axis = form.axis(node.int("axis", 0))?;
     let length = form.shape()[axis];
     let parts = node.node.output.len().max(1);
+    let wanted = node.int("num_outputs", signed(parts));
+    if wanted != signed(parts) {
+        return Err(format!("its num_outputs is {wanted}, but it has {parts} outputs"));
+    }
     let each = length.div_ceil(parts);
     let sizes = node.ints_of("split", 1)?.unwrap_or_else(|| {
         (0..parts)

@@ -2,10 +2,12 @@
 //! Operators of ONNX in which every value has its own: activations, arithmetic and scales.
 
 use super::constant::Constant;
+use super::elementwise;
 use super::made::{Made, of, one};
 use super::node::{Known, NodeReader};
 use crate::element::Element;
 use crate::form::Form;
+use crate::onnx::data_type;
 use crate::operator::{
     Activation, Arithmetic, Binary, Compare, Comparison, Dequantize, Operator, Pointwise, Scale,
     Scales, Select, Table,
@@ -46,18 +48,62 @@ pub(super) fn dropout(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 }
 
 pub(super) fn cast(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    cast_to(node, node.kind_of("to")?)
+}
+
+/// A cast to the type of the second input, of which nothing else matters.
+pub(super) fn cast_like(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let kind = match node.input(1).ok_or("it has no second input")? {
+        Known::Constant(like) => like.kind,
+        &Known::Value(like) => match (node.forms)(like).encoding().element {
+            Element::F32 => data_type::FLOAT,
+            Element::I8 => data_type::INT8,
+            Element::I32 => data_type::INT32,
+            Element::U8 => {
+                return Err("a cast to the type of a tensor of UINT8 or BOOL that is not constant is not supported".to_owned());
+            }
+        },
+    };
+    match node.input(0) {
+        Some(Known::Constant(constant)) => Ok(vec![Made::Constant(constant.cast(kind)?)]),
+        _ => cast_to(node, kind),
+    }
+}
+
+/// A cast of a tensor that is not constant. Values of 16 and 64 bits are kept as those of 32.
+fn cast_to(node: &NodeReader<'_>, kind: i32) -> Result<Vec<Made>, String> {
+    use data_type::{BFLOAT16, DOUBLE, FLOAT, FLOAT16};
     let element = |value: usize| (node.forms)(value).encoding().element;
-    match node.int("to", 1) {
-        // Values of 16 bits are kept as 32-bit ones.
-        1 | 10 | 16 => match node.input(0) {
+    match kind {
+        FLOAT | FLOAT16 | BFLOAT16 | DOUBLE => match node.input(0) {
             Some(&Known::Value(value)) if element(value) != Element::F32 => {
                 one(Dequantize(Scales::one(1.0, 0)), vec![value])
             }
             _ => same(node),
         },
         other => Err(format!(
-            "a cast to type {other} is not supported, only one to 1, 10 or 16, floating-point values of 32 or 16 bits"
+            "a cast of a tensor that is not constant to {} is not supported, only one to FLOAT, FLOAT16, BFLOAT16 or DOUBLE",
+            data_type::name(other.into())
         )),
+    }
+}
+
+/// A power, whose exponent may be of integers.
+pub(super) fn power(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    match (node.value(0), node.input(1)) {
+        (Ok(value), Some(Known::Constant(exponent)))
+            if (node.forms)(value).encoding().element == Element::F32 =>
+        {
+            let exponent = elementwise::exponent(exponent, data_type::FLOAT)?;
+            let weights = exponent.as_weights()?.to_vec();
+            let exponent = Tensor::new(Form::whole(exponent.shape.clone()), weights);
+            let constant = Some((exponent, false));
+            one(
+                Binary { kind: Arithmetic::Pow, constant, finish: Activation::Identity },
+                vec![value],
+            )
+        }
+        _ => binary(node, Arithmetic::Pow),
     }
 }
 
@@ -77,7 +123,10 @@ pub(super) fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made
             Binary { kind, constant: Some((tensor(b)?, false)), finish: Activation::Identity },
             vec![a],
         ),
-        _ => Err("it takes two tensors, not both constant".to_owned()),
+        _ => Err(format!(
+            "it has {} inputs; only two are supported, not both constant",
+            node.node.input.len()
+        )),
     }
 }
 
@@ -129,6 +178,9 @@ pub(super) fn clip(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
 pub(super) fn normalization(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     if node.int("training_mode", 0) != 0 {
         return Err("it is in training mode".to_owned());
+    }
+    if node.int("spatial", 1) != 1 {
+        return Err("spatial = 0, a normalization of each place, is not supported".to_owned());
     }
     let at = |at, what| node.wanted(at, what).and_then(Constant::as_weights);
     let epsilon = node.float("epsilon", 1e-5);

@@ -9,6 +9,7 @@ use super::scales::{bytes, row_major};
 use super::sums::pool;
 use crate::element::{Element, Encoding};
 use crate::form::Form;
+use crate::onnx::data_type;
 use crate::operator::{
     Activation, Arithmetic, Binary, Concat, Dequantize, IntegerConv, IntegerMatMul, PoolKind,
     Quantize, QuantizedBinary, QuantizedConcat, QuantizedMean, QuantizedPool, QuantizedSoftmax,
@@ -35,7 +36,7 @@ pub(super) fn dequantize(node: &NodeReader<'_>) -> Result<Vec<Made>> {
 
 /// The floating-point values that constant integers stand for.
 pub(super) fn dequantized(node: &NodeReader<'_>, constant: &Constant) -> Result<Constant> {
-    let element = constant.element.filter(|&element| element != Element::F32);
+    let element = constant.element().filter(|&element| element != Element::F32);
     let scales = node.dequantization(element.ok_or("it takes integers of 8 or 32 bits")?)?;
     let form = Form::whole(constant.shape.clone());
     scales.check(&form)?;
@@ -65,8 +66,13 @@ pub(super) fn quantized(node: &NodeReader<'_>, constant: &Constant) -> Result<Co
     Ok(Constant {
         shape: constant.shape.clone(),
         values: Values::Integers(values),
-        element: Some(to),
+        kind: stored_as(to),
     })
+}
+
+/// The type of ONNX of 8-bit integers.
+fn stored_as(element: Element) -> i32 {
+    if element == Element::I8 { data_type::INT8 } else { data_type::UINT8 }
 }
 
 /// `QLinearConv`.
@@ -168,7 +174,7 @@ pub(super) fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made
 /// A constant tensor of 8-bit values.
 fn stored(constant: &Constant, element: Element) -> Result<Tensor> {
     let form = Form::whole(constant.shape.clone()).encoded(Encoding::plain(element));
-    if constant.element != Some(element) {
+    if constant.element() != Some(element) {
         return Err(format!("its constant must be of {}", element.describe()));
     }
     Tensor::of_integers(form, constant.as_integers()?)

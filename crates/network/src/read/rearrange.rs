@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Constants whose values are taken from another one: what exporters write to make the widths of padding from a list.
 
-use super::constant::{Constant, Values};
+use super::constant::{Constant, Folder, Values};
 use super::node::{NodeReader, from_start, signed};
 use crate::form::MAX_AXES;
-
-/// Values of the largest constant that is computed; it may have as many as one that it is made of.
-pub(super) const MAX_FOLDED: usize = 1 << 16;
 
 /// As many times the same value as a shape says.
 pub(super) fn filled(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant, String> {
@@ -18,12 +15,26 @@ pub(super) fn filled(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant
     if value.values.count() != 1 {
         return Err(format!("its value has {} values, not 1", value.values.count()));
     }
-    pick(&value, shape, |_| 0)
+    let count = node.folder.check_room(&shape, &value.values)?;
+    let values = match &value.values {
+        Values::Floats(values) => Values::Floats(vec![values[0]; count]),
+        Values::Integers(values) => Values::Integers(vec![values[0]; count]),
+    };
+    Ok(Constant { shape, values, kind: value.kind })
 }
 
 /// The same values in another shape, of which one length may be -1 and those of 0 are as before.
-pub(super) fn reshaped(from: &Constant, shape: &Constant) -> Result<Constant, String> {
+pub(super) fn reshaped(
+    node: &NodeReader<'_>,
+    from: &Constant,
+    shape: &Constant,
+) -> Result<Constant, String> {
     let wanted = shape.as_integers()?;
+    if node.int("allowzero", 0) != 0 && wanted.contains(&0) {
+        return Err(format!(
+            "its shape {wanted:?} holds a 0 and allowzero is 1, so that its output is empty"
+        ));
+    }
     let wrong = || format!("its input {:?} cannot become {wanted:?}", from.shape);
     if wanted.len() > MAX_AXES {
         return Err(wrong());
@@ -61,20 +72,17 @@ pub(super) fn transposed(node: &NodeReader<'_>, from: &Constant) -> Result<Const
         return Err(format!("its perm does not name each of {axes} axes once"));
     }
     let shape = order.iter().map(|&axis| from.shape[axis]).collect();
-    pick(from, shape, |place| {
+    pick(node.folder, from, shape, |place| {
         (0..axes).map(|axis| place[position(&order, axis)] * stride(&from.shape, axis)).sum()
     })
 }
 
 /// A part along some axes, in steps that may be negative.
-pub(super) fn sliced(from: &Constant, inputs: &[&Constant]) -> Result<Constant, String> {
-    let list = |at: usize| inputs.get(at).map(|input| input.as_integers()).transpose();
-    let starts = list(1)?.ok_or("it has no starts")?;
-    let ends = list(2)?.ok_or("it has no ends")?;
-    let every: Vec<i64> = (0..signed(starts.len())).collect();
-    let axes = list(3)?.unwrap_or(&every);
-    let ones = vec![1; starts.len()];
-    let steps = list(4)?.unwrap_or(&ones);
+pub(super) fn sliced(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
+    let starts = node.ints_of("starts", 1)?.ok_or("it has no starts")?;
+    let ends = node.ints_of("ends", 2)?.ok_or("it has no ends")?;
+    let axes = node.ints_of("axes", 3)?.unwrap_or_else(|| (0..signed(starts.len())).collect());
+    let steps = node.ints_of("steps", 4)?.unwrap_or_else(|| vec![1; starts.len()]);
     if [ends.len(), axes.len(), steps.len()].iter().any(|&length| length != starts.len()) {
         return Err("its starts, ends, axes and steps are not as many".to_owned());
     }
@@ -89,7 +97,7 @@ pub(super) fn sliced(from: &Constant, inputs: &[&Constant]) -> Result<Constant, 
         shape[axis] = count;
         (first[axis], step[axis]) = (start, steps[at]);
     }
-    pick(from, shape, |place| {
+    pick(node.folder, from, shape, |place| {
         let along = |axis: usize| {
             let at = first[axis] + signed(place[axis]) * step[axis];
             usize::try_from(at).expect("inside") * stride(&from.shape, axis)
@@ -119,7 +127,7 @@ pub(super) fn stretch(
 }
 
 /// A constant repeated to a shape along axes of one element, and along new axes in front.
-pub(super) fn spread(of: &Constant, shape: &[usize]) -> Result<Constant, String> {
+pub(super) fn spread(folder: &Folder, of: &Constant, shape: &[usize]) -> Result<Constant, String> {
     if of.shape == shape {
         return Ok(of.clone());
     }
@@ -128,7 +136,7 @@ pub(super) fn spread(of: &Constant, shape: &[usize]) -> Result<Constant, String>
         of.shape.iter().zip(&shape[*new..]).all(|(&own, &wanted)| own == wanted || own == 1)
     };
     let new = new.filter(fits).ok_or_else(|| format!("{:?} cannot become {shape:?}", of.shape))?;
-    pick(of, shape.to_vec(), |place| {
+    pick(folder, of, shape.to_vec(), |place| {
         let along = |axis: usize| match of.shape[axis] {
             1 => 0,
             _ => place[axis + new] * stride(&of.shape, axis),
@@ -159,7 +167,7 @@ pub(super) fn gathered(
     let shape = [front, indices.shape.as_slice(), behind].concat();
     // As if the indices were one axis.
     let (count, inner) = (places.len(), behind.iter().product::<usize>());
-    let made = pick(from, vec![front.iter().product(), count, inner], |place| {
+    let made = pick(node.folder, from, vec![front.iter().product(), count, inner], |place| {
         (place[0] * length + places[place[1]]) * inner + place[2]
     })?;
     Ok(Constant { shape, ..made })
@@ -181,15 +189,10 @@ pub(super) fn joined(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Const
         return Err("its inputs do not fit together".to_owned());
     }
     let mut shape = first.shape.clone();
-    shape[axis] = parts.iter().map(|part| part.shape[axis]).sum();
+    let length = parts.iter().try_fold(0usize, |sum, part| sum.checked_add(part.shape[axis]));
+    shape[axis] = length.ok_or("its output is too long")?;
+    node.folder.check_room(&shape, &first.values)?;
     let outer: usize = shape[..axis].iter().product();
-    if shape
-        .iter()
-        .try_fold(1usize, |all, &length| all.checked_mul(length))
-        .is_none_or(|all| all > MAX_FOLDED)
-    {
-        return Err(format!("it makes a constant of more than {MAX_FOLDED} values"));
-    }
     fn lines<T: Copy>(parts: &[&[T]], outer: usize) -> Vec<T> {
         let line = |line| {
             parts.iter().flat_map(move |part: &&[T]| {
@@ -210,7 +213,7 @@ pub(super) fn joined(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Const
             Values::Floats(lines(&parts, outer))
         }
     };
-    Ok(Constant { shape, values, element: first.element })
+    Ok(Constant { shape, values, kind: first.kind })
 }
 
 /// Where an axis is in an order of all.
@@ -225,21 +228,32 @@ fn stride(shape: &[usize], axis: usize) -> usize {
 
 /// A constant whose value at each place is another's value, of which `from` gives the number.
 fn pick(
+    folder: &Folder,
     of: &Constant,
     shape: Vec<usize>,
     from: impl Fn(&[usize]) -> usize,
 ) -> Result<Constant, String> {
-    let count = shape.iter().try_fold(1usize, |count, &length| count.checked_mul(length));
-    let count = count
-        .filter(|&count| count <= MAX_FOLDED.max(of.values.count()))
-        .ok_or_else(|| format!("it makes a constant of more than {MAX_FOLDED} values"))?;
-    let place = |at: usize| -> Vec<usize> {
-        (0..shape.len()).map(|axis| at / stride(&shape, axis) % shape[axis]).collect()
-    };
-    let numbers = (0..count).map(|at| from(&place(at)));
+    let count = folder.check_room(&shape, &of.values)?;
+    let mut place = vec![0; shape.len()];
+    let numbers = (0..count).map(|_| {
+        let number = from(&place);
+        advance(&mut place, &shape);
+        number
+    });
     let values = match &of.values {
         Values::Floats(values) => Values::Floats(numbers.map(|at| values[at]).collect()),
         Values::Integers(values) => Values::Integers(numbers.map(|at| values[at]).collect()),
     };
-    Ok(Constant { shape, values, element: of.element })
+    Ok(Constant { shape, values, kind: of.kind })
+}
+
+/// Goes to the next place of a shape, the last axis first; behind the last one is the first.
+fn advance(place: &mut [usize], shape: &[usize]) {
+    for (at, &length) in place.iter_mut().zip(shape).rev() {
+        *at += 1;
+        if *at < length {
+            return;
+        }
+        *at = 0;
+    }
 }

@@ -4,6 +4,7 @@
 use super::constant::{Constant, Values};
 use super::node::NodeReader;
 use crate::element::{Element, Encoding};
+use crate::onnx::data_type;
 use crate::operator::{Rows, Scales};
 use std::borrow::Cow;
 
@@ -31,7 +32,7 @@ impl NodeReader<'_> {
     /// Zero points, of which there is one or `count`; 0 where the node has none.
     fn zeros(&self, at: usize, what: &str, element: Element, count: usize) -> Result<Vec<i32>> {
         let Some(zeros) = self.constant(at, what)? else { return Ok(vec![0; count]) };
-        if zeros.element != Some(element) {
+        if zeros.element() != Some(element) {
             return Err(format!("its {what} must be of {}, as its tensor", element.describe()));
         }
         let (lowest, highest) = if element.is_byte() { element.range() } else { (0, 0) };
@@ -65,7 +66,7 @@ impl NodeReader<'_> {
     pub(super) fn encoding_out(&self, at: usize, what: &str) -> Result<Encoding> {
         let element = match self.constant(at + 1, &format!("{what}_zero_point"))? {
             None => Element::U8,
-            Some(zero) => byte(zero.element, &format!("{what}_zero_point"))?,
+            Some(zero) => byte(zero.element(), &format!("{what}_zero_point"))?,
         };
         self.encoding(at, what, element)
     }
@@ -84,7 +85,7 @@ impl NodeReader<'_> {
     /// A bias of 32-bit integers, if there is one.
     pub(super) fn bias(&self, at: usize) -> Result<Vec<i32>> {
         let Some(bias) = self.constant(at, "bias")? else { return Ok(Vec::new()) };
-        if bias.element != Some(Element::I32) {
+        if bias.element() != Some(Element::I32) {
             return Err("its bias must be of 32-bit integers".to_owned());
         }
         let value = |&value: &i64| {
@@ -97,19 +98,29 @@ impl NodeReader<'_> {
     pub(super) fn quantization(&self) -> Result<(Scales, Element)> {
         let own = match self.int("output_dtype", 0) {
             0 => None,
-            2 => Some(Element::U8),
-            3 => Some(Element::I8),
-            other => return Err(format!("an output_dtype of {other} is not supported")),
+            of if of == i64::from(data_type::UINT8) => Some(Element::U8),
+            of if of == i64::from(data_type::INT8) => Some(Element::I8),
+            other => {
+                let other = data_type::name(other);
+                return Err(format!(
+                    "an output_dtype of {other} is not supported, only UINT8 and INT8"
+                ));
+            }
         };
         let to = match self.constant(2, "y_zero_point")? {
             None => own.unwrap_or(Element::U8),
-            Some(zero) => byte(zero.element, "y_zero_point")?,
+            Some(zero) => byte(zero.element(), "y_zero_point")?,
         };
         Ok((self.along("y", to)?, to))
     }
 
     /// Scales and zero points of `DequantizeLinear` of integers.
     pub(super) fn dequantization(&self, element: Element) -> Result<Scales> {
+        let to = self.kind_of("output_dtype")?;
+        if ![0, data_type::FLOAT, data_type::FLOAT16, data_type::BFLOAT16].contains(&to) {
+            let to = data_type::name(to.into());
+            return Err(format!("an output_dtype of {to} is not supported"));
+        }
         self.along("x", element)
     }
 
@@ -136,7 +147,7 @@ pub(super) fn bytes(
     zeros: usize,
     channels: usize,
 ) -> Result<Rows> {
-    let element = byte(weights.element, "weights")?;
+    let element = byte(weights.element(), "weights")?;
     let (lowest, highest) = element.range();
     // Without sign, 0 is kept as the lowest value with sign.
     let kept = |value: i64| {

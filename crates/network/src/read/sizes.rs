@@ -106,16 +106,21 @@ fn size(node: &NodeReader<'_>, value: usize, is_old: bool) -> Result<Size, Strin
 }
 
 pub(super) fn depth_to_space(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
-    let side = positive("blocksize", node.int("blocksize", 0))?;
-    let order = match node.text("mode", "DCR").as_str() {
-        "DCR" => Order::SquareFirst,
-        "CRD" => Order::ChannelFirst,
-        other => return Err(format!("the mode `{other}` is unknown; it is DCR or CRD")),
-    };
+    let (side, order) = squares(node)?;
     one(DepthToSpace { side, order }, vec![node.value(0)?])
 }
 
 pub(super) fn space_to_depth(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
+    let (side, order) = squares(node)?;
+    one(SpaceToDepth { side, order }, vec![node.value(0)?])
+}
+
+/// The side of the squares that become channels or are made of them, and in which order.
+fn squares(node: &NodeReader<'_>) -> Result<(usize, Order), String> {
     let side = positive("blocksize", node.int("blocksize", 0))?;
-    one(SpaceToDepth { side }, vec![node.value(0)?])
+    match node.text("mode", "DCR").as_str() {
+        "DCR" => Ok((side, Order::SquareFirst)),
+        "CRD" => Ok((side, Order::ChannelFirst)),
+        other => Err(format!("the mode `{other}` is unknown; it is DCR or CRD")),
+    }
 }

@@ -254,8 +254,11 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
                 ("ceil_mode", Value::Int(ceil.into())),
                 ("count_include_pad", Value::Int(i64::from(seed.is_multiple_of(2)))),
             ];
-            let name =
-                model.node(if max { "MaxPool" } else { "AveragePool" }, &[&name], &attributes);
+            // The largest of a window has no padding to count.
+            let name = match max {
+                true => model.node("MaxPool", &[&name], &attributes[..attributes.len() - 1]),
+                false => model.node("AveragePool", &[&name], &attributes),
+            };
             Some(State { name, height, width, ..now.clone() })
         }
         Layer::Relu => of(model.node("Relu", &[&name], &[])),
@@ -429,8 +432,8 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
             (channels < 20).then(|| State { name, channels: channels + 1, ..now.clone() })
         }
         Layer::Centre { axes } => {
-            let axes = ("axes", Value::Ints(axes));
-            let mean = model.node("ReduceMean", &[&name], &[axes]);
+            let axes = model.ints(&axes);
+            let mean = model.node("ReduceMean", &[&name, &axes], &[]);
             of(model.node("Sub", &[&name, &mean], &[]))
         }
         Layer::Normal { kind } => {
@@ -482,8 +485,8 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
             })
         }
         Layer::Repeat => {
-            let axes = ("axes", Value::Ints(vec![1]));
-            let most = model.node("ReduceMax", &[&name], &[axes]);
+            let axes = model.ints(&[1]);
+            let most = model.node("ReduceMax", &[&name, &axes], &[]);
             let shape = model.ints(&[1, 3, height, 1]);
             let name = model.node("Expand", &[&most, &shape], &[]);
             Some(State { name, channels: 3, ..now.clone() })

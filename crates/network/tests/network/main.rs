@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod activations;
+mod attributes;
 mod documents;
 mod exact;
 mod golden;

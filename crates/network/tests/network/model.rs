@@ -2,8 +2,8 @@
 //! Makes ONNX models.
 
 use foveate_network::onnx::{
-    AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, TensorProto, TensorShapeProto,
-    TensorTypeProto, TypeProto, ValueInfoProto, data_type,
+    AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, OperatorSetIdProto, TensorProto,
+    TensorShapeProto, TensorTypeProto, TypeProto, ValueInfoProto, data_type,
 };
 use foveate_network::{FrameSize, Network, NetworkError};
 use prost::Message as _;
@@ -13,6 +13,8 @@ use std::path::Path;
 #[derive(Default)]
 pub(crate) struct Model {
     pub(crate) graph: GraphProto,
+    /// The version of the operators; the newest one without.
+    pub(crate) opset: Option<i64>,
     count: usize,
 }
 
@@ -101,8 +103,9 @@ impl Model {
     }
 
     pub(crate) fn bytes(self) -> Vec<u8> {
-        ModelProto { ir_version: Some(8), graph: Some(self.graph), ..ModelProto::default() }
-            .encode_to_vec()
+        let own = |version| OperatorSetIdProto { domain: None, version: Some(version) };
+        let opset_import = self.opset.map(own).into_iter().collect();
+        ModelProto { ir_version: Some(8), graph: Some(self.graph), opset_import }.encode_to_vec()
     }
 
     pub(crate) fn read(self, width: usize, height: usize) -> Result<Network, NetworkError> {
@@ -111,12 +114,14 @@ impl Model {
 }
 
 /// The value of an attribute.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub(crate) enum Value {
     Int(i64),
     Ints(Vec<i64>),
     Float(f32),
+    Floats(Vec<f32>),
     Text(&'static str),
+    Tensor(TensorProto),
 }
 
 impl Value {
@@ -127,6 +132,8 @@ impl Value {
             Self::Int(value) => attribute.i = Some(*value),
             Self::Ints(values) => attribute.ints.clone_from(values),
             Self::Float(value) => attribute.f = Some(*value),
+            Self::Floats(values) => attribute.floats.clone_from(values),
+            Self::Tensor(tensor) => attribute.t = Some(tensor.clone()),
             Self::Text(text) => attribute.s = Some(text.as_bytes().to_vec()),
         }
         attribute

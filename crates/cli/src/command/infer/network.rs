@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! `foveate infer` of a network alone, without a camera: on arrays, or only looked at.
+
+use std::ffi::OsString;
+use std::fmt::Write as _;
+use std::path::Path;
+
+use clap::CommandFactory;
+use clap::parser::ValueSource;
+use foveate_inference::{
+    ArrayFile, ArraySummary, CheckedNetwork, NetworkFacts, OPEN_SIZE, check_network, infer_arrays,
+    is_array,
+};
+use foveate_network::operators;
+use indicatif::DecimalBytes;
+
+use crate::args::{Cli, InferArgs};
+use crate::error::CliError;
+use crate::output;
+
+/// Arguments that arrays have in common with clips.
+const OF_ARRAYS: [&str; 7] = ["network", "inputs", "output", "force", "json", "quiet", "threads"];
+/// Arguments that a check has in common with clips.
+const OF_CHECK: [&str; 5] = ["network", "check", "json", "resize", "threads"];
+
+/// Runs the network on arrays.
+pub(super) fn arrays(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
+    if let Some(other) = args.inputs.iter().find(|input| !is_array(input)) {
+        return Err(CliError::Usage(format!(
+            "`{}` is no array (.npy), but other inputs are; give arrays alone, one for each input of the network, or clips alone",
+            other.display()
+        )));
+    }
+    only(words, &OF_ARRAYS, "with arrays, which no camera looks at")?;
+    let summary = infer_arrays(&args.network, &args.inputs, folder, args.force)?;
+    match (args.json, args.quiet) {
+        (true, _) => output::json(&summary),
+        (false, false) => output::text(&of_arrays(folder, &summary)),
+        (false, true) => Ok(()),
+    }
+}
+
+/// Looks at all nodes of the network.
+pub(super) fn check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
+    only(words, &OF_CHECK, "with --check, which reads no frames")?;
+    let checked = check_network(&args.network, args.input.resize.unwrap_or(OPEN_SIZE))?;
+    if args.json {
+        output::json(&checked)?;
+    } else {
+        output::text(&of_check(&args.network, &checked))?;
+    }
+    match checked.problems.len() {
+        0 => Ok(()),
+        count => Err(CliError::Failed(format!(
+            "{count} of the {} nodes of `{}` cannot be run",
+            checked.nodes,
+            args.network.display()
+        ))),
+    }
+}
+
+/// Refuses arguments that have no meaning here.
+fn only(words: &[OsString], allowed: &[&str], here: &str) -> Result<(), CliError> {
+    let matches = Cli::command().get_matches_from(words);
+    let Some((name, matches)) = matches.subcommand() else { return Ok(()) };
+    let is_given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
+    let command = Cli::command();
+    let own = command.find_subcommand(name).expect("it has been parsed");
+    let mut odd = own.get_arguments().filter(|argument| {
+        let id = argument.get_id().as_str();
+        !allowed.contains(&id) && matches.ids().any(|own| own == id) && is_given(id)
+    });
+    match odd.next() {
+        None => Ok(()),
+        Some(odd) => Err(CliError::Usage(format!(
+            "--{} has no meaning {here}; leave it out",
+            odd.get_long().unwrap_or(odd.get_id().as_str())
+        ))),
+    }
+}
+
+/// A count in millions.
+#[allow(clippy::cast_precision_loss, reason = "one digit is shown")]
+fn millions(count: u64) -> String {
+    format!("{:.1} M", count as f64 / 1e6)
+}
+
+fn shape(lengths: &[usize]) -> String {
+    format!("{lengths:?}")
+}
+
+fn of_arrays(folder: &Path, summary: &ArraySummary) -> String {
+    let mut text = format!("{}: outputs of {}\n", folder.display(), summary.network.display());
+    let line = |of: &str, array: &ArrayFile| {
+        let name = array.name.as_ref().map(|name| format!("{name} ")).unwrap_or_default();
+        format!("{of:<10} {name}{} {} in {}\n", array.dtype, shape(&array.shape), array.file)
+    };
+    text.extend(summary.inputs.iter().map(|array| line("input", array)));
+    text.extend(summary.outputs.iter().map(|array| line("output", array)));
+    let _ = writeln!(text, "MACs       {}", millions(summary.macs));
+    let _ = writeln!(text, "memory     weights {}", DecimalBytes(summary.weight_bytes));
+    let _ = writeln!(text, "time       {:.2} ms", 1e3 * summary.seconds);
+    text
+}
+
+fn of_check(path: &Path, checked: &CheckedNetwork) -> String {
+    let name = path.display();
+    if let Some(facts) = &checked.network {
+        let all = format!("{name}: all {} nodes can be run\n", checked.nodes);
+        return all + &of_facts(facts);
+    }
+    let mut text =
+        format!("{name}: {} of {} nodes cannot be run\n", checked.problems.len(), checked.nodes);
+    for problem in &checked.problems {
+        let _ = writeln!(text, "- {problem}");
+    }
+    let operators: Vec<_> = operators().collect();
+    let _ = writeln!(text, "operators that can be run: {}", operators.join(", "));
+    text
+}
+
+fn of_facts(facts: &NetworkFacts) -> String {
+    let mut text = format!("input      {}, layout {}\n", shape(&facts.input), facts.layout);
+    for (name, lengths) in &facts.outputs {
+        let _ = writeln!(text, "output     {name} {}", shape(lengths));
+    }
+    let operators = facts.operators.iter().map(|(name, count)| format!("{count} {name}"));
+    let _ = writeln!(text, "operators  {}", operators.collect::<Vec<_>>().join(", "));
+    let _ = writeln!(text, "MACs       {} per frame", millions(facts.macs));
+    let _ = writeln!(
+        text,
+        "memory     weights {}, kept tensors {}",
+        DecimalBytes(facts.weight_bytes),
+        DecimalBytes(facts.kept_bytes)
+    );
+    text
+}

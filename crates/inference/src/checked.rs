@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Whether a network can be run, said of all its nodes at once.
+
+use crate::InferenceError;
+use foveate_network::{FrameSize, Network, NetworkCheck};
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::path::Path;
+
+/// Width and height of the frames for which a network is looked at that takes any size.
+pub const OPEN_SIZE: (u32, u32) = (224, 224);
+
+/// A network that was looked at.
+#[derive(Clone, Debug, Serialize)]
+pub struct CheckedNetwork {
+    /// Nodes of the model.
+    pub nodes: usize,
+    /// A sentence for every node that cannot be run; none if the network can.
+    pub problems: Vec<String>,
+    /// What there is to say of a network that can be run.
+    pub network: Option<NetworkFacts>,
+}
+
+/// A network that can be run.
+#[derive(Clone, Debug, Serialize)]
+pub struct NetworkFacts {
+    /// Shape of the input with channels first, for the size that was looked at.
+    pub input: Vec<usize>,
+    /// The order in which the model takes the axes of the input: nchw or nhwc.
+    pub layout: &'static str,
+    /// Names and shapes of the outputs.
+    pub outputs: Vec<(String, Vec<usize>)>,
+    /// How many nodes have each operator, after those that do the work of several have taken it over.
+    pub operators: BTreeMap<String, usize>,
+    /// Multiplications and additions for a frame.
+    pub macs: u64,
+    /// Bytes of all weights.
+    pub weight_bytes: u64,
+    /// Bytes of the tensors that are kept from frame to frame.
+    pub kept_bytes: u64,
+}
+
+/// Looks at all nodes of a network, for frames of a size where it takes any.
+///
+/// # Errors
+/// When the file cannot be read, is not a valid ONNX model, or its inputs are not one that takes frames.
+pub fn check_network(path: &Path, open: (u32, u32)) -> Result<CheckedNetwork, InferenceError> {
+    let open = FrameSize { width: open.0 as usize, height: open.1 as usize };
+    let NetworkCheck { nodes, network } = Network::check(path, open)?;
+    Ok(match network {
+        Ok(network) => {
+            CheckedNetwork { nodes, problems: Vec::new(), network: Some(facts(&network)) }
+        }
+        Err(problems) => {
+            let problems = problems.iter().map(ToString::to_string).collect();
+            CheckedNetwork { nodes, problems, network: None }
+        }
+    })
+}
+
+fn facts(network: &Network) -> NetworkFacts {
+    let shape = |&value: &usize| network.form(value).shape().to_vec();
+    let names = network.output_names().iter().cloned();
+    let mut operators = BTreeMap::new();
+    for node in network.nodes() {
+        *operators.entry(node.kind().to_owned()).or_default() += 1;
+    }
+    NetworkFacts {
+        input: network.input().shape().to_vec(),
+        layout: network.layout().name(),
+        outputs: names.zip(network.outputs().iter().map(shape)).collect(),
+        operators,
+        macs: (0..network.nodes().len()).map(|node| network.macs(node)).sum(),
+        weight_bytes: network.nodes().iter().map(|node| node.weight_bytes()).sum(),
+        kept_bytes: network.kept_bytes(),
+    }
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Networks that are read for arrays, one for each input.
+
+use super::constant::Constant;
+use super::graph::{InputSource, OnProblem};
+use super::names::element_type;
+use super::node::Known;
+use super::{contents, decoded, graph_of};
+use crate::error::NetworkError;
+use crate::executor::Executor;
+use crate::network::Network;
+use crate::onnx::TensorProto;
+use std::path::Path;
+
+/// A network that was read for arrays.
+pub(crate) struct ReadArrays {
+    pub(crate) network: Network,
+    /// The values of the network's input.
+    pub(crate) picture: Vec<f32>,
+    outputs: Vec<ReadOutput>,
+}
+
+/// An output of a network.
+struct ReadOutput {
+    name: String,
+    /// Its type, if the model says it.
+    kind: Option<i32>,
+    known: Known,
+}
+
+/// Reads a network for arrays, one for each of its inputs.
+pub(crate) fn read_for_arrays(
+    path: &Path,
+    arrays: &[TensorProto],
+) -> Result<ReadArrays, NetworkError> {
+    let model = decoded(&contents(path)?, path)?;
+    let read = graph_of(&model, path, &InputSource::Arrays(arrays), OnProblem::Stop)?;
+    let declared = model.graph.iter().flat_map(|graph| &graph.output);
+    let outputs = read.outputs.into_iter().zip(declared).map(|((name, known), declared)| {
+        let kind = element_type(declared);
+        ReadOutput { name, kind, known }
+    });
+    let outputs = outputs.collect();
+    Ok(ReadArrays { network: read.network, picture: read.picture, outputs })
+}
+
+impl ReadArrays {
+    /// The outputs, of which an executor has computed those that are not constant.
+    pub(crate) fn outputs(
+        &self,
+        executor: &Executor<'_>,
+    ) -> Result<Vec<(String, TensorProto)>, NetworkError> {
+        self.outputs
+            .iter()
+            .map(|output| Ok((output.name.clone(), output.tensor(executor)?)))
+            .collect()
+    }
+}
+
+impl ReadOutput {
+    fn tensor(&self, executor: &Executor<'_>) -> Result<TensorProto, NetworkError> {
+        let own;
+        let constant = match &self.known {
+            &Known::Value(value) => {
+                own = Constant::of_tensor(executor.value(value));
+                &own
+            }
+            Known::Constant(constant) => constant,
+        };
+        let tensor = constant.encode(self.kind.unwrap_or(constant.kind));
+        tensor.map_err(|problem| {
+            NetworkError::Network(format!("its output `{}`: {problem}", self.name))
+        })
+    }
+}

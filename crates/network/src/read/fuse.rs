@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Activations that the operator before them applies itself.
+
+use super::graph::Reading;
+use super::names::full_kind;
+use super::node::Known;
+use super::pointwise;
+use crate::onnx::NodeProto;
+use crate::operator::Activation;
+
+impl Reading<'_> {
+    /// Lets the operator just before apply an activation itself, if nobody else wants what it makes.
+    pub(super) fn fuse(
+        &mut self,
+        kind: &str,
+        activation: Activation,
+        value: usize,
+        input: &str,
+    ) -> Option<usize> {
+        let is_alone = value == self.network.nodes().len()
+            && self.uses.get(input) == Some(&1)
+            && !self.aliased.contains(&value);
+        let last = self.network.nodes().last().filter(|_| is_alone)?;
+        let operator = last.operator.finished(activation)?;
+        let fused = format!("{}+{kind}", last.kind());
+        self.network.replace_last(&fused, operator);
+        Some(value)
+    }
+
+    /// Lets a value times its own `Sigmoid`, which is the last node, be one activation, and the operator before apply it, if nobody else wants
+    /// what it makes.
+    pub(super) fn swish(&mut self, node: &NodeProto) -> Option<usize> {
+        let ([a, b], [_]) = (node.input.as_slice(), node.output.as_slice()) else { return None };
+        let value = |name: &str| match self.known.get(name) {
+            Some(&Known::Value(value)) => Some(value),
+            Some(Known::Constant(_)) | None => None,
+        };
+        let (of_a, of_b) = (value(a)?, value(b)?);
+        let gate = self.network.nodes().len();
+        let (input, input_name, gate_name) = match (of_a, of_b) {
+            (input, other) if other == gate => (input, a, b),
+            (other, input) if other == gate => (input, b, a),
+            _ => return None,
+        };
+        let last = self.network.nodes().last()?;
+        let is_swish = full_kind(node) == "Mul"
+            && last.kind() == "Sigmoid"
+            && last.inputs() == [input]
+            && self.uses.get(gate_name.as_str()) == Some(&1)
+            && !self.aliased.contains(&gate);
+        if !is_swish {
+            return None;
+        }
+        let swish = Activation::Swish { alpha: 1.0 };
+        let is_alone = input > 0
+            && input + 1 == gate
+            && self.uses.get(input_name.as_str()) == Some(&2)
+            && !self.aliased.contains(&input);
+        let before = is_alone.then(|| &self.network.nodes()[input - 1]);
+        let finished =
+            before.and_then(|before| Some((before.kind(), before.operator.finished(swish)?)));
+        match finished {
+            Some((kind, operator)) => {
+                let kind = format!("{kind}+Sigmoid+Mul");
+                self.network.remove_last();
+                self.network.replace_last(&kind, operator);
+                Some(input)
+            }
+            None => {
+                self.network.replace_last("Sigmoid+Mul", pointwise::pointwise(swish));
+                Some(gate)
+            }
+        }
+    }
+}

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Operators as their standard describes them, version by version: how many inputs and outputs a node has, and its attributes.
+//! `scripts/onnx_schemas.py` compares the table with the schemas of ONNX and onnxruntime.
+
+use super::attributes::Attributes;
+use super::names;
+use crate::onnx::{AttributeProto, NodeProto, attribute_type};
+use std::collections::HashMap;
+use std::sync::LazyLock;
+
+/// A line of the table: an operator from a version on.
+#[derive(Debug)]
+pub(super) struct Schema {
+    since: i64,
+    inputs: (usize, Option<usize>),
+    outputs: (usize, Option<usize>),
+    attributes: Vec<SchemaAttribute>,
+}
+
+/// An attribute that a node may have.
+#[derive(Debug)]
+struct SchemaAttribute {
+    name: &'static str,
+    kind: &'static str,
+    is_required: bool,
+    /// Its value where the node has none, if that is one number or word.
+    default: Option<&'static str>,
+}
+
+/// The lines of each operator, from the oldest version to the newest.
+static SCHEMAS: LazyLock<HashMap<&str, Vec<Schema>>> = LazyLock::new(|| {
+    let mut schemas: HashMap<&str, Vec<Schema>> = HashMap::new();
+    for line in include_str!("schemas.txt").lines() {
+        let (name, schema) = parse(line).expect("a test reads every line of the table");
+        schemas.entry(name).or_default().push(schema);
+    }
+    schemas
+});
+
+/// The names of all attributes without any effect on what an operator computes here, with the operator.
+const WITHOUT_EFFECT: &[(&str, &[&str])] = &[
+    // Only training needs them.
+    ("BatchNormalization", &["momentum"]),
+    ("Dropout", &["ratio", "seed"]),
+    // Only casts to 8-bit floating-point values, which are refused, depend on them.
+    ("Cast", &["round_mode", "saturate"]),
+    ("CastLike", &["round_mode", "saturate"]),
+    ("QuantizeLinear", &["saturate"]),
+    // The order of indices, an output that is refused.
+    ("MaxPool", &["storage_order"]),
+    // Only coordinates of tf_crop_and_resize, which are refused, lie outside.
+    ("Resize", &["extrapolation_value"]),
+    // The precision of sums, which are of 32 bits.
+    ("GroupNormalization", &["stash_type"]),
+    ("LayerNormalization", &["stash_type"]),
+    ("Range", &["stash_type"]),
+];
+
+impl Schema {
+    /// Checks that a node has what its operator has in a version of the operators.
+    pub(super) fn check(node: &NodeProto, opset: i64) -> Result<(), String> {
+        let Some(schema) = Self::of(node, opset)? else { return Ok(()) };
+        within("inputs", node.input.len(), schema.inputs)?;
+        within("outputs", node.output.len(), schema.outputs)?;
+        for (at, attribute) in node.attribute.iter().enumerate() {
+            let name = attribute.name.as_deref().unwrap_or_default();
+            let known = schema.attributes.iter().find(|known| known.name == name);
+            let known = known.ok_or_else(|| schema.unknown(name, opset))?;
+            known.check(attribute)?;
+            if node.attribute[..at].iter().any(|other| other.name == attribute.name) {
+                return Err(format!("it has the attribute `{name}` twice"));
+            }
+        }
+        let has = |name: &str| node.attribute.iter().any(|own| own.name.as_deref() == Some(name));
+        match schema.attributes.iter().find(|known| known.is_required && !has(known.name)) {
+            Some(missing) => Err(format!("it has no attribute `{}`", missing.name)),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses an attribute that says something and was not looked at.
+    pub(super) fn check_read(attributes: &Attributes<'_>, opset: i64) -> Result<(), String> {
+        let node = attributes.node();
+        let Some(schema) = Self::of(node, opset)? else { return Ok(()) };
+        let full = names::full_kind(node);
+        let idle = WITHOUT_EFFECT.iter().find(|(kind, _)| *kind == full).map(|&(_, names)| names);
+        for attribute in attributes.not_read() {
+            let name = attribute.name.as_deref().unwrap_or_default();
+            let default = schema.attributes.iter().find(|known| known.name == name);
+            let is_default = default.is_some_and(|known| known.has_default(attribute));
+            if !is_default && !idle.is_some_and(|idle| idle.contains(&name)) {
+                return Err(format!("its attribute `{name}` is not supported here"));
+            }
+        }
+        Ok(())
+    }
+
+    /// The line for a version, if the table has the operator.
+    fn of(node: &NodeProto, opset: i64) -> Result<Option<&'static Self>, String> {
+        let Some(lines) = SCHEMAS.get(names::full_kind(node).as_str()) else { return Ok(None) };
+        // Operators of other domains have a version of their own, the first.
+        let version = if names::is_standard(node.domain.as_deref()) { opset } else { 1 };
+        match lines.iter().rev().find(|schema| schema.since <= version) {
+            Some(schema) => Ok(Some(schema)),
+            None => Err(format!(
+                "it is an operator since version {}, but the model uses version {opset}",
+                lines[0].since
+            )),
+        }
+    }
+
+    fn unknown(&self, name: &str, opset: i64) -> String {
+        let known: Vec<_> = self.attributes.iter().map(|known| known.name).collect();
+        let known = if known.is_empty() { "none".to_owned() } else { known.join(", ") };
+        format!("it has no attribute `{name}` in version {opset} of the operators; it has {known}")
+    }
+}
+
+impl SchemaAttribute {
+    /// Refuses a value of another type.
+    fn check(&self, attribute: &AttributeProto) -> Result<(), String> {
+        if attribute.ref_attr_name.as_deref().is_some_and(|name| !name.is_empty()) {
+            return Err(format!(
+                "its attribute `{}` is that of a function around it, which is not supported",
+                self.name
+            ));
+        }
+        // Models of the first version of the format do not say of which type an attribute is.
+        let kind = match attribute.r#type.unwrap_or(0) {
+            0 => apparent(attribute),
+            kind => attribute_type::name(kind),
+        };
+        if kind.is_none_or(|kind| kind != self.kind) {
+            let kind = kind.unwrap_or("another type");
+            return Err(format!(
+                "its attribute `{}` is of {kind}, not of {}",
+                self.name, self.kind
+            ));
+        }
+        Ok(())
+    }
+
+    /// Whether an attribute has the value that it has where the node does not name it.
+    fn has_default(&self, attribute: &AttributeProto) -> bool {
+        match (self.kind, self.default) {
+            ("INT", Some(default)) => default.parse() == Ok(attribute.i.unwrap_or(0)),
+            ("FLOAT", Some(default)) => default.parse() == Ok(attribute.f.unwrap_or(0.0)),
+            ("STRING", Some(default)) => attribute.s.as_deref() == Some(default.as_bytes()),
+            _ => false,
+        }
+    }
+}
+
+/// The type of an attribute that does not say it.
+fn apparent(attribute: &AttributeProto) -> Option<&'static str> {
+    let AttributeProto { f, i, s, t, floats, ints, .. } = attribute;
+    match () {
+        () if f.is_some() => Some("FLOAT"),
+        () if i.is_some() => Some("INT"),
+        () if s.is_some() => Some("STRING"),
+        () if t.is_some() => Some("TENSOR"),
+        () if !floats.is_empty() => Some("FLOATS"),
+        () if !ints.is_empty() => Some("INTS"),
+        () => None,
+    }
+}
+
+/// Refuses a count that is not from a least to a most.
+fn within(what: &str, count: usize, (least, most): (usize, Option<usize>)) -> Result<(), String> {
+    if count >= least && most.is_none_or(|most| count <= most) {
+        return Ok(());
+    }
+    let allowed = match most {
+        Some(most) if most == least => format!("{least}"),
+        Some(most) => format!("{least} to {most}"),
+        None => format!("at least {least}"),
+    };
+    Err(format!("it has {count} {what}; its operator has {allowed}"))
+}
+
+/// A line of the table, with the name of its operator.
+fn parse(line: &'static str) -> Option<(&'static str, Schema)> {
+    let mut words = line.split(' ');
+    let name = words.next()?;
+    let since = words.next()?.parse().ok()?;
+    let (inputs, outputs) = (range(words.next()?)?, range(words.next()?)?);
+    let attributes = words.map(attribute).collect::<Option<_>>()?;
+    Some((name, Schema { since, inputs, outputs, attributes }))
+}
+
+fn range(word: &str) -> Option<(usize, Option<usize>)> {
+    let (least, most) = word.split_once("..")?;
+    let most = if most.is_empty() { None } else { Some(most.parse().ok()?) };
+    Some((least.parse().ok()?, most))
+}
+
+fn attribute(word: &'static str) -> Option<SchemaAttribute> {
+    let (name, rest) = word.split_once(':')?;
+    let (rest, default) = match rest.split_once('=') {
+        Some((kind, default)) => (kind, Some(default)),
+        None => (rest, None),
+    };
+    let kind = rest.trim_end_matches('!');
+    Some(SchemaAttribute { name, kind, is_required: kind != rest, default })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::read::operators;
+
+    #[test]
+    fn every_supported_operator_has_lines_and_no_other() {
+        let mut own: Vec<&str> = SCHEMAS.keys().copied().collect();
+        own.sort_unstable();
+        assert_eq!(own, operators().collect::<Vec<_>>());
+    }
+
+    #[test]
+    fn attributes_without_effect_are_attributes() {
+        for (kind, names) in WITHOUT_EFFECT {
+            for name in *names {
+                let has = |schema: &Schema| schema.attributes.iter().any(|own| own.name == *name);
+                assert!(SCHEMAS[kind].iter().any(has), "{kind} has no {name}");
+            }
+        }
+    }
+}
