@@ -12,8 +12,8 @@ use serde_json::Value;
 
 use crate::{BoardError, Project};
 
-/// What is written, and what may be replaced.
-const PROJECT: FolderKind = FolderKind {
+/// The folder that is written, and the only kind that it replaces.
+pub const PROJECT: FolderKind = FolderKind {
     what: "a project of a board (its board.f and sim/board_clock.v)",
     is: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
 };

@@ -23,7 +23,7 @@ mod top;
 mod words;
 
 pub use board::{Board, Clock, Device, Family, Leds, SensorPins, Serial};
-pub use build::{Built, Used, build, write_project};
+pub use build::{Built, PROJECT, Used, build, write_project};
 pub use error::BoardError;
 pub use project::Project;
 pub use sensor::{Format, I2c, Level, Sensor};

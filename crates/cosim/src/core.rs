@@ -11,8 +11,8 @@ use foveate_staging::{FolderKind, StagedFolder};
 
 use crate::{CosimError, ShippedBench, timing_diagram};
 
-/// What is written, and what may be replaced.
-const CORE: FolderKind = FolderKind {
+/// The folder that is written, and the only kind that it replaces.
+pub const CORE: FolderKind = FolderKind {
     what: "a generated core (its foveate_rcm.core)",
     is: |folder| folder.join("foveate_rcm.core").is_file(),
 };

@@ -39,7 +39,7 @@ mod summary;
 mod testing;
 mod timed;
 
-pub use self::core::{WrittenCore, write_core};
+pub use self::core::{CORE, WrittenCore, write_core};
 pub use bus::BusJob;
 pub use cells::{cell_models, wired_wrongly};
 pub use codec::Codec;
@@ -59,6 +59,7 @@ pub use mismatch::{Mismatch, PortMismatch};
 pub use netlist::{Netlist, NetlistRecord};
 pub use packer::Packer;
 pub use recording::{Recorder, Recording, Span, vectors_hex};
+pub use replay::REPLAY;
 pub use report::{CosimReport, Seconds};
 pub use shipped::{Losses, ShippedBench, VectorTally};
 pub use simulate::{Dut, Outcome, Run, Simulator};

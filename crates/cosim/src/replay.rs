@@ -16,8 +16,8 @@ pub(crate) const SCRIPT: &str = "replay.sh";
 pub(crate) const README: &str = "README.md";
 /// What a core on a bus was given.
 pub(crate) const TRAFFIC_FILE: &str = "traffic.txt";
-/// What is written, and what makes way for it.
-pub(crate) const REPLAY: FolderKind = FolderKind {
+/// The folder that is written, and the only kind that it replaces.
+pub const REPLAY: FolderKind = FolderKind {
     what: "a replay (its replay.sh) or waves (its waves.fst)",
     is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
 };

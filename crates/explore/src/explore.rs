@@ -36,6 +36,8 @@ pub fn explore(
     hooks: &dyn Hooks,
 ) -> Result<Exploration, ExploreError> {
     let space = request.space;
+    // Files of designs are not known before the clips have been looked at.
+    continued(output)?.check(TABLES.into_iter().chain([MARK]))?;
     let Work { footage, points, refused, looks, look_of } = Work::new(request, None, hooks)?;
     // Hours before they are written.
     let names = (1..=points.len()).map(design_file).chain(TABLES.map(str::to_owned));

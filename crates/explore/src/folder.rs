@@ -15,8 +15,11 @@ pub(crate) const UNFINISHED: &str = "{ \"finished\": false }\n";
 /// The folder of the files that say which units are done.
 pub(crate) const UNITS: &str = "units";
 
-/// Refuses a folder that holds something else.
-pub(crate) fn check(output: &Path) -> Result<(), ExploreError> {
+/// Refuses a folder that holds something else than an exploration. Nothing is read but the folder.
+///
+/// # Errors
+/// When it does.
+pub fn check_folder(output: &Path) -> Result<(), ExploreError> {
     // A workflow makes the folder of the files that it waits for.
     let foreign = |entry: fs::DirEntry| {
         let name = entry.file_name();
@@ -32,7 +35,7 @@ pub(crate) fn check(output: &Path) -> Result<(), ExploreError> {
 
 /// Makes the folder an exploration, unless it is something else.
 pub(crate) fn claim(output: &Path) -> Result<(), ExploreError> {
-    check(output)?;
+    check_folder(output)?;
     fs::create_dir_all(output).map_err(ExploreError::io("make the folder", output))?;
     if output.join(MARK).is_file() { Ok(()) } else { mark(output, UNFINISHED) }
 }

@@ -41,6 +41,7 @@ pub use fit::{
     Agreed, Cheapest, Constraints, Design as FittedDesign, Fit, FitRequest, FittedNetwork, Held,
     NetworkGoal, Target, fit,
 };
+pub use folder::check_folder;
 pub use foveate_fidelity::{Figures, ScoreError};
 pub use method::{Axis, Method};
 pub use point::{Point, Refused};

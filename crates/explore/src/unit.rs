@@ -13,7 +13,7 @@ use foveate_staging::write_file;
 use foveate_toolchain::sha256_hex;
 use serde::{Deserialize, Serialize};
 
-use crate::folder::{UNITS, check, claim};
+use crate::folder::{UNITS, check_folder, claim};
 use crate::footage::{Count, TOGETHER};
 use crate::store::{KEY_DIGITS, Store};
 use crate::work::Work;
@@ -59,7 +59,7 @@ pub fn plan(
     output: &Path,
     hooks: &dyn Hooks,
 ) -> Result<Vec<Unit>, ExploreError> {
-    check(output)?;
+    check_folder(output)?;
     let work = Work::new(request, None, hooks)?;
     Ok(parts(&work, output).map(|part| part.unit).collect())
 }

@@ -252,8 +252,8 @@ fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
     Ok(staging.write("inference.json", &json)?)
 }
 
-/// What a run leaves, and what it may replace.
-pub(crate) const INFERENCE: FolderKind =
+/// The folder that a run leaves, and the only kind that it replaces.
+pub const INFERENCE: FolderKind =
     FolderKind { what: "an inference (its inference.json)", is: is_inference };
 
 fn is_inference(folder: &Path) -> bool {

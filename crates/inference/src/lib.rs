@@ -46,7 +46,7 @@ pub use foveate_network::sight::{
     Mapping, Output, SightError, Testimony, Viewing, Witness, parse_detector, parse_framing,
     parse_mean, parse_scale,
 };
-pub use inference::{Computed, Inference, Options};
+pub use inference::{Computed, INFERENCE, Inference, Options};
 pub use macs::Macs;
 pub use recording::{Record, Recorded};
 pub use sight::{Sight, Truth};

@@ -223,7 +223,9 @@ fn codec_point(
     }
 }
 
-const LINK: FolderKind = FolderKind { what: "a comparison of links (its link.json)", is: is_link };
+/// The folder that is written, and the only kind that it replaces.
+pub const LINK: FolderKind =
+    FolderKind { what: "a comparison of links (its link.json)", is: is_link };
 
 fn is_link(folder: &Path) -> bool {
     folder.join("link.json").is_file()

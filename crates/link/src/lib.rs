@@ -28,7 +28,7 @@ mod unit;
 mod windows;
 
 pub use codec::{Codec, Effort};
-pub use compare::{Request, compare};
+pub use compare::{LINK, Request, compare};
 pub use encoder::{Encoded, Encoder, Footage, check_encoders};
 pub use error::LinkError;
 pub use fifo::{Served, serve};

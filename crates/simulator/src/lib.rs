@@ -28,5 +28,5 @@ pub use output::{
     Bandwidth, DataSet, EventTables, Grid, Medium, PIXEL_EVENT_BYTES, Packets, PixelCamera,
     PixelEvent, PixelEvents, Range, RunOptions, Summary, Traffic, write_packets,
 };
-pub use simulation::Simulation;
+pub use simulation::{SIMULATION, Simulation};
 pub use stream::{CLAIMED_PIXELS, Received, ShownFrame, Stream};

@@ -147,8 +147,8 @@ impl std::fmt::Debug for Simulation {
     }
 }
 
-/// What a run leaves, and what it may replace.
-pub(crate) const SIMULATION: FolderKind =
+/// The folder that a run leaves, and the only kind that it replaces.
+pub const SIMULATION: FolderKind =
     FolderKind { what: "a simulation (its summary.json)", is: is_simulation };
 
 fn is_simulation(folder: &Path) -> bool {

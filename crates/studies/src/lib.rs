@@ -18,5 +18,5 @@ mod watch;
 
 pub use error::StudyError;
 pub use rank::spearman;
-pub use report::{Request, StudyReport, analyze};
+pub use report::{Request, STUDY, StudyReport, analyze};
 pub use study::Study;

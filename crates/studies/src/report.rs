@@ -112,7 +112,8 @@ fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyEr
     }
 }
 
-const STUDY: FolderKind = FolderKind { what: "a study (its CSV)", is: is_study };
+/// The folder that is written, and the only kind that it replaces.
+pub const STUDY: FolderKind = FolderKind { what: "a study (its CSV)", is: is_study };
 
 fn is_study(folder: &Path) -> bool {
     Study::ALL.iter().any(|study| {

@@ -2,7 +2,8 @@
 //! `foveate analyze`: the paper's studies as tables and charts.
 
 use foveate_footage::ImagesAs;
-use foveate_studies::{Request, Study, StudyReport, analyze};
+use foveate_staging::StagedFolder;
+use foveate_studies::{Request, STUDY, Study, StudyReport, analyze};
 
 use super::simulate::Terminal;
 use crate::args::{AnalyzeArgs, warn_of};
@@ -16,6 +17,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
             "--boxes belongs to the study recall, not to {study}; leave it out"
         )));
     }
+    StagedFolder::check(&args.output, STUDY, args.force)?;
     let config = args.design.read()?;
     let input = args.input.options(ImagesAs::Clip);
     let request = Request {

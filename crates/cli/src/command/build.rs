@@ -4,8 +4,9 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use foveate_boards::{Board, Built, Project, build, write_project};
+use foveate_boards::{Board, Built, PROJECT, Project, build, write_project};
 use foveate_design::{Config, Preset};
+use foveate_staging::StagedFolder;
 use serde::Serialize;
 
 use crate::args::BuildArgs;
@@ -39,6 +40,7 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     let (Some(name), Some(folder)) = (&args.board, &args.output) else {
         return list(args.json);
     };
+    StagedFolder::check(folder, PROJECT, args.force)?;
     let board = Board::find(name)?;
     let design = configuration(&board, args)?.validate()?;
     let project = Project::new(board, design)?;

@@ -6,11 +6,11 @@ mod plan;
 mod text;
 
 use foveate_cosim::{
-    CosimError, CosimReport, Left, Level, Progress, Simulator, Summary, Verdict, junit_error,
-    junit_xml, not_elaborated, not_simulated,
+    CosimError, CosimReport, Left, Level, Progress, REPLAY, Simulator, Summary, Verdict,
+    junit_error, junit_xml, not_elaborated, not_simulated,
 };
 use foveate_emit::AXI_TOP;
-use foveate_staging::{check_file, write_file};
+use foveate_staging::{StagedFolder, check_file, write_file};
 use foveate_toolchain::{Cache, Toolchain};
 use serde::Serialize;
 
@@ -31,10 +31,8 @@ struct Told<'a> {
 }
 
 pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
+    check_places(args)?;
     let mut plan = plan::plan(args)?;
-    if let Some(file) = &args.junit {
-        check_file(file)?;
-    }
     let trip = args.end_to_end.as_deref().map(EndToEndFolder::begin).transpose()?;
     if let Some(trip) = &trip {
         plan.keep_packets(&trip.packets());
@@ -62,6 +60,15 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
         notice::say(&error);
     }
     Err(CliError::Failed(complaint))
+}
+
+/// Refuses files and folders that cannot be written, before inputs are looked at.
+fn check_places(args: &CosimArgs) -> Result<(), CliError> {
+    for file in [&args.junit, &args.packets].into_iter().flatten() {
+        check_file(file)?;
+    }
+    StagedFolder::check(&args.replay, REPLAY, true)?;
+    args.end_to_end.as_deref().map_or(Ok(()), EndToEndFolder::check)
 }
 
 /// What was not simulated, and what helps.

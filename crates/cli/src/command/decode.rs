@@ -4,7 +4,8 @@
 use std::io::Read;
 use std::path::Path;
 
-use foveate_simulator::{Decoded, Recording, RunOptions};
+use foveate_simulator::{Decoded, Recording, RunOptions, SIMULATION};
+use foveate_staging::StagedFolder;
 use foveate_toolchain::{InterruptibleReader, open_interruptibly, standard_input};
 
 use super::simulate::{Terminal, text};
@@ -13,6 +14,7 @@ use crate::error::CliError;
 use crate::{interrupt, notice, output};
 
 pub(crate) fn run(args: &DecodeArgs) -> Result<(), CliError> {
+    StagedFolder::check(&args.output, SIMULATION, args.force)?;
     let config = args.design.read()?;
     let name = args.stream.display().to_string();
     let mut stream = open(&args.stream)?;

@@ -9,7 +9,8 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use foveate_explore::{
-    BUILT_IN, Exploration, ExploreError, Hooks, Progress, Request, Space, Synthesizer, explore,
+    BUILT_IN, Exploration, ExploreError, Hooks, Progress, Request, Space, Synthesizer,
+    check_folder, explore,
 };
 use foveate_footage::ImagesAs;
 use foveate_toolchain::{Cache, Toolchain};
@@ -30,6 +31,9 @@ pub(crate) fn run(args: &ExploreArgs) -> Result<(), CliError> {
             "no space is given; name a file, or one of those that --list prints".to_owned(),
         ));
     };
+    if let Some(folder) = output.filter(|_| !args.print) {
+        check_folder(folder)?;
+    }
     let text = read(file)?;
     let space = Space::from_toml(&text).map_err(|error| blame(file, &error))?;
     let Some(folder) = output.filter(|_| !args.print) else { return output::text(&text) };

@@ -16,10 +16,10 @@ use crate::error::CliError;
 use crate::output;
 
 pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
-    let task = args.design.read()?;
     if let Some(file) = &args.output {
         check_file(file)?;
     }
+    let task = args.design.read()?;
     let input = args.input.options(ImagesAs::Clip);
     warn_of(&args.inputs, &input);
     let terminal = Terminal::new(args.quiet)?;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `foveate generate`: the core of a design as a folder.
 
-use foveate_cosim::{ShippedBench, write_core};
+use foveate_cosim::{CORE, ShippedBench, write_core};
 use foveate_design::Design;
 use foveate_emit::Prefix;
+use foveate_staging::StagedFolder;
 use serde::Serialize;
 
 use crate::args::GenerateArgs;
@@ -40,6 +41,7 @@ struct BenchListing<'a> {
 }
 
 pub(crate) fn run(args: &GenerateArgs) -> Result<(), CliError> {
+    StagedFolder::check(&args.output, CORE, args.force)?;
     let design = args.design.design()?;
     let prefix = Prefix::asked(args.prefix.as_deref(), &design)?;
     let cancel = interrupt::flag()?;

@@ -8,7 +8,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use foveate_footage::{ImagesAs, shown_input};
-use foveate_inference::{Clip, Found, Inference, Options, Sight, Summary, Tuning, is_array};
+use foveate_inference::{
+    Clip, Found, INFERENCE, Inference, Options, Sight, Summary, Tuning, is_array,
+};
+use foveate_staging::StagedFolder;
 use indicatif::DecimalBytes;
 
 use super::simulate::Terminal;
@@ -27,6 +30,7 @@ pub(crate) fn run(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> 
 }
 
 fn clip(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliError> {
+    StagedFolder::check(folder, INFERENCE, args.force)?;
     let (config, input) = (args.design.read()?, args.input.options(ImagesAs::Clip));
     warn_of(&args.inputs, &input);
     let footage = (&args.inputs[..], &args.boxes[..]);

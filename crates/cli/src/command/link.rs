@@ -2,7 +2,8 @@
 //! `foveate link`: what a camera sends over a link, beside codecs at equal quality.
 
 use foveate_footage::ImagesAs;
-use foveate_link::{Request, compare};
+use foveate_link::{LINK, Request, compare};
+use foveate_staging::StagedFolder;
 
 use super::simulate::Terminal;
 use crate::args::{LinkArgs, warn_of};
@@ -10,6 +11,7 @@ use crate::error::CliError;
 use crate::{interrupt, output};
 
 pub(crate) fn run(args: &LinkArgs) -> Result<(), CliError> {
+    StagedFolder::check(&args.output, LINK, args.force)?;
     let config = args.design.read()?;
     let input = args.input.options(ImagesAs::Clip);
     let mut codecs = Vec::new();

@@ -9,9 +9,9 @@ use foveate_design::Config;
 use foveate_footage::{ClipPlan, ImagesAs, InputOptions, open, plan};
 use foveate_simulator::{
     Bandwidth, BatchHooks, BatchProgress, BatchSummary, DataSet, Hooks, Progress, RunOptions,
-    Simulation, Summary, Traffic, run_batch,
+    SIMULATION, Simulation, Summary, Traffic, run_batch,
 };
-
+use foveate_staging::StagedFolder;
 use foveate_toolchain::Interrupt;
 
 use crate::args::{SimulateArgs, warn_of};
@@ -45,6 +45,7 @@ pub(super) struct Job<'a> {
 /// Runs it with progress, prints its summary and says how it ended.
 pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
     let Job { inputs, config, input, output: folder, options, quiet, .. } = job;
+    StagedFolder::check(folder, SIMULATION, options.overwrite)?;
     let plan = plan(inputs, input)?;
     warn_of(inputs, input);
     let mut hooks = Terminal::new(*quiet)?;

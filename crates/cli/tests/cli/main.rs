@@ -26,6 +26,8 @@ mod infer_files;
 mod inputs;
 mod link;
 mod live;
+#[cfg(unix)]
+mod occupied;
 mod outputs;
 mod own_files;
 mod prefix;

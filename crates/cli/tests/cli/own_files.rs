@@ -11,7 +11,7 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
 /// Every option of every command whose value is named so, as `command --option`.
-fn options_of(value: &str) -> BTreeSet<String> {
+pub(crate) fn options_of(value: &str) -> BTreeSet<String> {
     let help = |args: &[&str]| {
         let output = foveate(args).output().unwrap();
         String::from_utf8(output.stdout).unwrap()

@@ -30,6 +30,11 @@ const END_TO_END: FolderKind = FolderKind {
 pub(super) struct EndToEndFolder(StagedFolder);
 
 impl EndToEndFolder {
+    /// Refuses a folder that holds something else.
+    pub(super) fn check(folder: &Path) -> Result<(), CliError> {
+        Ok(StagedFolder::check(folder, END_TO_END, true)?)
+    }
+
     pub(super) fn begin(folder: &Path) -> Result<Self, CliError> {
         Ok(Self(StagedFolder::new(folder, END_TO_END, true)?))
     }
