@@ -1,110 +1,111 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Called by snippets.sh: runs the Python of the documents as it stands, over folders that foveate really writes."""
-import csv
-import gzip
+"""Called by snippets.sh: runs README.md and the pages of docs as a reader pastes them, each in a new folder."""
+import argparse
+import concurrent.futures
 import os
 import pathlib
-import shlex
-import struct
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
-import numpy
-import pandas
-import pyarrow.csv
-from PIL import Image
+from documents import left_out
+from documents.given import given
+from documents.pages import PageError
+from documents.readers import ReaderError, read_names
+from documents.run import PageRun, check_table, read_pages
+from documents.shell import RUNNING
 
 FOVEATE = os.environ["FOVEATE"]
+# The figures of the pages that Yosys counts are those of this version.
+YOSYS = "Yosys 0.23"
 
 
-def steps(page):
-    """Commands and blocks of Python of a page in order: their line, their kind and their text."""
-    block, start, fence = None, 0, False
-    for number, line in enumerate(page.read_text().splitlines(), 1):
-        if line.startswith("```"):
-            if block is not None:
-                yield start, "python", "\n".join(block) + "\n"
-            block, start = ([], number + 1) if not fence and line.startswith("```python") else (None, 0)
-            fence = not fence
-        elif block is not None:
-            block.append(line)
-        elif not fence and line.startswith("    foveate "):
-            yield number, "command", line.strip()
+def environment(tools):
+    """The variables of a reader's shell: a terminal of 100 columns, no lines of progress, and the programs."""
+    programs = os.pathsep.join([str(tools), str(pathlib.Path(sys.executable).parent), os.environ["PATH"]])
+    return {**os.environ, "PATH": programs, "COLUMNS": "100", "FOVEATE_PROGRESS": "0"}
 
 
-def given(folder, seed=1):
-    """What the pages take for granted: a labelled IDX set, labelled photographs, a clip, a folder of clips, and the network of the sources."""
-    chance = numpy.random.default_rng(seed)
-    images, labels = chance.integers(0, 256, (12, 28, 28), numpy.uint8), numpy.arange(12, dtype=numpy.uint8) % 10
-    images[:, :12] = 0
-    for name, kind, array in [("images-idx3", 3, images), ("labels-idx1", 1, labels)]:
-        header = struct.pack(f">BBBB{kind}I", 0, 0, 8, kind, *array.shape)
-        (folder / f"train-{name}-ubyte.gz").write_bytes(gzip.compress(header + array.tobytes()))
-    for label, name in [("cat", "1.jpg"), ("cat", "one, two#3.png"), ("dog", '50% "sure".png'), ("dog", "b.png")]:
-        (folder / "photos" / label).mkdir(parents=True, exist_ok=True)
-        pixels = chance.integers(0, 256, (96, 128, 3), numpy.uint8)
-        Image.fromarray(pixels).save(folder / "photos" / label / name)
-    (folder / "networks").mkdir()
-    for network in pathlib.Path("networks").glob("*.onnx"):
-        (folder / network).write_bytes(network.read_bytes())
-    (folder / "clips").mkdir()
-    command = [FOVEATE, "simulate", "scene:street", "-o", "made", "--frames", "6", "--rendered", "mp4", "--quiet"]
-    subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    for name in ["street.mp4", "clips/one.mp4", "clips/two.mp4"]:
-        (folder / name).write_bytes((folder / "made/rendered.mp4").read_bytes())
+def is_compared(has_yosys):
+    """Whether lines that a page shows are compared: figures of Yosys only where that version is installed."""
+    return lambda lines: has_yosys or not any("Yosys" in line for line in lines)
 
 
-def run_page(page):
-    """Runs a page in a new folder: its number of blocks, or nothing if it has none."""
-    parts = list(steps(page))
-    blocks = sum(kind == "python" for _, kind, _ in parts)
-    if not blocks:
-        return 0
+def run_page(page, steps, options, has_yosys):
+    """Runs a page in a copy of the folder of what is given: what was done, and the seconds."""
+    began = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
-        given(pathlib.Path(folder))
-        for line, kind, text in parts:
-            command = [sys.executable, "-W", "error", "-c", text] if kind == "python" else [FOVEATE, *shlex.split(text)[1:]]
-            done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
-            if done.returncode != 0:
-                sys.exit(f"{page}:{line}: this fails with exit code {done.returncode}:\n{text}\n{done.stderr or done.stdout}")
-    print(f"{page}: {blocks} blocks, {len(parts) - blocks} commands")
-    return blocks
+        tools, place = pathlib.Path(folder, "tools"), pathlib.Path(folder, "reader")
+        tools.mkdir()
+        (tools / "foveate").symlink_to(FOVEATE)
+        (tools / "nextpnr-ecp5").symlink_to(os.environ["FOVEATE_NEXTPNR_ECP5"])
+        shutil.copytree(options.given, place)
+        run = PageRun(page, left_out.TABLE, is_compared(has_yosys), options.whole)
+        count = run.run(steps, place, environment(tools))
+    return f"{page}: {count}  [{time.monotonic() - began:.0f} s]"
 
 
-READERS = {
-    "csv": lambda path: [row["name"] for row in csv.DictReader(open(path, newline="", encoding="utf-8"))],
-    "numpy.genfromtxt": lambda path: list(
-        numpy.genfromtxt(path, delimiter=",", names=True, dtype=None, encoding="utf-8")["name"]
-    ),
-    "pandas": lambda path: list(pandas.read_csv(path)["name"]),
-    "pandas, comments": lambda path: list(pandas.read_csv(path, comment="#")["name"]),
-    "pyarrow": lambda path: pyarrow.csv.read_csv(path)["name"].to_pylist(),
-}
+def run_pages(steps_of, options):
+    """Runs the pages beside each other: what is wrong."""
+    version = subprocess.run(["yosys", "-V"], capture_output=True, text=True, check=True).stdout
+    has_yosys = version.startswith(YOSYS)
+    if not has_yosys:
+        print(f"not compared: figures of {YOSYS}, as this is {version.strip()}")
+    errors = []
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        runs = [pool.submit(run_page, page, steps, options, has_yosys) for page, steps in steps_of.items() if steps]
+        for run in concurrent.futures.as_completed(runs):
+            try:
+                print(run.result(), flush=True)
+            except PageError as error:
+                errors.append(str(error))
+    return errors
 
 
-def read_names():
-    """Every reader reads the same names of frames from a set with difficult ones."""
-    with tempfile.TemporaryDirectory() as folder:
-        folder = pathlib.Path(folder)
-        given(folder)
-        command = [FOVEATE, "dataset", "-o", "out", "--resize", "64x64", "--quiet"]
-        for inputs, count in [(["photos"], 4), (["train-images-idx3-ubyte.gz"], 12)]:
-            done = subprocess.run([*command, "--force", *inputs], cwd=folder, capture_output=True, text=True)
-            if done.returncode != 0:
-                sys.exit(f"dataset {inputs} fails:\n{done.stderr}")
-            names = {reader: read(folder / "out/frames.csv") for reader, read in READERS.items()}
-            for reader, seen in names.items():
-                if seen != names["csv"] or len(set(seen)) != count:
-                    sys.exit(f"{reader} reads {seen}\nwhere csv reads {names['csv']}")
-            print(f"frames.csv of {inputs[0]}: {count} names, the same in {len(names)} readers, the last {names['csv'][-1]}")
+def stop(number, _):
+    """Ends the shells, which are not in the group of this process, and then this."""
+    for shell in list(RUNNING):
+        shell.kill()
+    os._exit(128 + number)
 
 
 def main():
-    pages = [pathlib.Path("README.md"), *sorted(pathlib.Path("docs").rglob("*.md"))]
-    if sum(run_page(page) for page in pages) == 0:
-        sys.exit("no page has a block of Python")
-    read_names()
+    for number in [signal.SIGINT, signal.SIGTERM, signal.SIGHUP]:
+        signal.signal(number, stop)
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("pages", nargs="*", help="only these, such as docs/tutorial.md, without the readers of tables")
+    parser.add_argument("--whole", action="store_true", help="also the commands that take minutes, but none of those that cannot be run")
+    parser.add_argument("--list", action="store_true", help="print what is left out, and why")
+    parser.add_argument("--jobs", type=int, default=int(os.environ.get("JOBS", os.cpu_count())), help="pages at a time")
+    options = parser.parse_args()
+    if options.list:
+        for page, reason in left_out.PAGES.items():
+            print(f"{page}: {reason}")
+        for entry in left_out.TABLE:
+            print(f"{entry.page}: {entry.text}\n    {'--whole runs it; it takes ' * entry.is_long}{entry.reason}")
+        return
+    try:
+        steps_of = read_pages(".", left_out.PAGES)
+        check_table(steps_of, left_out.TABLE, left_out.PAGES)
+    except PageError as error:
+        sys.exit(str(error))
+    if unknown := set(options.pages) - set(steps_of):
+        sys.exit(f"snippets: there is no page {', '.join(unknown)}")
+    chosen = {page: steps for page, steps in steps_of.items() if not options.pages or page in options.pages}
+    with tempfile.TemporaryDirectory() as folder:
+        options.given = pathlib.Path(folder)
+        given(options.given, FOVEATE)
+        errors = run_pages(chosen, options)
+    if errors:
+        sys.exit("\n\n".join(sorted(errors)))
+    if not options.pages:
+        try:
+            read_names(FOVEATE)
+        except ReaderError as error:
+            sys.exit(str(error))
 
 
 main()

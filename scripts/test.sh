@@ -55,7 +55,7 @@ scripts/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
 # One of two processors for each.
 python=$(scripts/python_tools.sh --package)/python
-(scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/fuzz.py --quick &&
+(JOBS=1 scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/fuzz.py --quick &&
     "$python" scripts/onnx_schemas.py && "$python" scripts/onnx_nodes.py) >"$beside" 2>&1 &
 scripts/python.sh --test
 wait $! || { cat "$beside" && exit 1; }

@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: MIT OR Apache-2.0
+"""Whether a command printed what its page shows."""
+import re
+
+# The parts of a line that another run or another machine changes, each with the words around it, and what is compared in its place.
+CHANGING = [
+    # foveate cosim
+    (re.compile(r"\d+\.\d s(?= (vectors|build|run)\b)"), "<time> s"),
+    (re.compile(r"Verilator 5\.\d+ \d{4}-\d\d-\d\d rev \([^)]*\)"), "Verilator <version>"),
+    # foveate infer: where masks take longer than they save, it does not say when they would save.
+    (re.compile(r"\d+\.\d\d ms per frame, \d+\.\d\d ms of it for masks"), "<time> ms per frame, <time> ms of it for masks"),
+    (re.compile(r"; whole \d+\.\d\d ms(; faster up to \d+\.\d % of the blocks or more)?$"), "; whole <time> ms"),
+]
+# Lines of a page that stand for any number of others.
+LEFT_OUT = "..."
+
+
+def settled(line):
+    """A line without what changes from run to run."""
+    line = line.rstrip()
+    for pattern, place in CHANGING:
+        line = pattern.sub(place, line)
+    return line
+
+
+def agreed(part, printed):
+    """How many lines of a part are those that are printed."""
+    both = zip(part, printed, strict=False)
+    return next((number for number, (one, other) in enumerate(both) if one != other), min(len(part), len(printed)))
+
+
+def difference(expected, printed):
+    """The number of the first line, from 0, that is not printed as the page shows it, and what is wrong; none if there is no difference."""
+    expected, printed = [settled(line) for line in expected], [settled(line) for line in printed]
+    at, start, parts = 0, 0, []
+    for number in [*(n for n, line in enumerate(expected) if line == LEFT_OUT), len(expected)]:
+        parts.append((start, expected[start:number]))
+        start = number + 1
+    for index, (start, part) in enumerate(parts):
+        is_last = index == len(parts) - 1
+        if index == 0:
+            places = [0]
+        elif is_last:
+            places = [max(at, len(printed) - len(part))]
+        else:
+            places = list(range(at, len(printed) + 1))
+        best = max(places, key=lambda place: agreed(part, printed[place:]))
+        same = agreed(part, printed[best:])
+        if same < len(part):
+            is_known = same > 0 or len(places) == 1
+            found = printed[best + same] if is_known and best + same < len(printed) else None
+            return start + same, f"prints `{found}`" if found is not None else "does not print this line"
+        at = best + len(part)
+    if at < len(printed):
+        return max(len(expected) - 1, 0), f"prints more behind this line: `{printed[at]}`"
+    return None
+
+
+def is_refusal(expected):
+    """Whether a page shows that a command fails: the program by its message, a bench by its last word."""
+    return any(line.startswith(("foveate: ", "FAIL ")) and not line.startswith("foveate: warning: ") for line in expected)
