@@ -40,16 +40,12 @@ step_cosim() {
     [ "$ended" -eq 1 ] || { echo "the miswired array ended with $ended, not with a mismatch" && return 1; }
 }
 step_benches() {
-    # Every output of the shipped benches tied to 0, over sizes, folds and feeds.
-    cargo test --locked --package foveate-cosim --test cosim -- --ignored tied
-    # Lists of faults, netlists and designs of which the tests take a part.
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate-cosim --test cosim -- planted every_design_passes netlists without_forwarding every_feature one_lane arrays_agree_for deep_arrays memory_that_is_named block_rams
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate-boards --test boards -- faults
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate-emit --test emit
-    FOVEATE_WHOLE=1 cargo test --locked --package foveate --test cli -- area:: --include-ignored
-    cargo test --locked --package foveate-explore --test explore -- core_on_axi --ignored
+    # Lists of faults, netlists and designs of which the tests take a part else, and the tests that take long. No test is chosen by
+    # its name: one that no name fits would never take its list whole.
+    FOVEATE_WHOLE=1 cargo test --workspace --locked -- --include-ignored
     FOVEATE_WHOLE=1 scripts/python.sh --test
 }
+step_documents() { scripts/snippets.sh --whole; }
 step_netlists() {
     local array=(--level rcm --rounds 1)
     foveate cosim --netlist --preset bare --rounds 1
@@ -86,7 +82,7 @@ step_bench() {
     foveate bench --preset paper
     foveate bench --preset serial
 }
-steps=(test quickstart cosim benches netlists area lint formal buses boards coverage artefacts newer mutation memory networks fuzz bench)
+steps=(test quickstart documents cosim benches netlists area lint formal buses boards coverage artefacts newer mutation memory networks fuzz bench)
 
 # What no step does. Ends with 1 while this commit lacks something.
 left() {
