@@ -55,7 +55,7 @@ def check_table(steps_of, table, pages_left_out):
 class PageRun:
     """A page that is run in a folder."""
 
-    def __init__(self, page, table, is_compared=lambda lines: True, whole=False):
+    def __init__(self, page, table, is_compared=lambda command: True, whole=False):
         self.page, self.table, self.is_compared, self.whole = page, table, is_compared, whole
         self.count = Count()
 
@@ -89,7 +89,7 @@ class PageRun:
         if (code != 0) != fails:
             wanted = "is shown to fail, but ends with exit code 0" if fails else f"fails with exit code {code}"
             raise PageError(self.page, step.line, f"this {wanted}:\n{step.text}\n" + "\n".join(printed))
-        if step.expected is None or not self.is_compared(expected):
+        if step.expected is None or not self.is_compared(step.text):
             return
         wrong = compare.difference(expected, printed)
         if wrong is not None:
