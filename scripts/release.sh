@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Everything, whole: what a release must pass, with a log of the figures that the documents quote. Takes some three hours on
+# Everything, whole: what a release must pass, with a log of the figures that the documents quote. Takes hours on
 # two cores. A step that has passed on this commit is not run again, so an interrupted run goes on where it was.
 #
 #   scripts/release.sh            all steps
