@@ -87,8 +87,8 @@ pub struct HardwareConfig {
     pub organization: Organization,
     /// Regions per lane K of the serial organization, 1..=M; 1 for `pipelined`.
     pub fold: u32,
-    /// How pixels enter the serial organization; left out it is `parallel`. A design has it only if it
-    /// is serial: `pipelined` knows no other.
+    /// How pixels enter the serial organization; left out it is `parallel`. Only a serial design has
+    /// it, and others refuse it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feed: Option<Feed>,
     /// Of what the memories of the serial organization's lanes are built, which sets its cycle counts.

@@ -76,6 +76,7 @@ pub(crate) fn taken<O: Takes>(asked: &HardwareConfig, camera: &Camera) -> Result
         let remedy = "leave the key out, or use another organization";
         return Err(asked.clash("hardware.sync", true.to_string(), remedy));
     }
+    asked.refuse_foreign_keys()?;
     O::validate(asked, camera)
 }
 

@@ -2,7 +2,7 @@
 //! Checks every range and combination of a configuration, and makes it a design.
 
 use crate::takes::taken;
-use crate::{Bus, Config, Design, Hardware, HardwareConfig, Organization};
+use crate::{Config, Design, Hardware, HardwareConfig, Organization};
 use foveate_camera::{ConfigError, MAX_SIDE};
 
 impl Config {
@@ -39,31 +39,44 @@ impl Config {
 }
 
 impl HardwareConfig {
-    /// Refuses the keys that only the raster organization has.
-    pub(crate) fn refuse_raster_keys(&self) -> Result<(), ConfigError> {
-        let alone = "only the raster organization has it; leave the key out";
-        // Whoever asks for a bus wants a core on it, and need not know which organization that is.
-        let bus = "only the raster organization has it, with the same results; use organization \
-                   = \"raster\", or leave the key out";
-        let given = [
-            (
-                "hardware.pixels_per_clock",
-                self.pixels_per_clock.map(|pixels| pixels.to_string()),
-                alone,
-            ),
-            ("hardware.store", self.store.map(|store| format!("\"{store}\"")), alone),
-            ("hardware.forward", self.forward.map(|forward| forward.to_string()), alone),
-            ("hardware.interface", self.bus_beside_ports().map(|bus| format!("\"{bus}\"")), bus),
-        ];
-        match given.into_iter().find_map(|(key, value, remedy)| Some((key, value?, remedy))) {
+    /// Refuses the keys that another organization has and this one has not, whatever their values, and a fold of units that
+    /// no regions share.
+    pub(crate) fn refuse_foreign_keys(&self) -> Result<(), ConfigError> {
+        if self.fold != 1 && !self.organization.folds() {
+            let remedy = "only the serial organization shares lanes; use 1";
+            return Err(self.clash("hardware.fold", self.fold.to_string(), remedy));
+        }
+        let foreign = |(_, owner, value): &(&str, Organization, Option<String>)| {
+            *owner != self.organization && value.is_some()
+        };
+        match self.owned_keys().into_iter().find(foreign) {
             None => Ok(()),
-            Some((key, value, remedy)) => Err(self.clash(key, value, remedy)),
+            Some((key, owner, value)) => {
+                let remedy = format!(
+                    "only the {owner} organization has it; leave the key out, or use organization \
+                     = \"{owner}\""
+                );
+                Err(self.clash(key, value.unwrap_or_default(), &remedy))
+            }
         }
     }
 
-    /// The interface, where it is another than ports, which every organization has.
-    fn bus_beside_ports(&self) -> Option<Bus> {
-        self.interface.filter(|&bus| bus != Bus::Ports)
+    /// The keys that one organization has alone: their name, that organization, and their value where they are given.
+    fn owned_keys(&self) -> [(&'static str, Organization, Option<String>); 6] {
+        use Organization::{Raster, Serial};
+        let name = |name: &str| format!("\"{name}\"");
+        [
+            ("hardware.feed", Serial, self.feed.map(|feed| name(feed.name()))),
+            ("hardware.memory", Serial, self.memory.map(|memory| name(memory.name()))),
+            (
+                "hardware.pixels_per_clock",
+                Raster,
+                self.pixels_per_clock.map(|pixels| pixels.to_string()),
+            ),
+            ("hardware.store", Raster, self.store.map(|store| name(store.name()))),
+            ("hardware.forward", Raster, self.forward.map(|forward| forward.to_string())),
+            ("hardware.interface", Raster, self.interface.map(|bus| name(bus.name()))),
+        ]
     }
 
     /// The error for a `key` whose value the organization does not take.

@@ -2,7 +2,7 @@
 //! What a pipelined array has of its own, and what of a configuration it takes.
 
 use crate::takes::Takes;
-use crate::{Feed, HardwareConfig, Organization, Pipelining, Thresholds};
+use crate::{HardwareConfig, Organization, Pipelining, Thresholds};
 use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference};
 
 /// What a pipelined array has of its own.
@@ -44,12 +44,12 @@ impl Takes for Pipelined {
     }
 
     fn validate(asked: &HardwareConfig, _: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused first, or were asked for before.
+        // Those without a name are refused before, or were asked for.
         let &HardwareConfig {
-            fold,
-            feed,
-            memory,
             pipelining,
+            fold: _,
+            feed: _,
+            memory: _,
             pixels_per_clock: _,
             store: _,
             forward: _,
@@ -58,24 +58,7 @@ impl Takes for Pipelined {
             sync: _,
             thresholds: _,
         } = asked;
-        asked.refuse_raster_keys()?;
-        if fold != 1 {
-            let remedy = "only the serial organization shares lanes; use 1";
-            return Err(asked.clash("hardware.fold", fold.to_string(), remedy));
-        }
-        if let Some(memory) = memory {
-            let remedy = "only the lanes of the serial organization have such a memory; \
-                          leave the key out";
-            return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
-        }
-        match feed {
-            None | Some(Feed::Parallel) => Ok(Self { pipelining: pipelining.unwrap_or_default() }),
-            Some(Feed::Raster) => {
-                let remedy = "only the serial organization takes the frame row by row; \
-                              leave the key out";
-                Err(asked.clash("hardware.feed", format!("\"{}\"", Feed::Raster), remedy))
-            }
-        }
+        Ok(Self { pipelining: pipelining.unwrap_or_default() })
     }
 }
 

@@ -63,7 +63,7 @@ impl Takes for Raster {
     }
 
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused first, or were asked for before.
+        // Those without a name are refused before, or were asked for.
         let &HardwareConfig {
             pixels_per_clock,
             pipelining,
@@ -77,7 +77,6 @@ impl Takes for Raster {
             sync: _,
             thresholds: _,
         } = asked;
-        refuse_lanes(asked)?;
         let pixels = pixels_per_clock.unwrap_or(WORDS[0]);
         check_word(asked, pixels, camera.region_size())?;
         check_bus(asked)?;
@@ -120,24 +119,6 @@ impl Raster {
             ..HardwareConfig::default()
         }
     }
-}
-
-/// Refuses what only lanes have.
-fn refuse_lanes(asked: &HardwareConfig) -> Result<(), ConfigError> {
-    if asked.fold != 1 {
-        let remedy = "only the serial organization shares lanes; use 1";
-        return Err(asked.clash("hardware.fold", asked.fold.to_string(), remedy));
-    }
-    if let Some(feed) = asked.feed {
-        let remedy = "this organization always takes the frame row by row; leave the key out";
-        return Err(asked.clash("hardware.feed", format!("\"{feed}\""), remedy));
-    }
-    if let Some(memory) = asked.memory {
-        let remedy = "only the lanes of the serial organization have such a memory; leave the key \
-                      out, or use `hardware.store`";
-        return Err(asked.clash("hardware.memory", format!("\"{memory}\""), remedy));
-    }
-    Ok(())
 }
 
 /// Refuses words that do not fill the rows of a region.

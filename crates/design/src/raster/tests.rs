@@ -214,7 +214,8 @@ fn keys_are_filled_in_and_only_here() {
                 refusal(&[other[0], &key]),
                 format!(
                     "`{name}` = {value} cannot be combined with organization = \
-                     \"{organization}\"; only the raster organization has it; leave the key out"
+                     \"{organization}\"; only the raster organization has it; leave the key out, or \
+                     use organization = \"raster\""
                 )
             );
         }
@@ -222,8 +223,8 @@ fn keys_are_filled_in_and_only_here() {
             refusal(&[other[0], "hardware.interface=axi"]),
             format!(
                 "`hardware.interface` = \"axi\" cannot be combined with organization = \
-                 \"{organization}\"; only the raster organization has it, with the same results; \
-                 use organization = \"raster\", or leave the key out"
+                 \"{organization}\"; only the raster organization has it; leave the key out, or use \
+                 organization = \"raster\""
             )
         );
     }
@@ -231,17 +232,12 @@ fn keys_are_filled_in_and_only_here() {
 
 #[test]
 fn what_only_lanes_have_is_refused() {
+    let alone =
+        "only the serial organization has it; leave the key out, or use organization = \"serial\"";
     for (key, remedy) in [
         ("hardware.fold=2", "only the serial organization shares lanes; use 1"),
-        (
-            "hardware.feed=\"raster\"",
-            "this organization always takes the frame row by row; leave the key out",
-        ),
-        (
-            "hardware.memory=\"block\"",
-            "only the lanes of the serial organization have such a memory; leave the key out, or use \
-             `hardware.store`",
-        ),
+        ("hardware.feed=\"raster\"", alone),
+        ("hardware.memory=\"block\"", alone),
     ] {
         let (name, value) = key.split_once('=').unwrap();
         assert_eq!(

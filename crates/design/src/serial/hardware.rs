@@ -53,7 +53,7 @@ impl Takes for Serial {
     }
 
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused first, or were asked for before.
+        // Those without a name are refused before, or were asked for.
         let &HardwareConfig {
             fold,
             feed,
@@ -67,7 +67,6 @@ impl Takes for Serial {
             sync: _,
             thresholds: _,
         } = asked;
-        asked.refuse_raster_keys()?;
         let (size, regions) = (camera.region_size(), camera.regions());
         if size < MIN_SIDE {
             let remedy = format!("use {MIN_SIDE}..=64, or \"pipelined\"");

@@ -44,7 +44,8 @@ fn only_a_raster_core_has_the_keys() {
                 refusal(&[&other, &format!("hardware.{key}={value}")]),
                 format!(
                     "`hardware.{key}` = {value} cannot be combined with organization = \
-                     \"{organization}\"; only the raster organization has it; leave the key out"
+                     \"{organization}\"; only the raster organization has it; leave the key out, or \
+                     use organization = \"raster\""
                 )
             );
         }
