@@ -60,6 +60,26 @@ module packet_writer #(
     // Limits: out of them elaboration stops at a module that does not exist.
     generate
         if (BITS != 16 && BITS != 32) begin : g_bits BITS_must_be_16_or_32 u_refused (); end
+        if (PART_BITS < 3 + $clog2(64 / BITS) || PART_BITS > 16)
+            begin : g_part_bits PART_BITS_must_be_5_or_with_BITS_32_4_to_16 u_refused (); end
+        // Each part of what a packet carries has a number, so that the length of the packet has room in its head, too.
+        if (ROW_WORDS < 1 || ROW_WORDS > (1 << PART_BITS) / (64 / BITS))
+            begin : g_row_words ROW_WORDS_must_be_1_or_more_and_have_parts_of_PART_BITS u_refused (); end
+        if (PIXEL_WORDS < 1 || PIXEL_WORDS > (1 << PART_BITS) / (64 / BITS))
+            begin : g_pixel_words PIXEL_WORDS_must_be_1_or_more_and_have_parts_of_PART_BITS u_refused (); end
+        if (MEAN_WORDS < 0 || MEAN_WORDS > (1 << PART_BITS) / (64 / BITS))
+            begin : g_mean_words MEAN_WORDS_must_be_0_or_more_and_have_parts_of_PART_BITS u_refused (); end
+        if (REGION_BITS < 1 || REGION_BITS > 30) begin : g_region_bits REGION_BITS_must_be_1_to_30 u_refused (); end
+        if (COLUMN_BITS < 1 || COLUMN_BITS > 15) begin : g_column_bits COLUMN_BITS_must_be_1_to_15 u_refused (); end
+        if (ROW_BITS < 1 || ROW_BITS > 14) begin : g_row_bits ROW_BITS_must_be_1_to_14 u_refused (); end
+        if (COLUMNS < 1 || COLUMNS > 65535) begin : g_columns COLUMNS_must_be_1_to_65535 u_refused (); end
+        if (ROWS < 1 || ROWS > 65535) begin : g_rows ROWS_must_be_1_to_65535 u_refused (); end
+        if (FRAME_WIDTH < 1 || FRAME_WIDTH > 65535) begin : g_frame_width FRAME_WIDTH_must_be_1_to_65535 u_refused (); end
+        if (FRAME_HEIGHT < 1 || FRAME_HEIGHT > 65535) begin : g_frame_height FRAME_HEIGHT_must_be_1_to_65535 u_refused (); end
+        if (SIDE < 1 || SIDE > 255) begin : g_side SIDE_must_be_1_to_255 u_refused (); end
+        if (WIDTH < 1 || WIDTH > 255) begin : g_width WIDTH_must_be_1_to_255 u_refused (); end
+        if (MEANS_SIDE < 0 || MEANS_SIDE > 255) begin : g_means_side MEANS_SIDE_must_be_0_to_255 u_refused (); end
+        if (IRRELEVANT < 0 || IRRELEVANT > 2) begin : g_irrelevant IRRELEVANT_must_be_0_to_2 u_refused (); end
     endgenerate
 
     localparam PARTS = 64 / BITS;

@@ -40,9 +40,15 @@ pub(crate) fn pattern(width: u32, height: u32, frame: u32) -> Raster {
         .unwrap_or_else(|error| unreachable!("a frame of the pattern is one: {error}"))
 }
 
+/// The packets of a design on a board, whose frames are those of a configuration.
+pub(crate) fn layout(design: &Design) -> Layout {
+    Layout::new(design, false, 1)
+        .unwrap_or_else(|error| unreachable!("the sizes of a frame fit: {error}"))
+}
+
 /// The sum behind each of so many frames of the pattern.
 pub(crate) fn sums(design: &Design, frames: u32) -> Vec<u32> {
-    let (layout, mut engine) = (Layout::new(design, false, 1), Engine::new(design));
+    let (layout, mut engine) = (layout(design), Engine::new(design));
     let mut sum = 0_u32;
     let mut add = |number: u32| {
         let frame = pattern(design.width(), design.height(), number);
@@ -50,7 +56,8 @@ pub(crate) fn sums(design: &Design, frames: u32) -> Vec<u32> {
             unreachable!("a frame of the pattern fits its design");
         }
         let mut bytes = Vec::new();
-        write_packets(&mut bytes, &layout, &engine, &frame, number, (0, number == 0));
+        let written = write_packets(&mut bytes, &layout, &engine, &frame, number, (0, number == 0));
+        written.unwrap_or_else(|error| unreachable!("the layout is that of the design: {error}"));
         sum = sum.wrapping_add(sum_of(&bytes));
         sum
     };

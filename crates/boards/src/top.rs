@@ -8,13 +8,12 @@ use foveate_design::{Hardware, PipelinedDesign, RasterDesign, index_bits};
 use foveate_emit::{
     BOARD_LEAVES, LEAVES, Leaf, SourceFile, Top as CoreTop, array_registers, on_bus, verilog,
 };
-use foveate_packets::Layout;
 use foveate_toolchain::text::comment_text;
 
 use crate::array;
 use crate::board::SensorPins;
 use crate::clock::Source;
-use crate::pattern::{FRAMES, sums};
+use crate::pattern::{FRAMES, layout, sums};
 use crate::project::Project;
 use crate::sensor::{Level, Sensor};
 use crate::text::{file, text_of};
@@ -221,7 +220,7 @@ fn pattern_top(project: &Project, design: RasterDesign<'_>) -> String {
     let board = &project.board;
     let lanes = design.pixels_per_clock();
     let words = design.width().div_ceil(lanes);
-    let layout = Layout::new(&design, false, 1);
+    let layout = layout(&design);
     let lengths = [layout.frame_bytes(), layout.row_bytes(), layout.region_bytes(false)];
     let packet_words = lengths.into_iter().max().unwrap_or_default() / 8;
     text_of(&PatternTop {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a stream cannot be read at all. Damage is no error: it is reported as losses.
+//! Why a stream cannot be read at all, or a packet not be written. Damage is no error: it is reported as losses.
 
 use thiserror::Error;
 
-/// A stream of something else.
+/// A stream of something else, or a packet that its format has no room for.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PacketError {
@@ -57,6 +57,30 @@ pub enum PacketError {
         /// What differs.
         what: &'static str,
     },
+    /// A number that is out of the range of its field, or of the design.
+    #[error("the {field} of a packet cannot be {value}: it is {least} to {most}")]
+    Field {
+        /// Which.
+        field: &'static str,
+        /// The number.
+        value: u64,
+        /// The smallest that the field takes.
+        least: u64,
+        /// The largest that it takes.
+        most: u64,
+    },
+    /// More or less than a packet of the design carries.
+    #[error("a {packet} of this design carries {right} {what}, not {found}")]
+    Count {
+        /// The type of the packet.
+        packet: &'static str,
+        /// What it carries.
+        what: &'static str,
+        /// How much it was given.
+        found: usize,
+        /// How much it carries.
+        right: usize,
+    },
 }
 
 impl PacketError {
@@ -64,7 +88,7 @@ impl PacketError {
     #[must_use]
     pub fn frame(&self) -> Option<u32> {
         match *self {
-            Self::NoFrame { .. } => None,
+            Self::NoFrame { .. } | Self::Field { .. } | Self::Count { .. } => None,
             Self::Version { frame, .. }
             | Self::Design { frame, .. }
             | Self::Fields { frame, .. } => Some(frame),

@@ -3,8 +3,8 @@
 
 use foveate_design::{Camera, Design, Irrelevant, Payload};
 
-use crate::FrameInfo;
-use crate::word::index;
+use crate::word::{field, index, narrow, small};
+use crate::{FrameInfo, PacketError};
 
 /// Version of the format, in every FRAME.
 pub const VERSION: u16 = 1;
@@ -31,22 +31,38 @@ pub struct Layout {
 
 impl Layout {
     /// The packets of a design, with or without scores, whose times count `ticks_per_second`.
-    #[must_use]
-    pub fn new(design: &Design, has_scores: bool, ticks_per_second: u32) -> Self {
+    ///
+    /// # Errors
+    /// When a size of the design or the length of one of its packets does not fit into its field, and when there is no tick in
+    /// a second. The packets of every design for frames of a configuration fit.
+    pub fn new(
+        design: &Design,
+        has_scores: bool,
+        ticks_per_second: u32,
+    ) -> Result<Self, PacketError> {
+        let layout = Self::of(design, has_scores, ticks_per_second)?;
+        field("ticks per second", ticks_per_second.into(), 1..=u32::MAX.into())?;
+        let scores = if has_scores { layout.scores_bytes() } else { 0 };
+        for bytes in [layout.row_bytes(), layout.region_bytes(false), scores] {
+            narrow("length in words", (bytes / WORD) as u64)?;
+        }
+        Ok(layout)
+    }
+
+    /// The same without a look at lengths.
+    fn of(design: &Design, has_scores: bool, ticks_per_second: u32) -> Result<Self, PacketError> {
         let camera: &Camera = design;
-        let narrow = |value: u32| u16::try_from(value).unwrap_or(u16::MAX);
-        let small = |value: u32| u8::try_from(value).unwrap_or(u8::MAX);
         let info = FrameInfo {
             version: VERSION,
             fingerprint: fingerprint(design),
             ticks_per_second,
-            width: narrow(camera.width()),
-            height: narrow(camera.height()),
-            columns: narrow(camera.columns()),
-            rows: narrow(camera.rows()),
-            side: small(camera.region_size()),
-            pixel_bits: small(camera.pixel_bits()),
-            blocks: small(camera.periphery().map_or(0, |own| own.blocks)),
+            width: narrow("width", camera.width().into())?,
+            height: narrow("height", camera.height().into())?,
+            columns: narrow("number of columns", camera.columns().into())?,
+            rows: narrow("number of rows", camera.rows().into())?,
+            side: small("side of a region", camera.region_size())?,
+            pixel_bits: small("bits of a pixel", camera.pixel_bits())?,
+            blocks: small("number of blocks", camera.periphery().map_or(0, |own| own.blocks))?,
             irrelevant: match camera.irrelevant() {
                 Irrelevant::Zero => 0,
                 Irrelevant::Hold => 1,
@@ -61,7 +77,7 @@ impl Layout {
             time: 0,
         };
         let score_max = camera.features().iter().map(|feature| feature.score_max());
-        Self { info, score_max: score_max.collect() }
+        Ok(Self { info, score_max: score_max.collect() })
     }
 
     /// What every FRAME of the design says, time and first left open.

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Fields of the 64-bit words that all packets consist of.
 
+use std::ops::RangeInclusive;
+
+use crate::PacketError;
+
 /// The word that begins with these bytes; none where they are fewer than eight.
 pub(crate) fn word(bytes: &[u8]) -> Option<u64> {
     bytes.first_chunk().map(|bytes| u64::from_le_bytes(*bytes))
@@ -28,7 +32,24 @@ pub(crate) const fn index(value: u32) -> usize {
     value as usize
 }
 
-/// A field of 16 bits. Sizes, rows and columns of a design are at most 16,384.
-pub(crate) fn field(value: u32) -> u64 {
-    u64::from(value & 0xFFFF)
+/// A number that its field takes.
+pub(crate) fn field(
+    field: &'static str,
+    value: u64,
+    range: RangeInclusive<u64>,
+) -> Result<u64, PacketError> {
+    let (&least, &most) = (range.start(), range.end());
+    range.contains(&value).then_some(value).ok_or(PacketError::Field { field, value, least, most })
+}
+
+/// A number that a field of 16 bits takes.
+pub(crate) fn narrow(name: &'static str, value: u64) -> Result<u16, PacketError> {
+    let value = field(name, value, 0..=u16::MAX.into())?;
+    Ok(u16::try_from(value).unwrap_or(u16::MAX))
+}
+
+/// A number that a field of 8 bits takes.
+pub(crate) fn small(name: &'static str, value: u32) -> Result<u8, PacketError> {
+    let value = field(name, value.into(), 0..=u8::MAX.into())?;
+    Ok(u8::try_from(value).unwrap_or(u8::MAX))
 }

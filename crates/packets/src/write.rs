@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Makes packets: each function appends one to a vector.
+//! Makes packets: each function appends one to a vector, or nothing where it says that the format has no room for it.
 
-use crate::layout::{Layout, MAGIC, MARK, WORD};
+use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, REGISTER_WORDS, WORD};
 use crate::packet::{END, FRAME, REGION, REGISTER, ROW, SCORES};
-use crate::word::field;
-use crate::{Decision, End, RegionFlags, Register};
+use crate::word::{field, narrow};
+use crate::{Decision, End, PacketError, RegionFlags, Register};
 
 /// Appends the FRAME of frame `number`.
 pub fn frame(out: &mut Vec<u8>, layout: &Layout, number: u32, (time, first): (u64, bool)) {
@@ -20,95 +20,185 @@ pub fn frame(out: &mut Vec<u8>, layout: &Layout, number: u32, (time, first): (u6
         | u64::from(info.has_scores) << 29
         | u64::from(info.columns) << 32
         | u64::from(info.rows) << 48;
-    let head = (FRAME, first.into(), info.version.into(), 0);
-    packet(out, head, number, |out| {
+    let head = Head { kind: FRAME, flags: first.into(), row: info.version, column: 0 };
+    packet(out, head, FRAME_WORDS, number, |out| {
         out.extend(MAGIC);
         out.extend([info.fingerprint, time, size, rest].into_iter().flat_map(u64::to_le_bytes));
     });
 }
 
 /// Appends the ROW of a row of regions.
-pub fn row(out: &mut Vec<u8>, layout: &Layout, number: u32, row: u32, decisions: &[Decision]) {
+///
+/// # Errors
+/// When there is no such row, or it has another number of regions.
+pub fn row(
+    out: &mut Vec<u8>,
+    layout: &Layout,
+    number: u32,
+    row: u32,
+    decisions: &[Decision],
+) -> Result<(), PacketError> {
+    let head = Head::of_row(ROW, layout, row)?;
+    count("ROW", "decisions", decisions.len(), layout.info().columns.into())?;
     let bits = layout.decision_bits();
-    packet(out, (ROW, 0, row, layout.columns()), number, |out| {
+    packet(out, head, layout.row_bytes() / WORD, number, |out| {
         for decisions in decisions.chunks(8 / bits) {
             let codes =
                 decisions.iter().enumerate().map(|(at, decision)| decision.code() << (at * bits));
             out.push(codes.fold(0, |byte, code| byte | code));
         }
     });
+    Ok(())
 }
 
 /// Appends the SCORES of a row of regions; `scores` gives changed pixels and then each score of a region.
+///
+/// # Errors
+/// When there is no such row, or it has another number of regions or of scores, or one that no region of the design reaches.
 pub fn scores<S: IntoIterator<Item = u64>>(
     out: &mut Vec<u8>,
     layout: &Layout,
     number: u32,
     row: u32,
     regions: impl Iterator<Item = S>,
-) {
-    packet(out, (SCORES, 0, row, layout.columns()), number, |out| {
-        for region in regions {
-            let start = out.len();
-            for ((_, bytes), value) in layout.scores().zip(region) {
-                out.resize(start + (out.len() - start).next_multiple_of(bytes), 0);
-                out.extend(value.to_le_bytes().iter().take(bytes));
-            }
-            out.resize(start + layout.record(), 0);
-        }
-    });
+) -> Result<(), PacketError> {
+    let head = Head::of_row(SCORES, layout, row)?;
+    let info = layout.info();
+    let columns = if info.has_scores { info.columns.into() } else { 0 };
+    let (mut regions, mut records, mut found) = (regions, Vec::new(), 0);
+    for region in regions.by_ref().take(columns) {
+        record(&mut records, layout, region)?;
+        found += 1;
+    }
+    count("SCORES", "records", found + regions.count(), columns)?;
+    packet(out, head, layout.scores_bytes() / WORD, number, |out| out.extend(records));
+    Ok(())
+}
+
+/// Appends the record of a region.
+fn record(
+    records: &mut Vec<u8>,
+    layout: &Layout,
+    region: impl IntoIterator<Item = u64>,
+) -> Result<(), PacketError> {
+    let (start, right) = (records.len(), layout.scores().count());
+    let (mut region, mut found) = (region.into_iter(), 0);
+    for ((most, bytes), value) in layout.scores().zip(region.by_ref().take(right)) {
+        let value = field("score", value, 0..=most)?;
+        records.resize(start + (records.len() - start).next_multiple_of(bytes), 0);
+        records.extend(value.to_le_bytes().iter().take(bytes));
+        found += 1;
+    }
+    count("SCORES", "numbers of a region", found + region.count(), right)?;
+    records.resize(start + layout.record(), 0);
+    Ok(())
 }
 
 /// Appends a REGION; `place` is its row and column.
+///
+/// # Errors
+/// When there is no such region, or it has other flags, another number of values, or one that no pixel of the design reaches.
 pub fn region(
     out: &mut Vec<u8>,
     layout: &Layout,
     number: u32,
     (row, column): (u32, u32),
     (flags, values): (RegionFlags, &[u16]),
-) {
-    packet(out, (REGION, flags.bits(), row, column), number, |out| match layout.lane() {
+) -> Result<(), PacketError> {
+    let row = below("row", row, layout.rows())?;
+    let column = below("column", column, layout.columns())?;
+    let raw = u64::from(layout.info().raw);
+    field("raw flag", flags.raw.into(), raw..=raw)?;
+    field("summary flag", flags.summary.into(), 0..=layout.has_periphery().into())?;
+    count("REGION", "values", values.len(), layout.values(flags.summary))?;
+    let most = layout.pixel_max();
+    if let Some(&value) = values.iter().find(|&&value| value > most) {
+        field("value", value.into(), 0..=most.into())?;
+    }
+    let head = Head { kind: REGION, flags: flags.bits(), row, column };
+    let words = layout.region_bytes(flags.summary) / WORD;
+    packet(out, head, words, number, |out| match layout.lane() {
         1 => out.extend(values.iter().map(|value| value.to_le_bytes()[0])),
         _ => out.extend(values.iter().flat_map(|value| value.to_le_bytes())),
     });
+    Ok(())
 }
 
 /// Appends the END of a frame.
-pub fn end(out: &mut Vec<u8>, number: u32, end: End) {
+///
+/// # Errors
+/// When more rows were dropped than the field holds.
+pub fn end(out: &mut Vec<u8>, number: u32, end: End) -> Result<(), PacketError> {
     let dropped = end.regions_dropped > 0 || end.rows_dropped > 0;
-    packet(out, (END, dropped.into(), end.rows_dropped, 0), number, |out| {
+    let row = narrow("dropped rows", end.rows_dropped.into())?;
+    let head = Head { kind: END, flags: dropped.into(), row, column: 0 };
+    packet(out, head, END_WORDS, number, |out| {
         let counts = u64::from(end.regions_sent) | u64::from(end.regions_dropped) << 32;
         out.extend(counts.to_le_bytes());
     });
+    Ok(())
 }
 
 /// Appends a REGISTER, which belongs to no frame.
 pub fn register(out: &mut Vec<u8>, register: Register) {
-    let head = (REGISTER, register.written.into(), register.address.into(), 0);
-    packet(out, head, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
+    let flags = register.written.into();
+    let head = Head { kind: REGISTER, flags, row: register.address, column: 0 };
+    packet(out, head, REGISTER_WORDS, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
 }
 
-/// Appends a packet around what `carry` writes: head before, padding to whole words and tail behind.
+/// What the first word of a packet says beside its length.
+#[derive(Clone, Copy)]
+struct Head {
+    kind: u8,
+    flags: u8,
+    row: u16,
+    column: u16,
+}
+
+impl Head {
+    /// That of a packet about a row of regions.
+    fn of_row(kind: u8, layout: &Layout, row: u32) -> Result<Self, PacketError> {
+        let row = below("row", row, layout.rows())?;
+        Ok(Self { kind, flags: 0, row, column: layout.info().columns })
+    }
+}
+
+/// A number of a row or a column, of which there are so many.
+fn below(name: &'static str, number: u32, all: u32) -> Result<u16, PacketError> {
+    narrow(name, field(name, number.into(), 0..=u64::from(all).saturating_sub(1))?)
+}
+
+/// Refuses another number of values than a packet carries.
+fn count(
+    packet: &'static str,
+    what: &'static str,
+    found: usize,
+    right: usize,
+) -> Result<(), PacketError> {
+    let fits = found == right;
+    fits.then_some(()).ok_or(PacketError::Count { packet, what, found, right })
+}
+
+/// Appends a packet of so many words around what `carry` writes: head before, padding to whole words and tail behind.
 fn packet(
     out: &mut Vec<u8>,
-    (kind, flags, row, column): (u8, u8, u32, u32),
+    head: Head,
+    words: usize,
     number: u32,
     carry: impl FnOnce(&mut Vec<u8>),
 ) {
+    // A layout has no longer packets.
+    let length = u16::try_from(words).unwrap_or_else(|_| unreachable!("{words} words fit"));
+    let first = u64::from(MARK)
+        | u64::from(head.kind | head.flags << 4) << 8
+        | u64::from(length) << 16
+        | u64::from(head.row) << 32
+        | u64::from(head.column) << 48;
     let start = out.len();
-    out.extend([0; WORD]);
+    out.extend(first.to_le_bytes());
     carry(out);
-    let carried = (out.len() - start).next_multiple_of(WORD);
-    out.resize(start + carried, 0);
-    let words = u64::try_from(carried / WORD + 1).unwrap_or(u64::MAX);
-    let head = u64::from(MARK)
-        | u64::from(kind | flags << 4) << 8
-        | (words & 0xFFFF) << 16
-        | field(row) << 32
-        | field(column) << 48;
-    if let Some(place) = out.get_mut(start..start + WORD) {
-        place.copy_from_slice(&head.to_le_bytes());
-    }
+    debug_assert!(out.len() - start <= (words + 1 - AROUND) * WORD, "it carries too much");
+    out.resize(start + (words + 1 - AROUND) * WORD, 0);
     out.extend(number.to_le_bytes());
     let check = crc32fast::hash(&out[start..]);
     out.extend(check.to_le_bytes());

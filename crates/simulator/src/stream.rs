@@ -161,7 +161,7 @@ impl Run {
         }
         refuse_claim(config, frame, info)?;
         let design = config.for_frames(info.width.into(), info.height.into())?;
-        let layout = Layout::new(&design, info.has_scores, info.ticks_per_second);
+        let layout = Layout::new(&design, info.has_scores, info.ticks_per_second)?;
         let assembler = Assembler::new(layout);
         assembler.check(frame, info)?;
         Ok(Self {

@@ -53,7 +53,7 @@ fn sums_on_the_board_are_those_of_the_model() {
         assert_eq!(lights, RIGHT, "{keys:?}");
         let mut splitter = Splitter::default();
         splitter.feed(&heard);
-        let layout = Layout::new(&project.design, false, 125_000_000);
+        let layout = Layout::new(&project.design, false, 125_000_000).unwrap();
         let (mut answers, mut others) = (Vec::new(), 0);
         loop {
             match splitter.next(Some(&layout)) {

@@ -27,7 +27,7 @@ struct Received {
 }
 
 fn receive(design: &Design, bytes: &[u8]) -> Result<Received, String> {
-    let layout = Layout::new(design, false, CORE_MHZ * 1_000_000);
+    let layout = Layout::new(design, false, CORE_MHZ * 1_000_000).unwrap();
     let mut splitter = Splitter::default();
     splitter.feed(bytes);
     splitter.complete();

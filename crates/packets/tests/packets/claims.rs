@@ -112,7 +112,7 @@ fn a_packet_of_a_later_frame_does_not_become_a_part_of_it() {
     let at = frames[2].start + layout.frame_bytes();
     let mut forged = bytes[..at].to_vec();
     let decisions = vec![Default::default(); layout.columns().try_into().unwrap()];
-    write::row(&mut forged, &layout, 3, 0, &decisions);
+    write::row(&mut forged, &layout, 3, 0, &decisions).unwrap();
     forged.extend(&bytes[at..]);
     let (received, losses) = read(&mut rng, &layout, &forged);
     assert!(received.last() == whole.last(), "{losses:?}");

@@ -8,7 +8,8 @@ use crate::damage::cases;
 use crate::stream::design;
 
 fn info(ticks_per_second: u32) -> FrameInfo {
-    let layout = Layout::new(&design("frame={width=8,height=8}\n"), false, ticks_per_second);
+    let layout =
+        Layout::new(&design("frame={width=8,height=8}\n"), false, ticks_per_second).unwrap();
     layout.info().clone()
 }
 

@@ -29,7 +29,7 @@ fn a_frame_is_what_the_page_says() {
         "frame={width=6,height=3,pixel_bits=10}\nregion.size=2\ntemporal.min_count=1\nrender.irrelevant='mean'\n\
          periphery.blocks=1\nspatial=[{feature='edge',min_score=0},{feature='variance',min_score=0}]\n",
     );
-    let layout = Layout::new(&design, true, 1000);
+    let layout = Layout::new(&design, true, 1000).unwrap();
     let fingerprint = u64::from_str_radix(&design.fingerprint(), 16).unwrap();
     let number = 0x0102_0304;
     let mut bytes = Vec::new();
@@ -37,15 +37,15 @@ fn a_frame_is_what_the_page_says() {
     let decision = |srs, trs, summary| Decision { srs, trs, summary };
     let row =
         [decision(true, true, false), decision(false, true, true), decision(true, false, false)];
-    write::row(&mut bytes, &layout, number, 1, &row);
+    write::row(&mut bytes, &layout, number, 1, &row).unwrap();
     let scores = [[4, 3, 0x1234], [1, 0, 0], [0, 4, 5]];
-    write::scores(&mut bytes, &layout, number, 1, scores.into_iter());
+    write::scores(&mut bytes, &layout, number, 1, scores.into_iter()).unwrap();
     let flags = RegionFlags { raw: false, summary: false };
-    write::region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4]));
+    write::region(&mut bytes, &layout, number, (1, 0), (flags, &[1, 2, 0x3FF, 4])).unwrap();
     let flags = RegionFlags { raw: false, summary: true };
-    write::region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155]));
+    write::region(&mut bytes, &layout, number, (1, 1), (flags, &[0x155])).unwrap();
     let end = End { regions_sent: 2, regions_dropped: 3, rows_dropped: 1 };
-    write::end(&mut bytes, number, end);
+    write::end(&mut bytes, number, end).unwrap();
 
     let by_hand = [
         packet(
@@ -106,7 +106,7 @@ fn a_frame_is_what_the_page_says() {
 #[test]
 fn eight_by_eight_regions_of_bytes_cost_what_the_page_says() {
     let design = design("frame={width=1920,height=1080}\nspatial=[{feature='edge'}]\n");
-    let layout = Layout::new(&design, true, 1);
+    let layout = Layout::new(&design, true, 1).unwrap();
     assert_eq!(layout.region_bytes(false), 80);
     assert_eq!((layout.row_bytes(), layout.scores_bytes()), (80, 16 + 8 * 240));
     assert_eq!((layout.frame_bytes(), layout.end_bytes()), (56, 24));

@@ -5,6 +5,7 @@
 mod claims;
 mod clock;
 mod damage;
+mod fields;
 mod golden;
 mod register;
 mod stream;

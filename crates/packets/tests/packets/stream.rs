@@ -29,7 +29,7 @@ pub(crate) fn random(rng: &mut Rng, count: u32) -> Stream {
         "frame={{width={width},height={height},pixel_bits={bits}}}\nregion.size={size}\ntemporal.min_count=1\n\
          spatial=[{{feature='mad',min_score=0}}]\nrender.irrelevant='{irrelevant}'\n"
     ));
-    let layout = Layout::new(&design, rng.bool(), 1_000_000);
+    let layout = Layout::new(&design, rng.bool(), 1_000_000).unwrap();
     let (mut bytes, mut frames) = (Vec::new(), Vec::new());
     for number in 0..count {
         let start = bytes.len();
@@ -43,7 +43,7 @@ pub(crate) fn random(rng: &mut Rng, count: u32) -> Stream {
             let decisions: Vec<Decision> = (0..layout.columns()).map(decision).collect();
             let early = rng.bool();
             if !early {
-                write::row(&mut bytes, &layout, number, row, &decisions);
+                write::row(&mut bytes, &layout, number, row, &decisions).unwrap();
             }
             for (column, decision) in (0..).zip(&decisions) {
                 if decision.summary || (decision.srs && decision.trs) {
@@ -51,19 +51,20 @@ pub(crate) fn random(rng: &mut Rng, count: u32) -> Stream {
                     let values: Vec<u16> =
                         (0..layout.values(summary)).map(|_| rng.u16(..) >> (16 - bits)).collect();
                     let flags = RegionFlags { raw: false, summary };
-                    write::region(&mut bytes, &layout, number, (row, column), (flags, &values));
+                    write::region(&mut bytes, &layout, number, (row, column), (flags, &values))
+                        .unwrap();
                     regions_sent += 1;
                 }
             }
             if early {
-                write::row(&mut bytes, &layout, number, row, &decisions);
+                write::row(&mut bytes, &layout, number, row, &decisions).unwrap();
             }
             if layout.info().has_scores {
                 let scores = (0..layout.columns()).map(|_| [rng.u64(0..3), rng.u64(0..3)]);
-                write::scores(&mut bytes, &layout, number, row, scores);
+                write::scores(&mut bytes, &layout, number, row, scores).unwrap();
             }
         }
-        write::end(&mut bytes, number, End { regions_sent, ..End::default() });
+        write::end(&mut bytes, number, End { regions_sent, ..End::default() }).unwrap();
         frames.push(start..bytes.len());
     }
     Stream { layout, bytes, frames }

@@ -7,7 +7,7 @@ use foveate_camera::{Action, Camera, Payload};
 use foveate_design::Design;
 use foveate_engine::{Engine, FrameOutcome};
 use foveate_frame::Raster;
-use foveate_packets::{Decision, End, Layout, RegionFlags, write};
+use foveate_packets::{Decision, End, Layout, PacketError, RegionFlags, write};
 use foveate_staging::GrowingFile;
 
 use super::Packets;
@@ -32,13 +32,16 @@ impl PacketFile {
         let has_scores = packets == Packets::WithScores;
         Ok(Self {
             file: GrowingFile::create(&folder.join("packets.bin"))?,
-            layout: Layout::new(design, has_scores, TICKS_PER_SECOND),
+            layout: Layout::new(design, has_scores, TICKS_PER_SECOND)?,
         })
     }
 }
 
 /// Appends the packets of a frame that an engine has computed last, in the order in which a core can send them. `time` is that
 /// of the frame in ticks, and whether it is the first.
+///
+/// # Errors
+/// When the layout is that of another design.
 pub fn write_packets(
     out: &mut Vec<u8>,
     layout: &Layout,
@@ -46,11 +49,13 @@ pub fn write_packets(
     source: &Raster,
     number: u32,
     time: (u64, bool),
-) {
+) -> Result<(), PacketError> {
     write::frame(out, layout, number, time);
-    let rows = 0..engine.camera().rows();
-    let regions_sent = rows.map(|row| write_row(out, layout, engine, source, (number, row))).sum();
-    write::end(out, number, End { regions_sent, ..End::default() });
+    let mut regions_sent = 0;
+    for row in 0..engine.camera().rows() {
+        regions_sent += write_row(out, layout, engine, source, (number, row))?;
+    }
+    write::end(out, number, End { regions_sent, ..End::default() })
 }
 
 /// Appends the packets of a row of regions of a frame; returns how many were REGION.
@@ -60,16 +65,16 @@ fn write_row(
     engine: &Engine,
     source: &Raster,
     (frame, row): (u32, u32),
-) -> u32 {
+) -> Result<u32, PacketError> {
     let (camera, outcome) = (engine.camera(), engine.outcome());
     let start = row * camera.columns();
     let regions = start..start + camera.columns();
     let decisions: Vec<Decision> =
         regions.clone().map(|region| decision(outcome, region as usize)).collect();
-    write::row(out, layout, frame, row, &decisions);
+    write::row(out, layout, frame, row, &decisions)?;
     if layout.info().has_scores {
         let scores = regions.clone().map(|region| scores(outcome, region as usize));
-        write::scores(out, layout, frame, row, scores);
+        write::scores(out, layout, frame, row, scores)?;
     }
     let (mut sent, mut values) = (0, Vec::new());
     for region in regions {
@@ -87,10 +92,10 @@ fn write_row(
         }
         let flags = RegionFlags { raw: layout.info().raw, summary };
         let place = (row, region - start);
-        write::region(out, layout, frame, place, (flags, &values));
+        write::region(out, layout, frame, place, (flags, &values))?;
         sent += 1;
     }
-    sent
+    Ok(sent)
 }
 
 /// What a ROW says of a region.
@@ -126,8 +131,7 @@ impl Sink for PacketFile {
         let frame = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
         let time = (step.source.time_us, step.first);
         let source = &step.source.frame;
-        write_packets(self.file.end(), &self.layout, engine, source, frame, time);
-        Ok(())
+        Ok(write_packets(self.file.end(), &self.layout, engine, source, frame, time)?)
     }
 
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {

@@ -147,7 +147,7 @@ fn a_stream_alone_asks_for_no_more_memory_than_8k_video() {
         let own: Vec<&str> = given.iter().map(String::as_str).chain(["region.size=64"]).collect();
         let design = config(&own).validate().unwrap();
         let mut bytes = Vec::new();
-        write::frame(&mut bytes, &Layout::new(&design, false, 1_000_000), 0, (0, true));
+        write::frame(&mut bytes, &Layout::new(&design, false, 1_000_000).unwrap(), 0, (0, true));
         let refusal = |overrides: &[&str]| {
             let mut stream = Stream::new(&config(overrides));
             stream.feed(&bytes);
@@ -189,7 +189,7 @@ impl Hooks for FirstFrameCanceller {
 fn decoding_is_stopped_between_frames_that_cost_few_bytes() {
     let sent = sent();
     let design = config(DESIGNS[0]).for_frames(45, 38).unwrap();
-    let layout = Layout::new(&design, false, 1_000_000);
+    let layout = Layout::new(&design, false, 1_000_000).unwrap();
     // Many frames in the first bytes that are read.
     let mut bytes = sent[0].clone();
     for number in 1..500 {

@@ -244,7 +244,7 @@ fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
                     summary: seen.actions[at] == Action::Summarize,
                 })
                 .collect();
-            write::row(&mut bytes, layout, number, row, &decisions);
+            write::row(&mut bytes, layout, number, row, &decisions).unwrap();
             for column in 0..columns {
                 let summary = decisions[column as usize].summary;
                 let values = match (summary, seen.active[at(column)]) {
@@ -257,7 +257,7 @@ fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
                     (false, false) => continue,
                 };
                 let flags = RegionFlags { raw: layout.info().raw, summary };
-                write::region(&mut bytes, layout, number, (row, column), (flags, &values));
+                write::region(&mut bytes, layout, number, (row, column), (flags, &values)).unwrap();
                 sent += 1;
             }
         }
@@ -265,7 +265,8 @@ fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
             &mut bytes,
             number,
             End { regions_sent: sent, regions_dropped: number, rows_dropped: number / 2 },
-        );
+        )
+        .unwrap();
     }
     bytes
 }
@@ -362,7 +363,7 @@ fn starts(bytes: &[u8]) -> Vec<usize> {
 
 /// Whether the driver finds in damaged streams of a design what the receiver finds.
 fn listen(design: &Design, fault: Fault) -> Result<(), String> {
-    let layout = Layout::new(design, false, 100_000_000);
+    let layout = Layout::new(design, false, 100_000_000).unwrap();
     let whole = packets(design, &layout);
     let starts = starts(&whole);
     let dir = tempfile::tempdir().unwrap();
