@@ -4,17 +4,29 @@
 
 mod lines;
 mod stage;
+mod words;
 
 use std::fmt::Write;
 use std::io::IsTerminal as _;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-use indicatif::{HumanDuration, ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressState, ProgressStyle};
+use terminal_size::Width;
 
 use crate::notice::printable;
 use lines::Lines;
-use stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, WORK, locked};
+use stage::{Amount, Counted, Stage, locked};
+use words::drawn;
+
+/// What has no length.
+const OPEN: &str = "{spinner} {told}";
+/// What has one.
+const BAR: &str = "{told} {wide_bar}";
+/// Columns where nobody knows how many there are.
+const COLUMNS: usize = 80;
+/// How often the time that has passed is drawn anew.
+const TICK: Duration = Duration::from_millis(120);
 
 /// What a command is about. Nothing is shown before it says so, nothing when quiet, and nothing remains on
 /// a terminal when it is dropped.
@@ -36,13 +48,13 @@ impl Progress {
         });
         let stage = Arc::new(Mutex::new(Stage::new(Instant::now())));
         let lines = !quiet && !terminal;
-        let lines = lines.then(|| Lines::start(bar.clone(), Arc::clone(&stage))).flatten();
+        let lines = lines.then(|| Lines::start(Arc::clone(&stage))).flatten();
         Self { bar, stage, lines: Mutex::new(lines) }
     }
 
     /// Work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
     pub(crate) fn work(&self, what: &str) {
-        self.enter(WORK, what, 0);
+        self.enter(Counted::Work, what, Amount::default());
     }
 
     /// So many of all steps are done: `designs over clips`. While there is none to do it is [`Progress::work`].
@@ -50,18 +62,12 @@ impl Progress {
         if all == 0 {
             return self.work(what);
         }
-        self.enter(STEPS, what, done);
-        self.bar.set_length(all);
-        self.bar.set_position(done);
+        self.enter(Counted::Steps, what, Amount::new(done, Some(all)));
     }
 
     /// So many frames are done, of so many if that is known; `note` stands beside it.
     pub(crate) fn frames(&self, done: u64, all: Option<u64>, note: &str) {
-        self.enter(if all.is_some() { FRAMES_OF_ALL } else { FRAMES }, note, done);
-        if let Some(all) = all {
-            self.bar.set_length(all.max(done));
-        }
-        self.bar.set_position(done);
+        self.enter(Counted::Frames, note, Amount::new(done, all));
     }
 
     /// Clears the line of the terminal and is silent from then on: before results are printed.
@@ -70,40 +76,56 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 
-    fn enter(&self, style: &'static str, what: &str, done: u64) {
+    fn enter(&self, counted: Counted, what: &str, amount: Amount) {
         let what = &*printable(what);
         // Not held while the bar is told: it asks for the stage when it draws.
         let before = {
             let mut stage = locked(&self.stage);
-            let before = (stage.style, stage.what.clone());
-            stage.enter(style, what, done, Instant::now());
+            let before = stage.counted.map(|_| stage.amount.all.is_some());
+            stage.enter(counted, what, amount, Instant::now());
             before
         };
-        if before.0 != Some(style) {
-            // Only a program fault makes a template that cannot be read; the bar is then the plain one.
-            if let Ok(template) = ProgressStyle::with_template(style) {
-                let stage = Arc::clone(&self.stage);
-                let left = move |bar: &ProgressState, text: &mut dyn Write| {
-                    let all = bar.len().unwrap_or(0);
-                    let left = locked(&stage).left(bar.pos(), all, Instant::now());
-                    let _ = match left {
-                        None => Ok(()),
-                        Some(Left::About(left)) => write!(text, ", {:#} left", HumanDuration(left)),
-                        Some(Left::MoreThan(left)) => {
-                            write!(text, ", over {:#} left", HumanDuration(left))
-                        }
-                    };
-                };
-                self.bar.set_style(template.with_key("left", left));
-            }
-            if !self.bar.is_hidden() {
-                self.bar.enable_steady_tick(Duration::from_millis(120));
-            }
+        // Words are those of the stage, whatever the bar has: the template is first, or a plain bar would be drawn.
+        let has_length = amount.all.is_some();
+        if before != Some(has_length) {
+            self.show(if has_length { BAR } else { OPEN });
         }
-        if before.0 != Some(style) || before.1 != what {
-            self.bar.set_message(what.to_owned());
+        match amount.all {
+            Some(all) => self.bar.set_length(all),
+            None => self.bar.unset_length(),
+        }
+        self.bar.set_position(amount.done);
+        if before.is_none() && !self.bar.is_hidden() {
+            self.bar.enable_steady_tick(TICK);
         }
     }
+
+    /// Draws by a template from now on.
+    fn show(&self, template: &'static str) {
+        // Only a program fault makes a template that cannot be read; the bar is then the plain one.
+        if let Ok(style) = ProgressStyle::with_template(template) {
+            let stage = Arc::clone(&self.stage);
+            let told = move |bar: &ProgressState, text: &mut dyn Write| {
+                let room = room(columns(), template);
+                let told = drawn(&locked(&stage), bar.elapsed(), Instant::now(), room);
+                let _ = text.write_str(&told);
+            };
+            self.bar.set_style(style.with_key("told", told));
+        }
+    }
+}
+
+/// Columns of the terminal that progress is drawn on.
+fn columns() -> usize {
+    let size = terminal_size::terminal_size_of(std::io::stderr());
+    size.map_or(COLUMNS, |(Width(columns), _)| columns.into())
+}
+
+/// Columns for words: the spinner and the space behind it take two, and a bar that says something a quarter of the line.
+fn room(columns: usize, template: &str) -> usize {
+    // A line that fills all columns would be followed by an empty one.
+    let columns = columns.saturating_sub(1);
+    columns.saturating_sub(if template == BAR { 1 + columns / 4 } else { 2 })
 }
 
 impl Drop for Progress {

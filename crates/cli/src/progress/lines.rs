@@ -7,9 +7,8 @@ use std::sync::{Arc, Mutex};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-use indicatif::{HumanDuration, ProgressBar};
-
-use super::stage::{FRAMES, FRAMES_OF_ALL, Left, STEPS, Stage, locked};
+use super::stage::{Stage, locked};
+use super::words::logged;
 use crate::notice;
 
 /// Seconds between lines; `0` for none.
@@ -27,7 +26,7 @@ pub(super) struct Lines {
 
 impl Lines {
     /// Nothing where the user wants no lines.
-    pub(super) fn start(bar: ProgressBar, stage: Arc<Mutex<Stage>>) -> Option<Self> {
+    pub(super) fn start(stage: Arc<Mutex<Stage>>) -> Option<Self> {
         let asked = std::env::var(VARIABLE).ok().filter(|text| !text.is_empty());
         let interval = match asked.as_deref().map(parse) {
             Some(Some(Duration::ZERO)) => return None,
@@ -50,7 +49,7 @@ impl Lines {
                     return;
                 }
                 let stage = locked(&stage).clone();
-                if let Some(line) = line(&bar, &stage, start, Instant::now()) {
+                if let Some(line) = logged(&stage, start, Instant::now()) {
                     notice::say(&line);
                 }
             }
@@ -80,29 +79,8 @@ fn parse(text: &str) -> Option<Duration> {
     Some(Duration::from_secs(seconds))
 }
 
-/// What goes on, in words; nothing before the command has said so. `start` is when the command began.
-fn line(bar: &ProgressBar, stage: &Stage, start: Instant, now: Instant) -> Option<String> {
-    let style = stage.style?;
-    let (done, what) = (bar.position(), &stage.what);
-    let all = bar.length().unwrap_or(done);
-    let elapsed = HumanDuration(now.saturating_duration_since(start));
-    let left = || match stage.left(done, all, now) {
-        None => String::new(),
-        Some(Left::About(left)) => format!(", about {} left", HumanDuration(left)),
-        Some(Left::MoreThan(left)) => format!(", more than {} left", HumanDuration(left)),
-    };
-    let note = if what.is_empty() { String::new() } else { format!(" ({what})") };
-    Some(match style {
-        STEPS => format!("{what}: {done} of {all} after {elapsed}{}", left()),
-        FRAMES_OF_ALL => format!("{done} of {all} frames after {elapsed}{}{note}", left()),
-        FRAMES => format!("{done} frames after {elapsed}{note}"),
-        _ => format!("{what}, {elapsed} so far"),
-    })
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::stage::WORK;
     use super::*;
 
     #[test]
@@ -123,33 +101,5 @@ mod tests {
         for text in ["off", "-1", "1.5", "86401", "5s"] {
             assert_eq!(parse(text), None, "{text}");
         }
-    }
-
-    #[test]
-    fn lines_say_what_goes_on() {
-        let bar = ProgressBar::hidden();
-        bar.set_length(40);
-        bar.set_position(12);
-        let start = Instant::now();
-        let told = |style, what: &str, first| {
-            let mut stage = Stage::new(start);
-            stage.enter(style, what, first, start);
-            line(&bar, &stage, start, start + Duration::from_secs(66)).unwrap()
-        };
-        assert_eq!(told(WORK, "compiling", 0), "compiling, 66 seconds so far");
-        assert_eq!(told(STEPS, "designs", 12), "designs: 12 of 40 after 66 seconds");
-        assert_eq!(
-            told(STEPS, "designs", 0),
-            "designs: 12 of 40 after 66 seconds, about 3 minutes left"
-        );
-        assert_eq!(
-            told(FRAMES_OF_ALL, "1/2 clips", 6),
-            "12 of 40 frames after 66 seconds, about 5 minutes left (1/2 clips)"
-        );
-        assert_eq!(told(FRAMES, "1/2 clips", 0), "12 frames after 66 seconds (1/2 clips)");
-        assert_eq!(line(&bar, &Stage::new(start), start, start), None);
-        bar.set_length(u64::MAX);
-        let most = "designs: 12 of 18446744073709551615 after 66 seconds, more than 7 days left";
-        assert_eq!(told(STEPS, "designs", 0), most);
     }
 }

@@ -1,26 +1,46 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a command is about, since when, and how long the rest of it takes at the pace of what is done.
+//! What a command is about, how much of it is done, since when, and at which rate: how long the rest takes.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-pub(super) const WORK: &str = "{spinner} {msg} [{elapsed}]";
-pub(super) const STEPS: &str = "{msg} {wide_bar} {pos}/{len} [{elapsed}{left}]";
-pub(super) const FRAMES: &str = "{spinner} {pos} frames [{elapsed}, {per_sec:.1}] {msg}";
-pub(super) const FRAMES_OF_ALL: &str =
-    "{wide_bar} {pos}/{len} frames [{elapsed}, {per_sec:.1}{left}] {msg}";
-
 /// A pace is one only after so long: what comes first may lie in a cache, or start a tool.
 const PACE_AFTER: Duration = Duration::from_secs(2);
 /// A longer time is told as more than this: no run that is meant takes it.
-const LONGEST: Duration = Duration::from_secs(7 * 24 * 3600);
+pub(super) const LONGEST: Duration = Duration::from_secs(7 * 24 * 3600);
+
+/// What is counted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Counted {
+    /// Nothing: one run of a tool.
+    Work,
+    /// Steps, with a name.
+    Steps,
+    /// Frames, with a note beside them.
+    Frames,
+}
+
+/// How much is done, of how much if that is known.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Amount {
+    pub(super) done: u64,
+    pub(super) all: Option<u64>,
+}
+
+impl Amount {
+    /// Nothing has no length, and what is done lies in it: a damaged video may promise less than it has.
+    pub(super) fn new(done: u64, all: Option<u64>) -> Self {
+        Self { done, all: all.filter(|&all| all > 0).map(|all| all.max(done)) }
+    }
+}
 
 /// What goes on.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stage {
-    /// The template that shows it; none before the command has said what it does.
-    pub(super) style: Option<&'static str>,
+    /// None before the command has said what it does.
+    pub(super) counted: Option<Counted>,
     pub(super) what: String,
+    pub(super) amount: Amount,
     /// When it began, and what was done of it by then.
     began: Instant,
     first: u64,
@@ -35,26 +55,43 @@ pub(super) enum Left {
 
 impl Stage {
     pub(super) fn new(now: Instant) -> Self {
-        Self { style: None, what: String::new(), began: now, first: 0 }
+        let (amount, what) = (Amount::default(), String::new());
+        Self { counted: None, what, amount, began: now, first: 0 }
     }
 
     /// The next stage, or the same with other words. Steps of another kind have a pace of their own; notes
     /// beside frames change while these go on.
-    pub(super) fn enter(&mut self, style: &'static str, what: &str, done: u64, now: Instant) {
-        let same = self.style == Some(style) && (style != STEPS || self.what == what);
-        if !same || done < self.first {
-            (self.began, self.first) = (now, done);
+    pub(super) fn enter(&mut self, counted: Counted, what: &str, amount: Amount, now: Instant) {
+        let same = self.counted == Some(counted)
+            && self.amount.all.is_some() == amount.all.is_some()
+            && (counted != Counted::Steps || self.what == what);
+        if !same || amount.done < self.first {
+            (self.began, self.first) = (now, amount.done);
         }
-        self.style = Some(style);
+        (self.counted, self.amount) = (Some(counted), amount);
         what.clone_into(&mut self.what);
+    }
+
+    /// What was done since the stage began, and how long that took; nothing before it says anything of a pace.
+    fn pace(&self, now: Instant) -> Option<(u64, Duration)> {
+        let elapsed = now.saturating_duration_since(self.began);
+        let fresh = self.amount.done.saturating_sub(self.first);
+        (fresh > 0 && elapsed >= PACE_AFTER).then_some((fresh, elapsed))
+    }
+
+    /// How many a second, since the stage began.
+    pub(super) fn rate(&self, now: Instant) -> Option<f64> {
+        let (fresh, elapsed) = self.pace(now)?;
+        #[allow(clippy::cast_precision_loss, reason = "three digits of it are told")]
+        Some(fresh as f64 / elapsed.as_secs_f64())
     }
 
     /// How long the rest takes if it goes on as it has gone since the stage began; nothing before something
     /// of it is done, or when nothing is left. A step that takes long makes it longer little by little.
-    pub(super) fn left(&self, done: u64, all: u64, now: Instant) -> Option<Left> {
-        let elapsed = now.saturating_duration_since(self.began);
-        let (fresh, rest) = (done.saturating_sub(self.first), all.saturating_sub(done));
-        if fresh == 0 || rest == 0 || elapsed < PACE_AFTER {
+    pub(super) fn left(&self, now: Instant) -> Option<Left> {
+        let (fresh, elapsed) = self.pace(now)?;
+        let rest = self.amount.all?.saturating_sub(self.amount.done);
+        if rest == 0 {
             return None;
         }
         let millis = elapsed.as_millis() * u128::from(rest) / u128::from(fresh);
@@ -72,16 +109,24 @@ pub(super) fn locked(stage: &Mutex<Stage>) -> MutexGuard<'_, Stage> {
 
 #[cfg(test)]
 mod tests {
+    use super::Counted::{Frames, Steps};
     use super::*;
 
     const SECOND: Duration = Duration::from_secs(1);
 
+    fn of(done: u64, all: u64) -> Amount {
+        Amount::new(done, Some(all))
+    }
+
     #[test]
     fn the_rest_takes_as_long_as_what_is_done() {
         let start = Instant::now();
-        let mut stage = Stage::new(start);
-        stage.enter(STEPS, "designs", 0, start);
-        let left = |done, seconds: u32| stage.left(done, 31, start + seconds * SECOND);
+        let left = |done, seconds: u32| {
+            let mut stage = Stage::new(start);
+            stage.enter(Steps, "designs", of(0, 31), start);
+            stage.enter(Steps, "designs", of(done, 31), start + seconds * SECOND);
+            stage.left(start + seconds * SECOND)
+        };
         assert_eq!(left(0, 100), None, "nothing is done");
         assert_eq!(left(10, 1), None, "too early");
         assert_eq!(left(31, 100), None, "nothing is left");
@@ -95,22 +140,44 @@ mod tests {
     fn no_time_is_longer_than_a_week() {
         let start = Instant::now();
         let mut stage = Stage::new(start);
-        stage.enter(FRAMES_OF_ALL, "", 0, start);
-        assert_eq!(stage.left(1, u64::MAX, start + 60 * SECOND), Some(Left::MoreThan(LONGEST)));
+        stage.enter(Frames, "", of(0, u64::MAX), start);
+        stage.enter(Frames, "", of(1, u64::MAX), start);
+        assert_eq!(stage.left(start + 60 * SECOND), Some(Left::MoreThan(LONGEST)));
     }
 
     #[test]
     fn other_steps_have_a_pace_of_their_own_and_other_notes_have_not() {
         let start = Instant::now();
         let mut stage = Stage::new(start);
-        stage.enter(STEPS, "fast", 0, start);
-        stage.enter(STEPS, "fast", 90, start + 10 * SECOND);
+        stage.enter(Steps, "fast", of(0, 100), start);
+        stage.enter(Steps, "fast", of(90, 100), start + 10 * SECOND);
         let then = start + 100 * SECOND;
-        stage.enter(STEPS, "slow", 4, then);
-        assert_eq!(stage.left(4, 10, then + 50 * SECOND), None);
-        assert_eq!(stage.left(5, 10, then + 50 * SECOND), Some(Left::About(250 * SECOND)));
-        stage.enter(FRAMES_OF_ALL, "1/2 clips", 0, then);
-        stage.enter(FRAMES_OF_ALL, "2/2 clips", 50, then + 50 * SECOND);
-        assert_eq!(stage.left(50, 60, then + 50 * SECOND), Some(Left::About(10 * SECOND)));
+        stage.enter(Steps, "slow", of(4, 10), then);
+        assert_eq!(stage.left(then + 50 * SECOND), None);
+        stage.enter(Steps, "slow", of(5, 10), then + 50 * SECOND);
+        assert_eq!(stage.left(then + 50 * SECOND), Some(Left::About(250 * SECOND)));
+        stage.enter(Frames, "1/2 clips", of(0, 60), then);
+        stage.enter(Frames, "2/2 clips", of(50, 60), then + 50 * SECOND);
+        assert_eq!(stage.left(then + 50 * SECOND), Some(Left::About(10 * SECOND)));
+    }
+
+    #[test]
+    fn a_rate_is_what_was_done_in_the_time_that_it_took() {
+        let start = Instant::now();
+        let mut stage = Stage::new(start);
+        // What was done before is not counted, and a length that is found out begins anew.
+        stage.enter(Frames, "", Amount::new(100, None), start);
+        stage.enter(Frames, "", Amount::new(149, None), start + 5 * SECOND);
+        assert_eq!(stage.rate(start + 5 * SECOND), Some(9.8));
+        assert_eq!(stage.rate(start + SECOND), None, "too early");
+        assert_eq!(stage.left(start + 5 * SECOND), None, "the length is not known");
+        stage.enter(Frames, "", of(150, 200), start + 6 * SECOND);
+        assert_eq!(stage.rate(start + 9 * SECOND), None, "nothing is done since");
+    }
+
+    #[test]
+    fn nothing_has_no_length() {
+        assert_eq!(Amount::new(0, Some(0)), Amount::new(0, None));
+        assert_eq!(Amount::new(5, Some(3)), of(5, 5));
     }
 }

@@ -41,6 +41,7 @@ mod skipped;
 mod stress;
 mod studies;
 mod synth;
+mod terminal;
 mod threads;
 mod units;
 mod user_texts;
