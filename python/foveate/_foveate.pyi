@@ -30,15 +30,15 @@ class Design:
         config: _Camera = None,
         /,
         *,
-        frame: _Section = ...,
-        region: _Section = ...,
-        denoise: _Section = ...,
-        spatial: _Spatial = ...,
-        decision: _Section = ...,
-        temporal: _Section = ...,
-        render: _Section = ...,
-        periphery: _Section = ...,
-        hardware: _Section = ...,
+        frame: Optional[_Section] = None,
+        region: Optional[_Section] = None,
+        denoise: Optional[_Section] = None,
+        spatial: Optional[_Spatial] = None,
+        decision: Optional[_Section] = None,
+        temporal: Optional[_Section] = None,
+        render: Optional[_Section] = None,
+        periphery: Optional[_Section] = None,
+        hardware: Optional[_Section] = None,
     ) -> Design: ...
     @property
     def width(self) -> int: ...
@@ -108,15 +108,15 @@ class Camera:
         /,
         *,
         threads: int = 1,
-        frame: _Section = ...,
-        region: _Section = ...,
-        denoise: _Section = ...,
-        spatial: _Spatial = ...,
-        decision: _Section = ...,
-        temporal: _Section = ...,
-        render: _Section = ...,
-        periphery: _Section = ...,
-        hardware: _Section = ...,
+        frame: Optional[_Section] = None,
+        region: Optional[_Section] = None,
+        denoise: Optional[_Section] = None,
+        spatial: Optional[_Spatial] = None,
+        decision: Optional[_Section] = None,
+        temporal: Optional[_Section] = None,
+        render: Optional[_Section] = None,
+        periphery: Optional[_Section] = None,
+        hardware: Optional[_Section] = None,
     ) -> Camera: ...
     @property
     def design(self) -> Design: ...
@@ -167,5 +167,6 @@ def fidelity(
 def generate(camera: _Camera, folder: _PathLike, force: bool, prefix: str | None = None) -> list[str]: ...
 def estimate(camera: _Camera) -> tuple[str, str]: ...
 def infer(network: _PathLike, inputs: Any, camera: _Camera, output: _PathLike, **options: Any) -> str: ...
+def refuse_option(function: str, name: str) -> None: ...
 def grey_png(frame: Any, bits: int = 8) -> bytes: ...
 def decisions_png(outcome: Outcome) -> bytes: ...

@@ -34,6 +34,26 @@ class Register(NamedTuple):
     fields: tuple[RegisterField, ...]
 
 
+for _tuple, _docs in (
+    (RegisterField, {
+        "name": "Its name.",
+        "low": "Its lowest bit.",
+        "width": "How many bits it has.",
+        "access": 'What a program may do: "read", "read, write", "write 1" or "read, write 1 to clear".',
+        "reset": "Its value after a reset; None where the core says.",
+        "doc": "What it says.",
+    }),
+    (Register, {
+        "name": "Its name.",
+        "address": "Its address in bytes.",
+        "doc": "What it is.",
+        "fields": "Its fields, from the lowest bit on: a tuple of RegisterField.",
+    }),
+):
+    for _name, _doc in _docs.items():
+        getattr(_tuple, _name).__doc__ = _doc
+
+
 def table(rows: Iterable[tuple[str, int, str, Iterable[Any]]]) -> tuple[Register, ...]:
     """What the compiled part says of a design."""
     return tuple(Register(name, address, doc, tuple(RegisterField(*field) for field in fields)) for name, address, doc, fields in rows)

@@ -42,11 +42,14 @@ class Fidelity(dict[str, Any]):
         Why the footage ended before its end, if it did.
     """
 
-    problem: str | None
-
     def __init__(self, values: dict[str, Any], problem: str | None) -> None:
         super().__init__(values)
-        self.problem = problem
+        self._problem = problem
+
+    @property
+    def problem(self) -> str | None:
+        """Why the footage ended before its end; None if it did not."""
+        return self._problem
 
     def _repr_html_(self) -> str:
         rows = "".join(f"<tr><th>{escape(name)}</th><td>{escape(str(value))}</td></tr>" for name, value in self.items())
@@ -64,11 +67,18 @@ class Inference:
         ``inference.json``.
     """
 
-    folder: Path
-    summary: dict[str, Any]
-
     def __init__(self, folder: Path, summary: dict[str, Any]) -> None:
-        self.folder, self.summary = folder, summary
+        self._folder, self._summary = folder, summary
+
+    @property
+    def folder(self) -> Path:
+        """The folder that ``foveate infer`` writes: tables, charts and ``report.html``."""
+        return self._folder
+
+    @property
+    def summary(self) -> dict[str, Any]:
+        """What ``inference.json`` says, as a dict."""
+        return self._summary
 
     @property
     def outputs(self) -> dict[str, np.ndarray[Any, Any]]:

@@ -2,23 +2,59 @@
 """What the command line does beside simulating, as functions."""
 from __future__ import annotations
 
+import functools
+import inspect
 import json
 import os
 import shutil
 import tempfile
 import weakref
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, Union
+from typing import Any, Literal, TypeVar, Union, cast
 
 from foveate import _foveate
 from foveate._results import Estimate, Explanation, Fidelity, Inference
 
 PathLike = Union[str, "os.PathLike[str]"]
 Inputs = Union[PathLike, Sequence[PathLike]]
+Number = Union[int, float, str]
+Crop = tuple[int, int, int, int]
+Images = Literal["clip", "set", "cifar-sheet"]
+_Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
-def explain(inputs: Inputs, camera: Any = None, *, frame: int = 0, region: tuple[int, int] = (0, 0), **options: Any) -> Explanation:
+def _named(function: _Function) -> _Function:
+    """Refuse an option that the function does not have with the nearest one that it has."""
+    known = set(inspect.signature(function).parameters)
+
+    @functools.wraps(function)
+    def checked(*values: Any, **options: Any) -> Any:
+        for name in options:
+            if name not in known:
+                _foveate.refuse_option(function.__name__, name)
+        return function(*values, **options)
+
+    return cast(_Function, checked)
+
+
+@_named
+def explain(
+    inputs: Inputs,
+    camera: Any = None,
+    *,
+    frame: int = 0,
+    region: tuple[int, int] = (0, 0),
+    max_frames: int | None = None,
+    input_fps: Number | None = None,
+    rate: Number | None = None,
+    start: Number | None = None,
+    end: Number | None = None,
+    crop: Crop | None = None,
+    resize: tuple[int, int] | None = None,
+    images: Images | None = None,
+    labels: PathLike | None = None,
+) -> Explanation:
     """Explain why a region of a frame was sent or dropped.
 
     Parameters
@@ -31,7 +67,7 @@ def explain(inputs: Inputs, camera: Any = None, *, frame: int = 0, region: tuple
         Number of the frame.
     region : (int, int), default (0, 0)
         Column and row of the region.
-    **options
+    max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -44,11 +80,29 @@ def explain(inputs: Inputs, camera: Any = None, *, frame: int = 0, region: tuple
     IndexError
         If there is no such frame or region.
     """
-    values, text = _foveate.explain(inputs, camera, frame=frame, region=region, **options)
+    values, text = _foveate.explain(
+        inputs, camera, frame=frame, region=region, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end,
+        crop=crop, resize=resize, images=images, labels=labels,
+    )
     return Explanation(json.loads(values), text)
 
 
-def fidelity(inputs: Inputs, camera: Any = None, *, ideal: Any = None, **options: Any) -> Fidelity:
+@_named
+def fidelity(
+    inputs: Inputs,
+    camera: Any = None,
+    *,
+    ideal: Any = None,
+    max_frames: int | None = None,
+    input_fps: Number | None = None,
+    rate: Number | None = None,
+    start: Number | None = None,
+    end: Number | None = None,
+    crop: Crop | None = None,
+    resize: tuple[int, int] | None = None,
+    images: Images | None = None,
+    labels: PathLike | None = None,
+) -> Fidelity:
     """Measure the errors of a design against the ideal camera, which computes in real numbers over whole frames.
 
     Parameters
@@ -59,7 +113,7 @@ def fidelity(inputs: Inputs, camera: Any = None, *, ideal: Any = None, **options
         The design to judge.
     ideal : Camera, Design, preset, file or dict, optional
         The task. By default that of ``camera`` itself, so that only its rounding and its windows are judged.
-    **options
+    max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
         How inputs are read, see ``simulate``.
 
     Returns
@@ -68,7 +122,10 @@ def fidelity(inputs: Inputs, camera: Any = None, *, ideal: Any = None, **options
         A dict: ``srs_flips``, ``trs_flips``, ``missed``, ``false_alarms`` (shares of the area), ``psnr_ideal`` in dB (None if
         identical), ``ssim_ideal``, ``scores``, ``staleness`` and more.
     """
-    values, problem = _foveate.fidelity(inputs, camera, ideal=ideal, **options)
+    values, problem = _foveate.fidelity(
+        inputs, camera, ideal=ideal, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end, crop=crop,
+        resize=resize, images=images, labels=labels,
+    )
     return Fidelity(json.loads(values), problem)
 
 
@@ -78,7 +135,7 @@ def generate(camera: Any, folder: PathLike, *, force: bool = False, prefix: str 
     Parameters
     ----------
     camera : Camera, Design, preset, file or dict
-        The design.
+        The design. A camera that takes its size from its frames must have seen one.
     folder : path
         The folder to write. It appears when it is complete.
     force : bool, default False
@@ -95,7 +152,7 @@ def generate(camera: Any, folder: PathLike, *, force: bool = False, prefix: str 
     Raises
     ------
     ValueError
-        If names of modules cannot begin with the prefix.
+        If names of modules cannot begin with the prefix, or a camera has no size yet.
     FileExistsError
         If the folder holds something.
     """
@@ -108,7 +165,8 @@ def estimate(camera: Any) -> Estimate:
     Parameters
     ----------
     camera : Camera, Design, preset, file or dict
-        The design. A second estimate of the same design comes from a cache.
+        The design. A second estimate of the same design comes from a cache. A camera that takes its size from its frames
+        must have seen one.
 
     Returns
     -------
@@ -119,12 +177,42 @@ def estimate(camera: Any) -> Estimate:
     ------
     ToolError
         If Yosys is missing or fails.
+    ValueError
+        If a camera has no size yet.
     """
     values, text = _foveate.estimate(camera)
     return Estimate(json.loads(values), text)
 
 
-def infer(network: PathLike, inputs: Any, camera: Any = None, output: PathLike | None = None, **options: Any) -> Inference:
+@_named
+def infer(
+    network: PathLike,
+    inputs: Any,
+    camera: Any = None,
+    output: PathLike | None = None,
+    *,
+    mode: str | None = None,
+    tune: str | None = None,
+    reference: bool = False,
+    accelerator: str | None = None,
+    mean: float | Sequence[float] = 0.0,
+    scale: float | Sequence[float] = 1.0,
+    framing: str = "same",
+    whole_frames: bool = False,
+    detect: str | None = None,
+    boxes: Inputs | None = None,
+    pictures: bool = False,
+    force: bool = False,
+    max_frames: int | None = None,
+    input_fps: Number | None = None,
+    rate: Number | None = None,
+    start: Number | None = None,
+    end: Number | None = None,
+    crop: Crop | None = None,
+    resize: tuple[int, int] | None = None,
+    images: Images | None = None,
+    labels: PathLike | None = None,
+) -> Inference:
     """Run a network on what a camera sends, and count what its masks save.
 
     Parameters
@@ -138,13 +226,30 @@ def infer(network: PathLike, inputs: Any, camera: Any = None, output: PathLike |
         The camera in front of the network.
     output : path, optional
         The folder to write; by default one that lives as long as the result.
-    **options
-        ``mode`` ("dense", "exact", "compare", "truncate=T" or "fixed"; default "exact"), ``tune`` (such as "variation=10%"),
-        ``reference`` (bool), ``accelerator`` (name or file), ``mean`` and ``scale`` (a number, or one for each channel),
-        ``framing`` ("same", "letterbox", "letterbox=416x416", "stretch", "stretch=416x416"; default "same"),
-        ``whole_frames`` (bool: the network runs on the frames before the camera, too), ``detect`` (such as "yolox,score=0.3"),
-        ``boxes`` (path or list of paths of ground-truth boxes), ``pictures`` (bool), ``force`` (bool), and how inputs are read,
-        see ``simulate``.
+    mode : str, optional
+        "dense", "exact", "compare", "truncate=T" or "fixed"; "exact" without it.
+    tune : str, optional
+        What limits may change of the outputs, such as "variation=10%": in place of a mode.
+    reference : bool, default False
+        Compute every frame whole, too, and say how far the outputs are from it; always with "truncate=T", "fixed" and ``tune``.
+    accelerator : str, optional
+        The name of an accelerator, or its file.
+    mean, scale : float or sequence of float, default 0 and 1
+        What is taken from pixels, and what they are then divided by: a number, or one for each channel.
+    framing : str, default "same"
+        "same", "letterbox", "letterbox=416x416", "stretch" or "stretch=416x416".
+    whole_frames : bool, default False
+        The network runs on the frames before the camera, too.
+    detect : str, optional
+        The format of detections, such as "yolox,score=0.3".
+    boxes : path or list of paths, optional
+        Ground-truth boxes.
+    pictures : bool, default False
+        Write the outputs as pictures, too, where they are some.
+    force : bool, default False
+        Replace ``output`` if it holds a result.
+    max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
+        How inputs are read, see ``simulate``.
 
     Returns
     -------
@@ -155,9 +260,16 @@ def infer(network: PathLike, inputs: Any, camera: Any = None, output: PathLike |
     ------
     TypeError
         If there is no such option, or ``inputs`` are neither footage nor frames.
-    FileNotFoundError, ValueError
-        If the network or an input cannot be read, or they do not go together.
+    FileNotFoundError, IsADirectoryError, PermissionError
+        If the network or another file cannot be read.
+    ValueError
+        If what is read is wrong, or does not go together.
     """
+    options: dict[str, Any] = dict(
+        mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,
+        whole_frames=whole_frames, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
+        input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, images=images, labels=labels,
+    )
     if output is not None:
         return Inference(Path(output), json.loads(_foveate.infer(network, inputs, camera, output, **options)))
     temporary = Path(tempfile.mkdtemp(prefix="foveate-"))

@@ -5,11 +5,11 @@ use std::sync::{Arc, Mutex, MutexGuard, TryLockError};
 
 use foveate_design::Config;
 use foveate_engine::{Engine, MAX_THREADS, Options};
-use foveate_footage::FrameRate;
 use pyo3::exceptions::{PyRuntimeError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
+use crate::clock::{MicroSeconds, StepClock};
 use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::raise;
@@ -97,6 +97,8 @@ struct Seen {
     frames: u64,
     /// Frames ever: which outcome the screen belongs to.
     steps: u64,
+    /// When the last of them came.
+    clock: StepClock,
     /// The process that the threads belong to.
     process: u32,
     bytes: Vec<u8>,
@@ -110,6 +112,7 @@ impl Camera {
             eye: None,
             frames: 0,
             steps: 0,
+            clock: StepClock::default(),
             process: std::process::id(),
             bytes: Vec::new(),
             words: Vec::new(),
@@ -119,6 +122,18 @@ impl Camera {
 
     pub(crate) fn config(&self) -> &Config {
         &self.config
+    }
+
+    /// The design that hardware is made of: that of the frames, which give a camera its size.
+    pub(crate) fn sized(&self) -> PyResult<Design> {
+        let frame = &self.config.camera.frame;
+        if self.frames()? == 0 && (frame.width.is_none() || frame.height.is_none()) {
+            return Err(PyValueError::new_err(
+                "this camera has no size yet: it takes that of its first frame, so show it one, or give the size, \
+                 frame={\"width\": 640, \"height\": 480}",
+            ));
+        }
+        self.design()
     }
 
     /// What the camera has seen, for one thread at a time.
@@ -150,7 +165,7 @@ impl Camera {
 #[pymethods]
 impl Camera {
     #[new]
-    #[pyo3(signature = (config=None, /, *, threads=Threads(1), **sections), text_signature = "(config=None, /, *, threads=1, **sections)")]
+    #[pyo3(signature = (config=None, /, *, threads=Threads(1), **sections), text_signature = "(config=None, /, *, threads=1, frame=None, region=None, denoise=None, spatial=None, decision=None, temporal=None, render=None, periphery=None, hardware=None)")]
     fn new(
         config: Option<&Bound<'_, PyAny>>,
         threads: Threads,
@@ -182,6 +197,7 @@ impl Camera {
         let mut seen = self.seen()?;
         seen.frames = 0;
         seen.steps += 1;
+        seen.clock = StepClock::default();
         if let Some(eye) = &mut seen.eye {
             eye.engine.reset();
         }
@@ -195,9 +211,10 @@ impl Camera {
     /// frame : array of shape (height, width)
     ///     Grey pixels: uint8, or uint16 for designs of more than 8 bits per pixel, with values of the design's
     ///     bits. Any strides; it is not copied if the pixels of a row are adjacent. What is no array is converted by
-    ///     `numpy.asarray`.
+    ///     `numpy.asarray`, or by `numpy.from_dlpack` in the memory of the processor.
     /// time_us : int, optional
-    ///     Time of the frame in microseconds, for tables; by default that of 30 frames per second.
+    ///     Time of the frame in microseconds, for tables, at or after that of the frame before; by default that of 30
+    ///     frames per second, counted from the last time that was given.
     /// keep : bool, default False
     ///     Copy the rendered frame at once. Without it `outcome.rendered` must be read before the next step.
     ///
@@ -208,24 +225,26 @@ impl Camera {
     /// Raises
     /// ------
     /// ValueError
-    ///     If the frame has another shape than the first one, or a pixel that does not fit into the design's bits.
+    ///     If the frame has another shape than the first one, or a pixel that does not fit into the design's bits, or if
+    ///     `time_us` is before the time of the frame before.
     /// TypeError
-    ///     If it has another dtype.
+    ///     If it is no array, has another dtype, or masked pixels. The message says how to convert what it has.
     /// RuntimeError
     ///     If another thread is using the camera.
     #[pyo3(signature = (frame, /, *, time_us=None, keep=false))]
     fn step(
         slf: &Bound<'_, Self>,
         frame: &Bound<'_, PyAny>,
-        time_us: Option<u64>,
+        time_us: Option<MicroSeconds>,
         keep: bool,
     ) -> PyResult<Outcome> {
         let (py, camera) = (slf.py(), slf.get());
-        let grey = Grey::of(frame)?;
+        let grey = Grey::of(frame, camera.config.camera.frame.pixel_bits)?;
         let mut guard = camera.seen()?;
         let seen = &mut *guard;
-        seen.fit(&camera.config, camera.threads, &grey)?;
         let number = seen.frames;
+        let time_us = seen.clock.next(number, time_us.map(|MicroSeconds(time)| time))?;
+        seen.fit(&camera.config, camera.threads, &grey)?;
         match &grey {
             Grey::Bytes(array) => {
                 let view = array.as_array();
@@ -237,12 +256,13 @@ impl Camera {
             }
         }
         .map_err(raise)?;
+        seen.clock.take(number, time_us);
         let Eye { design, engine } = seen.eye.as_ref().expect("it has taken a frame");
         let taken = Taken {
             design: Arc::clone(design),
             result: engine.outcome().clone(),
             number,
-            time_us: time_us.unwrap_or_else(|| FrameRate::default().time_us(number)),
+            time_us,
             name: None,
             label: None,
         };
@@ -262,7 +282,7 @@ impl Camera {
         slf.py().import("foveate._show")?.call_method1("design_card", (slf.get().design()?,))
     }
 
-    /// Writes the Verilog of the design to a folder; see `foveate.generate`.
+    /// Writes the Verilog of the design to a folder; see `foveate.generate`. A camera without a size must have seen a frame.
     #[pyo3(signature = (folder, *, force=false, prefix=None))]
     fn generate<'py>(
         slf: &Bound<'py, Self>,
@@ -273,7 +293,7 @@ impl Camera {
         tools::generate_of(slf, folder, force, prefix)
     }
 
-    /// Area and logic levels of the design; see `foveate.estimate`.
+    /// Area and logic levels of the design; see `foveate.estimate`. A camera without a size must have seen a frame.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         tools::estimate_of(slf)
     }
@@ -290,9 +310,9 @@ impl Camera {
     /// Raises
     /// ------
     /// ValueError
-    ///     If the design is not on AXI: it needs `hardware={"interface": "axi"}`.
+    ///     If the design is not on AXI: it needs `hardware={"interface": "axi"}`. Or if the camera has no size yet.
     fn registers<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
-        registers_of(slf.py(), &slf.get().design()?)
+        registers_of(slf.py(), &slf.get().sized()?)
     }
 
     fn __reduce__<'py>(

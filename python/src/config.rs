@@ -56,11 +56,27 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
     })
 }
 
+/// The tables of a configuration, which are arguments of cameras and designs: None changes nothing.
+const SECTIONS: [&str; 9] = [
+    "frame",
+    "region",
+    "denoise",
+    "spatial",
+    "decision",
+    "temporal",
+    "render",
+    "periphery",
+    "hardware",
+];
+
 /// Keys by name as the command line's `--set` has them.
 fn overrides(sections: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     let mut found = Vec::new();
     for (name, value) in sections.iter() {
         let name: String = name.extract()?;
+        if value.is_none() && SECTIONS.contains(&name.as_str()) {
+            continue;
+        }
         if name == "spatial" {
             found.push(format!("spatial={}", features(&value)?));
             continue;
@@ -71,6 +87,10 @@ fn overrides(sections: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
                 value.get_type().name()?
             )));
         };
+        if keys.is_empty() && !SECTIONS.contains(&name.as_str()) {
+            // A table that there is not is refused by its name, also without keys.
+            found.push(format!("{name}={{}}"));
+        }
         for (key, value) in keys.iter() {
             let key: String = key.extract()?;
             found.push(format!("{name}.{key}={}", literal(&value, &format!("{name}.{key}"))?));

@@ -91,7 +91,11 @@ impl Design {
 #[pymethods]
 impl Design {
     #[new]
-    #[pyo3(signature = (config=None, /, **sections))]
+    #[pyo3(
+        signature = (config=None, /, **sections),
+        text_signature = "(config=None, /, *, frame=None, region=None, denoise=None, spatial=None, decision=None, \
+                          temporal=None, render=None, periphery=None, hardware=None)"
+    )]
     fn made(
         config: Option<&Bound<'_, PyAny>>,
         sections: Option<&Bound<'_, PyDict>>,

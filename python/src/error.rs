@@ -1,19 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Which exception says what. The messages are those of the command line.
 
+use std::error::Error;
+use std::io::{self, ErrorKind};
+use std::path::Path;
+
 use foveate_cosim::CosimError;
 use foveate_design::ConfigError;
 use foveate_engine::EngineError;
 use foveate_estimate::EstimateError;
 use foveate_explore::ExploreError;
 use foveate_footage::FootageError;
+use foveate_footage::boxes::BoxError;
 use foveate_inference::InferenceError;
 use foveate_simulator::SimulatorError;
 use foveate_staging::StagingError;
 use foveate_toolchain::ToolError as Tool;
 use pyo3::exceptions::{
-    PyFileExistsError, PyFileNotFoundError, PyKeyboardInterrupt, PyOSError, PyRuntimeError,
-    PyValueError,
+    PyFileExistsError, PyFileNotFoundError, PyIsADirectoryError, PyKeyboardInterrupt,
+    PyNotADirectoryError, PyOSError, PyPermissionError, PyRuntimeError, PyValueError,
 };
 use pyo3::{PyErr, create_exception};
 
@@ -40,12 +45,42 @@ pub(crate) fn value_error(problem: impl ToString) -> PyErr {
 }
 
 /// An error of the operating system: the exception of its kind, with our message.
-pub(crate) fn os_error(source: &std::io::Error, message: String) -> PyErr {
+pub(crate) fn os_error(source: &io::Error, message: String) -> PyErr {
     match source.kind() {
-        std::io::ErrorKind::NotFound => PyFileNotFoundError::new_err(message),
-        std::io::ErrorKind::AlreadyExists => PyFileExistsError::new_err(message),
+        ErrorKind::NotFound => PyFileNotFoundError::new_err(message),
+        ErrorKind::AlreadyExists => PyFileExistsError::new_err(message),
+        ErrorKind::PermissionDenied => PyPermissionError::new_err(message),
+        ErrorKind::IsADirectory => PyIsADirectoryError::new_err(message),
+        ErrorKind::NotADirectory => PyNotADirectoryError::new_err(message),
+        // The reader refuses what the file says, or how long it is.
+        ErrorKind::InvalidData | ErrorKind::FileTooLarge => PyValueError::new_err(message),
         _ => PyOSError::new_err(message),
     }
+}
+
+/// What is wrong with a value, or, where an error of the operating system lies behind it, the exception of its kind.
+fn behind(error: &(dyn Error + 'static)) -> PyErr {
+    let mut cause = Some(error);
+    while let Some(own) = cause {
+        if let Some(source) = own.downcast_ref::<io::Error>() {
+            return os_error(source, error.to_string());
+        }
+        cause = own.source();
+    }
+    value_error(error)
+}
+
+/// Why a file could not be read of which only words are left.
+fn unread(path: &Path, message: String) -> PyErr {
+    let directory = || io::Error::from(ErrorKind::IsADirectory);
+    let cause = match std::fs::File::open(path) {
+        Err(error) => Some(error),
+        Ok(_) => path.is_dir().then(directory),
+    };
+    cause.map_or_else(
+        || PyOSError::new_err(message.clone()),
+        |cause| os_error(&cause, message.clone()),
+    )
 }
 
 impl Raise for ConfigError {
@@ -76,8 +111,9 @@ impl Raise for FootageError {
     fn raise(self) -> PyErr {
         match self {
             Self::Missing { .. } => PyFileNotFoundError::new_err(self.to_string()),
+            Self::Unreadable { ref path, .. } => unread(path, self.to_string()),
             Self::Tool(error) => error.raise(),
-            _ => value_error(self),
+            _ => behind(&self),
         }
     }
 }
@@ -85,7 +121,7 @@ impl Raise for FootageError {
 impl Raise for StagingError {
     fn raise(self) -> PyErr {
         match self {
-            Self::Write { .. } => PyOSError::new_err(self.to_string()),
+            Self::Write { ref source, .. } => os_error(source, self.to_string()),
             // The option of the command line is an argument here.
             _ => PyFileExistsError::new_err(self.to_string().replace("--force", "force=True")),
         }
@@ -102,7 +138,7 @@ impl Raise for SimulatorError {
             Self::NoSuchRegion { .. } | Self::NoSuchFrame { .. } => {
                 pyo3::exceptions::PyIndexError::new_err(self.to_string())
             }
-            _ => value_error(self),
+            _ => behind(&self),
         }
     }
 }
@@ -112,7 +148,7 @@ impl Raise for ExploreError {
         match self {
             Self::Cancelled => PyKeyboardInterrupt::new_err(()),
             Self::Footage(error) => error.raise(),
-            _ => value_error(self),
+            _ => behind(&self),
         }
     }
 }
@@ -122,9 +158,9 @@ impl Raise for InferenceError {
         match self {
             Self::Cancelled => PyKeyboardInterrupt::new_err(()),
             Self::Footage(error) => error.raise(),
+            Self::Boxes(BoxError::Missing { .. }) => PyFileNotFoundError::new_err(self.to_string()),
             Self::Output(error) => error.raise(),
-            Self::Read { ref source, .. } => os_error(source, self.to_string()),
-            _ => value_error(self),
+            _ => behind(&self),
         }
     }
 }
@@ -135,8 +171,7 @@ impl Raise for CosimError {
             _ if self.is_interrupted() => PyKeyboardInterrupt::new_err(()),
             Self::Tool(error) => error.raise(),
             Self::Output(error) => error.raise(),
-            Self::Io { ref source, .. } => os_error(source, self.to_string()),
-            _ => value_error(self),
+            _ => behind(&self),
         }
     }
 }

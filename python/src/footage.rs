@@ -18,10 +18,10 @@ use pyo3::exceptions::{PyTypeError, PyUserWarning, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::array::{conversion, untyped};
 use crate::config;
 use crate::design::{Design, in_words};
 use crate::error::{raise, value_error};
-use crate::frame::untyped;
 use crate::options::input_options;
 use crate::outcome::{Outcome, Screen, Taken};
 use crate::work::at_once;
@@ -31,10 +31,11 @@ pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
     if let Ok(path) = inputs.extract::<PathBuf>() {
         return Ok(vec![path]);
     }
+    let kind = inputs.get_type().name()?;
     inputs.extract::<Vec<PathBuf>>().map_err(|_| {
-        PyTypeError::new_err(
-            "inputs are a path, a pattern or scene:NAME, or a list of these; arrays go to Camera.step",
-        )
+        PyTypeError::new_err(format!(
+            "inputs are a path, a pattern or scene:NAME, or a list of these, not {kind}; arrays go to Camera.step"
+        ))
     })
 }
 
@@ -213,7 +214,11 @@ impl State {
 /// --------
 /// >>> active = numpy.stack([outcome.active for outcome in simulate("scene:street", "paper", max_frames=8)])
 #[pyfunction]
-#[pyo3(signature = (inputs, camera=None, **options))]
+#[pyo3(
+    signature = (inputs, camera=None, **options),
+    text_signature = "(inputs, camera=None, *, max_frames=None, input_fps=None, rate=None, start=None, end=None, crop=None, \
+                      resize=None, images=None, labels=None)"
+)]
 pub(crate) fn simulate(
     py: Python<'_>,
     inputs: &Bound<'_, PyAny>,
@@ -262,7 +267,7 @@ pub(crate) fn luma<'py>(
 ) -> PyResult<Bound<'py, PyArray2<u8>>> {
     const RIGHT: &str =
         "a frame of red, green and blue is an array of uint8 with the shape (height, width, 3)";
-    let array = untyped(frame)?;
+    let array = untyped(frame, RIGHT)?;
     if array.ndim() != 3 || array.shape()[2] != 3 {
         let hint = match array.shape() {
             [_, _] => "; it is grey already",
@@ -277,9 +282,10 @@ pub(crate) fn luma<'py>(
     let dtype = array.dtype();
     if !dtype.is_equiv_to(&u8::get_dtype(py)) {
         let hint = match dtype.kind() {
-            b'f' => "; for values from 0 to 1, numpy.uint8(numpy.round(255 * frame))",
-            b'u' if dtype.itemsize() == 2 => "; for values of 16 bits, numpy.uint8(frame >> 8)",
-            _ => "; for values from 0 to 255, frame.astype(\"uint8\")",
+            b'u' if dtype.itemsize() == 2 => {
+                "; for values of 16 bits, numpy.uint8(frame >> 8)".to_owned()
+            }
+            _ => conversion(&array, 8)?,
         };
         return Err(PyTypeError::new_err(format!("{RIGHT}, not of {}{hint}", dtype.str()?)));
     }

@@ -10,6 +10,7 @@ use numpy::{
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
+use crate::array::{conversion, untyped};
 use crate::error::value_error;
 
 /// An array that is known to be a grey frame.
@@ -19,14 +20,15 @@ pub(crate) enum Grey<'py> {
 }
 
 impl<'py> Grey<'py> {
-    /// The frame, if it is a two-dimensional array of `uint8` or `uint16`. What is no array is asked for one, as
-    /// NumPy does.
-    pub(crate) fn of(frame: &Bound<'py, PyAny>) -> PyResult<Self> {
-        let array = untyped(frame)?;
+    /// The frame, if it is a two-dimensional array of `uint8` or `uint16`, for a design of so many bits per pixel. What is no
+    /// array is asked for one, as NumPy does.
+    pub(crate) fn of(frame: &Bound<'py, PyAny>, bits: u32) -> PyResult<Self> {
+        const RIGHT: &str = "a frame is a 2-D array of grey pixels (height, width)";
+        let array = untyped(frame, RIGHT)?;
         let shape = array.shape().to_vec();
         if shape.len() != 2 {
             return Err(PyValueError::new_err(format!(
-                "a frame is a 2-D array of grey pixels (height, width), not one of shape {}{}",
+                "{RIGHT}, not one of shape {}{}",
                 array.getattr("shape")?,
                 hint(&shape)
             )));
@@ -50,10 +52,9 @@ impl<'py> Grey<'py> {
             return Ok(Self::Words(array.cast::<numpy::PyArray2<u16>>()?.try_readonly()?));
         }
         Err(PyTypeError::new_err(format!(
-            "a frame has dtype uint8, or uint16 above 8 bits per pixel, not {}; convert it, for example with \
-             frame.astype(\"{}\")",
+            "a frame has dtype uint8, or uint16 above 8 bits per pixel, not {}{}",
             dtype.str()?,
-            if dtype.kind() == b'u' && dtype.itemsize() == 2 { "uint16" } else { "uint8" },
+            conversion(&array, bits)?
         )))
     }
 
@@ -105,15 +106,6 @@ impl<'py> Grey<'py> {
         };
         (shape[1], shape[0])
     }
-}
-
-/// The value as an array. What is none is asked for one, as NumPy does.
-pub(crate) fn untyped<'py>(frame: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyUntypedArray>> {
-    if let Ok(array) = frame.cast::<PyUntypedArray>() {
-        return Ok(array.clone());
-    }
-    let asked = frame.py().import("numpy")?.call_method1("asarray", (frame,))?;
-    Ok(asked.cast_into::<PyUntypedArray>()?)
 }
 
 /// What would make a frame of what is none.

@@ -12,14 +12,15 @@ use foveate_inference::{
     parse_framing, parse_goal, parse_mode, read_accelerator,
 };
 use numpy::PyUntypedArrayMethods;
-use pyo3::exceptions::{PyTypeError, PyValueError};
+use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::array::untyped;
 use crate::config;
 use crate::error::raise;
 use crate::footage::{paths, warn_of_skipped};
-use crate::frame::{Grey, untyped};
+use crate::frame::Grey;
 use crate::options::input_options;
 use crate::study::json;
 use crate::work::interruptible;
@@ -103,7 +104,7 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBu
 }
 
 /// The options that [`chosen`] takes, and the arguments.
-const OWN: [&str; 16] = [
+pub(crate) const OWN: [&str; 16] = [
     "network",
     "inputs",
     "camera",
@@ -142,16 +143,28 @@ fn shown(inputs: &Bound<'_, PyAny>, bits: u32) -> PyResult<Shown> {
         ))
     };
     let kind = inputs.get_type().name()?;
+    // A clip that NumPy does not know is an array first.
+    let is_clip = !inputs.hasattr("__iter__")? && inputs.hasattr("__dlpack__")?;
+    let clip =
+        is_clip.then(|| untyped(inputs, "a clip is an array of shape (frames, height, width)"));
+    let clip = clip.transpose()?;
+    let inputs = clip.as_ref().map_or(inputs, |clip| clip.as_any());
     let frames = inputs.try_iter().map_err(|_| wrong(kind.to_string()))?;
     let mut rasters: Vec<Raster> = Vec::new();
     for frame in frames {
         let frame = frame?;
-        let array = untyped(&frame).map_err(|_| wrong(format!("a {kind} of others")))?;
+        let array = untyped(&frame, "a frame is a 2-D array of grey pixels (height, width)");
+        let array = match array {
+            Err(_) if !frame.hasattr("shape")? => {
+                return Err(wrong(format!("a {kind} of {}", frame.get_type().name()?)));
+            }
+            array => array?,
+        };
         if array.ndim() != 2 {
             let what = format!("a {kind} of arrays of shape {}", array.getattr("shape")?);
             return Err(wrong(what));
         }
-        rasters.push(Grey::of(&frame)?.raster(bits)?);
+        rasters.push(Grey::of(&frame, bits)?.raster(bits)?);
     }
     Ok(Shown::Frames(rasters))
 }
@@ -174,6 +187,10 @@ pub(crate) fn infer(
     output: PathBuf,
     options: Option<&Bound<'_, PyDict>>,
 ) -> PyResult<String> {
+    if network.is_dir() {
+        let message = format!("cannot read the network `{}`: it is a folder", network.display());
+        return Err(PyIsADirectoryError::new_err(message));
+    }
     let options = options.map_or_else(|| Ok(PyDict::new(py)), |options| options.copy())?;
     let (chosen, viewing, boxes) = chosen(&options)?;
     let input = input_options("infer", &OWN, Some(&options))?;

@@ -5,7 +5,9 @@
 //! without holding the interpreter, and makes Python's values of the result. What needs no Rust, such as
 //! tables of pandas, is in the Python files beside.
 
+mod array;
 mod camera;
+mod clock;
 mod config;
 mod design;
 mod error;
@@ -40,6 +42,8 @@ mod _foveate {
     use crate::footage::{Run, luma, simulate};
     #[pymodule_export]
     use crate::inference::infer;
+    #[pymodule_export]
+    use crate::options::refuse_option;
     #[pymodule_export]
     use crate::outcome::Outcome;
     #[pymodule_export]

@@ -32,6 +32,17 @@ pub(crate) fn input_options(
     Ok(found)
 }
 
+/// Refuses an option that a function of Python's part does not have.
+#[pyfunction]
+pub(crate) fn refuse_option(function: &str, name: &str) -> PyResult<()> {
+    let own: &[&str] = match function {
+        "infer" => &crate::inference::OWN,
+        "fidelity" => &["ideal"],
+        _ => &["frame", "region"],
+    };
+    Err(unknown(function, own, name))
+}
+
 /// An option that there is not, with what there is.
 fn unknown(function: &str, own: &[&str], name: &str) -> PyErr {
     let all = || own.iter().chain(&INPUT);

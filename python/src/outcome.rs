@@ -187,32 +187,38 @@ impl Outcome {
         self.taken.label.as_deref()
     }
 
+    /// Spatial relevance: array of bool, shape (rows, columns).
     #[getter]
     fn srs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
         self.once(py, &self.srs, self.taken.result.srs.iter().copied())
     }
 
+    /// Temporal relevance: array of bool, shape (rows, columns).
     #[getter]
     fn trs(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
         self.once(py, &self.trs, self.taken.result.trs.iter().copied())
     }
 
+    /// Which regions are sent, those relevant in space and in time: array of bool, shape (rows, columns).
     #[getter]
     fn active(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
         self.once(py, &self.active, self.taken.result.active.iter().copied())
     }
 
+    /// What becomes of a region on the screen, an index into `foveate.ACTIONS`: array of uint8, shape (rows, columns).
     #[getter]
     fn action(&self, py: Python<'_>) -> Py<PyArray2<u8>> {
         self.once(py, &self.action, self.taken.result.actions.iter().map(|&action| code(action)))
     }
 
+    /// Changed pixels of a region, all of them where there was no reference: array of int64, shape (rows, columns).
     #[getter]
     fn changed(&self, py: Python<'_>) -> Py<PyArray2<i64>> {
         let counts = self.taken.result.temporal_count.iter();
         self.once(py, &self.changed, counts.map(|&count| count.into()))
     }
 
+    /// Scores by feature, in the units of the contract: dict of str to array of int64, shape (rows, columns).
     #[getter]
     fn scores(&self, py: Python<'_>) -> PyResult<Py<PyDict>> {
         let make = || -> PyResult<Py<PyDict>> {
@@ -228,12 +234,14 @@ impl Outcome {
         Ok(self.scores.get_or_try_init(py, make)?.clone_ref(py))
     }
 
-    /// The frame as the camera saw it; None where it was an array, which is the caller's.
+    /// The frame as the camera saw it: array of uint8 or uint16, shape (height, width); None where it was an array, which is
+    /// the caller's.
     #[getter]
     fn frame(&self, py: Python<'_>) -> Option<Py<PyUntypedArray>> {
         self.frame.as_ref().map(|frame| frame.0.clone_ref(py))
     }
 
+    /// What the receiver's screen shows: array of uint8 or uint16, shape (height, width). Read it before the next step, unless it was kept.
     #[getter]
     fn rendered(&self, py: Python<'_>) -> PyResult<Py<PyUntypedArray>> {
         let read = || {

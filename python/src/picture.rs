@@ -23,7 +23,7 @@ pub(crate) fn grey_png<'py>(
     if !(1..=16).contains(&bits) {
         return Err(PyValueError::new_err(format!("bits = {bits}: expected 1 to 16")));
     }
-    let grey = Grey::of(frame)?;
+    let grey = Grey::of(frame, bits)?;
     let depth = display_depth(bits);
     let shown = |value: u16| convert_depth(value, bits, depth);
     let values = grey.values().into_iter().map(shown);

@@ -11,6 +11,7 @@ use pyo3::exceptions::PyUserWarning;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
+use crate::camera::Camera;
 use crate::config;
 use crate::error::{raise, value_error};
 use crate::study::json;
@@ -21,6 +22,9 @@ const WIDTH: usize = 100;
 
 /// The design of a camera or a configuration.
 fn design(camera: &Bound<'_, PyAny>) -> PyResult<foveate_design::Design> {
+    if let Ok(camera) = camera.cast::<Camera>() {
+        return Ok(camera.get().sized()?.inner().clone());
+    }
     config::read(Some(camera), None)?.validate().map_err(raise)
 }
 

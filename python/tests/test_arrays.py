@@ -1,5 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Arrays of every layout are the same frame, and what is no frame is refused by name."""
+import contextlib
+import re
+from pathlib import Path
+
 import hypothesis.strategies as st
 import numpy as np
 import pytest
@@ -103,8 +107,20 @@ WRONG = [
     (np.zeros((4, 4), [("x", "u1")]), TypeError, "dtype"),
     (np.zeros((4, 4), np.uint16), TypeError, "dtype uint16, but the design has 8 bits per pixel"),
     (np.zeros((1, 20000), np.uint8), ValueError, "16384"),
-    ("street.png", ValueError, "2-D array"),
-    (None, ValueError, "2-D array"),
+    ("street.png", TypeError, "2-D array .*, not str; foveate.simulate reads files"),
+    (Path("street.png"), TypeError, "2-D array .*, not P.*Path; foveate.simulate reads files"),
+    (b"street", TypeError, "2-D array .*, not bytes"),
+    (None, TypeError, "2-D array .*, not NoneType"),
+    (3, TypeError, "2-D array .*, not int"),
+    (object(), TypeError, "2-D array .*, not object"),
+    (np.uint8(3), TypeError, "2-D array .*, not uint8"),
+    (np.array(3, np.uint8), ValueError, r"not one of shape \(\)"),
+    ([["a", "b"], ["c", "d"]], TypeError, "not <U1$"),
+    ([[None, 1], [2, 3]], TypeError, "not object$"),
+    ([[1, 2], [3]], ValueError, "2-D array .*; list cannot be read as one: .*inhomogeneous"),
+    ([[1, 2], [3, 4]], TypeError, r'not int64; convert it, for example with frame.astype\("uint8"\)'),
+    (np.zeros((4, 4), complex), TypeError, "not complex128$"),
+    (np.ma.masked_array(np.zeros((4, 4), np.uint8), np.eye(4)), TypeError, r"4 values of the masked array are masked.*frame.filled\(0\)"),
 ]
 
 
@@ -154,18 +170,109 @@ def test_luma_is_that_of_footage(tmp_path):
 
 
 @pytest.mark.parametrize(("frame", "error", "message"), [
-    (np.zeros((4, 6, 3)), TypeError, r"array of uint8 with the shape \(height, width, 3\), not of float64; .*255 \* frame"),
-    (np.zeros((4, 6, 3), np.float32), TypeError, "not of float32; for values from 0 to 1, numpy.uint8"),
+    (np.zeros((4, 6, 3)), TypeError, r"array of uint8 with the shape \(height, width, 3\), not of float64; .*\(frame \* 255\)"),
+    (np.zeros((4, 6, 3), np.float32), TypeError, "not of float32; .* for values from 0 to 1, "),
     (np.zeros((4, 6, 3), np.uint16), TypeError, "not of uint16; for values of 16 bits"),
     (np.zeros((4, 6, 3), np.int64), TypeError, r"not of int64; .*astype\(\"uint8\"\)"),
-    (np.zeros((4, 6, 3), bool), TypeError, "not of bool;"),
+    (np.zeros((4, 6, 3), bool), TypeError, "not of bool; for black and white, "),
     ([[[1, 2, 3]]], TypeError, "not of int64"),
     (np.zeros((4, 6), np.uint8), ValueError, r"not \(4, 6\); it is grey already"),
     (np.zeros((4, 6, 4), np.uint8), ValueError, r"not \(4, 6, 4\); leave the fourth channel out"),
     (np.zeros((3, 4, 6), np.uint8), ValueError, r"not \(3, 4, 6\); put the channels last"),
     (np.zeros((9, 4, 6, 3), np.uint8), ValueError, r"not \(9, 4, 6, 3\); give the frames one by one"),
-    (None, ValueError, r"not \(\)"),
+    (np.full((4, 6, 3), 200.0), TypeError, r"0 to 255, frame.round\(\).astype\(\"uint8\"\)"),
+    (None, TypeError, r"\(height, width, 3\), not NoneType"),
+    ("street.png", TypeError, r"\(height, width, 3\), not str"),
+    (np.ma.masked_array(np.zeros((4, 6, 3), np.uint8), np.ones((4, 6, 3))), TypeError, "72 values of the masked array"),
 ])
 def test_what_has_no_colours_is_refused_with_what_would_be_right(frame, error, message):
     with pytest.raises(error, match=message):
         fv.luma(frame)
+
+
+CONVERTED = [
+    # Values, bits of a pixel, and the pixels that the message leads to.
+    (np.array([[0.0, 0.25], [0.5, 1.0]]), 8, [[0, 64], [128, 255]]),
+    (np.array([[0.0, 0.25], [0.5, 1.0]], np.float32), 10, [[0, 256], [512, 1023]]),
+    (np.array([[0.0, 0.25], [0.5, 1.0]], np.float16), 4, [[0, 4], [8, 15]]),
+    (np.array([[-1.0, 0.0], [0.5, 1.0]]), 8, [[0, 128], [191, 255]]),
+    (np.array([[0.0, 17.4], [99.6, 255.0]]), 8, [[0, 17], [100, 255]]),
+    (np.array([[0.0, 17.4], [99.6, 4000.0]]), 12, [[0, 17], [100, 4000]]),
+    (np.array([[0, 17], [99, 255]], np.int64), 8, [[0, 17], [99, 255]]),
+    (np.array([[0, 17], [99, 4000]], np.int32), 12, [[0, 17], [99, 4000]]),
+    (np.array([[False, True], [True, False]]), 8, [[0, 255], [255, 0]]),
+    (np.array([[False, True], [True, False]]), 10, [[0, 1023], [1023, 0]]),
+    (np.array([[0, 17], [99, 4000]], ">u2"), 12, [[0, 17], [99, 4000]]),
+]
+
+
+@pytest.mark.parametrize("frame, bits, pixels", CONVERTED)
+def test_the_conversion_of_the_message_makes_a_frame_that_is_taken(frame, bits, pixels):
+    keys = {"frame": {"pixel_bits": bits}, "spatial": {"feature": "mad", "min_score": 0}, "temporal": {"min_count": 1}}
+    camera = fv.Camera("bare", region={"size": 2}, **keys)
+    with pytest.raises(TypeError) as refused:
+        camera.step(frame)
+    expression = re.split(r", (?:for example with )?", str(refused.value))[-1]
+    converted = eval(expression, {"frame": frame})
+    assert converted.tolist() == pixels, refused.value
+    assert camera.step(converted).number == 0
+
+
+def test_the_message_says_which_values_there_are():
+    def refusal(frame):
+        with pytest.raises(TypeError) as refused:
+            fv.Camera().step(np.array(frame))
+        return str(refused.value)
+
+    assert "its values are 0.125 to 0.5: for values from 0 to 1, (frame * 255)" in refusal([[0.125, 0.5]])
+    assert "its values are -7.5 to 300: pixels of 8 bits are 0 to 255, so scale them first" in refusal([[-7.5, 300.0]])
+    assert "its values are -3 to 300: pixels of 8 bits are 0 to 255, so scale them first" in refusal([[-3, 300]])
+    for wrong in (np.nan, np.inf, -np.inf):
+        assert "values that are no numbers, which no pixel has" in refusal([[0.5, wrong]])
+
+
+class Exchanged:
+    """Has an array, and says so by DLPack alone."""
+
+    def __init__(self, array, device=(1, 0)):
+        self._array, self._device = array, device
+
+    def __dlpack__(self, **options):
+        return self._array.__dlpack__(**options)
+
+    def __dlpack_device__(self):
+        return self._device
+
+
+def test_what_dlpack_gives_is_a_frame():
+    import torch
+
+    pixels = np.random.default_rng(3).integers(0, 256, (20, 30), np.uint8)
+    expected = fv.Camera().step(pixels)
+    for given in (Exchanged(pixels), torch.from_numpy(pixels), memoryview(pixels)):
+        assert equal(fv.Camera().step(given), expected)
+    colour = np.stack([pixels, pixels, pixels], axis=2)
+    for given in (Exchanged(colour), torch.from_numpy(colour)):
+        assert np.array_equal(fv.luma(given), fv.luma(colour))
+    with pytest.raises(TypeError, match=r"in the memory of the processor; this Exchanged lies on another device \(DLPack device type 2\).*cpu\(\)"):
+        fv.Camera().step(Exchanged(pixels, (2, 0)))
+    with pytest.raises(TypeError, match="not float32; .* from 0 to 1, "):
+        fv.Camera().step(torch.zeros(4, 4))
+
+
+def test_an_array_that_cannot_be_made_is_a_type_error():
+    class Broken:
+        def __array__(self, dtype=None, copy=None):
+            raise RuntimeError("it lies elsewhere")
+
+    with pytest.raises(TypeError, match="a frame is a 2-D array .*; Broken cannot be read as one: it lies elsewhere"):
+        fv.Camera().step(Broken())
+
+
+def test_masks_that_mask_nothing_are_no_matter():
+    pixels = np.random.default_rng(4).integers(0, 256, (20, 30), np.uint8)
+    masked = np.ma.masked_array(pixels, np.zeros((20, 30)))
+    assert equal(fv.Camera().step(masked), fv.Camera().step(pixels))
+    with contextlib.suppress(TypeError):
+        fv.Camera().step(np.ma.masked_equal(pixels, pixels[0, 0]))
+        pytest.fail("a masked pixel was taken")

@@ -24,6 +24,13 @@ def test_a_configuration_is_a_preset_a_file_a_dict_a_design_or_a_camera(tmp_path
     assert set(fv.presets()) >= {"paper", "bare", "steady", "serial"}
 
 
+def test_a_table_that_is_none_changes_nothing():
+    keys = dict.fromkeys(["frame", "region", "denoise", "spatial", "decision", "temporal", "render", "periphery", "hardware"])
+    assert fv.Design("paper", **keys) == fv.Design("paper") == fv.Camera("paper", **keys).design
+    with pytest.raises(ValueError, match="regions"):
+        fv.Design(regions={})
+
+
 def test_features_are_names_dicts_or_lists():
     assert fv.Design(spatial="mad").features == ("mad",)
     assert fv.Design(spatial={"feature": "edge", "level": 50}).features == ("edge",)
@@ -135,9 +142,61 @@ def test_outcomes_agree_with_themselves(frames):
 def test_times_of_steps(frames):
     camera = fv.Camera()
     assert [camera.step(frames[0]).time_us, camera.step(frames[1]).time_us] == [0, 33_333]
-    assert camera.step(frames[2], time_us=5).time_us == 5
+    assert camera.step(frames[2], time_us=50_000).time_us == 50_000
+    # Two frames may have the same time, and those without one go on from the last that was given.
+    assert camera.step(frames[3], time_us=50_000).time_us == 50_000
+    assert [camera.step(frame).time_us for frame in frames[4:7]] == [83_333, 116_667, 150_000]
     with pytest.raises((OverflowError, TypeError)):
-        camera.step(frames[2], time_us=-1)
+        camera.step(frames[7], time_us=-1)
+
+
+def test_times_never_go_back(frames):
+    camera = fv.Camera()
+    camera.step(frames[0], time_us=1_000)
+    with pytest.raises(ValueError, match="time_us = 999 is before the time of the frame before, 1000; times never go back"):
+        camera.step(frames[1], time_us=999)
+    # What is refused changes nothing.
+    assert camera.frames == 1
+    assert camera.step(frames[1]).time_us == 34_333
+    camera.reset()
+    assert camera.step(frames[0], time_us=5).time_us == 5
+    with pytest.raises(ValueError, match="frames of 83x60"):
+        camera.step(np.zeros((8, 8), np.uint8), time_us=2**63)
+    assert camera.step(frames[1], time_us=2**64 - 1).time_us == camera.step(frames[2]).time_us == 2**64 - 1
+
+
+@pytest.mark.parametrize("time, error", [(-1, OverflowError), (2**64, OverflowError), (1.5, TypeError), ("1", TypeError)])
+def test_times_are_whole_microseconds(frames, time, error):
+    with pytest.raises(error, match=f"time_us = {re.escape(repr(time))}: expected a whole number of microseconds, 0 to 18446744073709551615"):
+        fv.Camera().step(frames[0], time_us=time)
+
+
+def test_hardware_of_a_camera_has_the_size_of_its_frames(frames, tmp_path):
+    camera = fv.Camera("bare", region={"size": 16})
+    asked = "this camera has no size yet: .*first frame.*or give the size, frame="
+    uses = [
+        lambda: camera.generate(tmp_path / "core"),
+        lambda: fv.generate(camera, tmp_path / "core"),
+        camera.estimate,
+        lambda: fv.estimate(camera),
+        camera.registers,
+    ]
+    for use in uses:
+        with pytest.raises(ValueError, match=asked):
+            use()
+    assert not (tmp_path / "core").exists()
+    camera.step(frames[0])
+    camera.generate(tmp_path / "core")
+    assert (fv.Design(tmp_path / "core" / "design.toml").width, fv.Design(tmp_path / "core" / "design.toml").height) == (83, 60)
+    camera.reset()
+    with pytest.raises(ValueError, match=asked):
+        fv.generate(camera, tmp_path / "other")
+    # Half a size is none.
+    with pytest.raises(ValueError, match=asked):
+        fv.Camera(frame={"width": 64}).generate(tmp_path / "other")
+    # A design has the size of its file, or the paper's.
+    fv.generate("bare", tmp_path / "other")
+    assert fv.Design(tmp_path / "other" / "design.toml").width == 224
 
 
 def test_a_camera_is_copied_before_its_first_frame_only(frames):

@@ -98,7 +98,7 @@ def test_fidelity_is_that_of_explore(command, tmp_path):
 
 def test_a_generated_core_is_that_of_the_command_line(command, tmp_path):
     command("generate", "-p", "bare", "--set", "region.size=4", "-o", tmp_path / "one", "--quiet")
-    camera = fv.Camera("bare", region={"size": 4})
+    camera = fv.Camera("bare", region={"size": 4}, frame={"width": 224, "height": 224})
     files = camera.generate(tmp_path / "other")
     names = sorted(path.relative_to(tmp_path / "one") for path in (tmp_path / "one").rglob("*") if path.is_file())
     assert sorted(path.relative_to(tmp_path / "other") for path in files) == [name for name in names if name.name != ".foveate"]

@@ -193,7 +193,7 @@ def test_ctrl_c_ends_an_estimate_while_its_netlist_is_read(tmp_path):
     (tmp_path / "yosys").write_text(YOSYS.format(python=sys.executable, marks=str(tmp_path)))
     (tmp_path / "yosys").chmod(0o755)
     process = subprocess.Popen(
-        [sys.executable, "-c", "import foveate as fv; fv.Camera().estimate()"], stderr=subprocess.PIPE, text=True,
+        [sys.executable, "-c", "import foveate as fv; fv.Design().estimate()"], stderr=subprocess.PIPE, text=True,
         env={**os.environ, "FOVEATE_YOSYS": str(tmp_path / "yosys"), "FOVEATE_CACHE": "off"},
     )
     begun = time.monotonic()
