@@ -199,6 +199,8 @@ def infer(
     scale: float | Sequence[float] = 1.0,
     framing: str = "same",
     whole_frames: bool = False,
+    noise: str | None = None,
+    every: int = 1,
     detect: str | None = None,
     boxes: Inputs | None = None,
     pictures: bool = False,
@@ -240,6 +242,11 @@ def infer(
         "same", "letterbox", "letterbox=416x416", "stretch" or "stretch=416x416".
     whole_frames : bool, default False
         The network runs on the frames before the camera, too.
+    noise : str, optional
+        Standard deviations in grey levels of 8 bits, such as "1,2,4": the network runs on whole frames with such Gaussian noise, too; "0" is none.
+        With ``whole_frames`` or ``detect`` it is "1,2,4" without it.
+    every : int, default 1
+        The network sees one of so many frames.
     detect : str, optional
         The format of detections, such as "yolox,score=0.3".
     boxes : path or list of paths, optional
@@ -267,7 +274,7 @@ def infer(
     """
     options: dict[str, Any] = dict(
         mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,
-        whole_frames=whole_frames, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
+        whole_frames=whole_frames, noise=noise, every=every, detect=detect, boxes=boxes, pictures=pictures, force=force, max_frames=max_frames,
         input_fps=input_fps, rate=rate, start=start, end=end, crop=crop, resize=resize, images=images, labels=labels,
     )
     if output is not None:

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Networks behind the camera.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,8 +9,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use foveate_footage::{Hooks, Progress, in_memory};
 use foveate_frame::Raster;
 use foveate_inference::{
-    Computed, Inference, InferenceError, Mapping, Options, Record, Viewing, parse_detector,
-    parse_framing, parse_goal, parse_mode, read_accelerator,
+    Computed, Inference, InferenceError, Mapping, NOISE_LEVELS, Options, Record, Viewing,
+    parse_detector, parse_framing, parse_goal, parse_mode, parse_noise, read_accelerator,
 };
 use numpy::PyUntypedArrayMethods;
 use pyo3::exceptions::{PyIsADirectoryError, PyTypeError, PyValueError};
@@ -91,20 +92,28 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBu
             "boxes are compared with detections: give detect, too, such as detect=\"yolox\"",
         ));
     }
+    let noise = text("noise")?.map(|text| parse_noise(&text).map_err(wrong("noise", text)));
+    let noise = noise.transpose()?;
+    let every = text("every")?.map_or(Ok(NonZeroU32::MIN), |text| {
+        let problem = "expected a whole number of at least 1".to_owned();
+        text.parse().map_err(|_| wrong("every", text)(problem))
+    })?;
     let options = Options {
         computed,
         accelerator,
         reference: flag("reference")? || approximate,
         record: Record { arrays: true, pictures: flag("pictures")? },
         command: Vec::new(),
-        sight: flag("whole_frames")? || detector.is_some(),
+        sight: flag("whole_frames")? || detector.is_some() || noise.is_some(),
+        noise: noise.unwrap_or_else(|| NOISE_LEVELS.to_vec()),
+        every,
         overwrite: flag("force")?,
     };
     Ok((options, Viewing { framing, mapping, detector }, boxes))
 }
 
 /// The options that [`chosen`] takes, and the arguments.
-pub(crate) const OWN: [&str; 16] = [
+pub(crate) const OWN: [&str; 18] = [
     "network",
     "inputs",
     "camera",
@@ -119,6 +128,8 @@ pub(crate) const OWN: [&str; 16] = [
     "force",
     "framing",
     "whole_frames",
+    "noise",
+    "every",
     "detect",
     "boxes",
 ];

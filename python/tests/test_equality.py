@@ -163,7 +163,7 @@ def test_what_is_no_footage_is_refused_with_what_would_be_right(inputs, error, m
 
 def test_options_of_a_network_are_named_with_the_nearest():
     options = "network, inputs, camera, output, mode, tune, reference, accelerator, mean, scale, pictures, force, framing"
-    options += ", whole_frames, detect, boxes, max_frames"
+    options += ", whole_frames, noise, every, detect, boxes, max_frames"
     for wrong, meant in [("referense", ", but reference"), ("max_frame", ", but max_frames"), ("picture", ", but pictures"), ("zzz", "")]:
         with pytest.raises(TypeError, match=f"infer has no option {wrong}{meant}; its options are {options}, "):
             fv.infer(ROOT / "networks/denoiser.onnx", "scene:street", **{wrong: True})

@@ -6,6 +6,7 @@
 //! failed, 128 and the number of the signal when it was told to stop: 130 after Ctrl-C, 143 after SIGTERM.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate is the one that prints")]
 
+mod agreement_text;
 mod args;
 mod command;
 mod error;

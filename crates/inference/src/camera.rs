@@ -21,6 +21,22 @@ pub(crate) struct Camera {
     original: Option<KeptOriginal>,
     /// Frames so far.
     frames: u64,
+    /// What became of those that the network has not seen, up to the next one that it sees.
+    passed: Passed,
+}
+
+/// Frames of a camera, and the values of P bits that it sends for them: pixels and means.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sent {
+    pub(crate) frames: u64,
+    pub(crate) values: u64,
+}
+
+/// What a camera has done.
+#[derive(Clone, Copy, Debug, Default)]
+struct Passed {
+    sent: Sent,
+    active_regions: u64,
 }
 
 /// What a network is shown.
@@ -41,10 +57,12 @@ pub(crate) struct Seen<'a> {
     pub(crate) time_us: u64,
     pub(crate) values: &'a [f32],
     pub(crate) changed: &'a Mask,
+    /// Since the frame before that the network saw, over all frames of the camera.
     pub(crate) active_regions: u64,
+    /// Beside that frame.
     pub(crate) changed_regions: u64,
-    /// Values of P bits that the camera sends: pixels and means.
-    pub(crate) sent_values: u64,
+    /// Since that frame.
+    pub(crate) sent: Sent,
     /// What is on the receiver's screen.
     pub(crate) screen: &'a [u16],
     pub(crate) original: Option<Original<'a>>,
@@ -82,12 +100,35 @@ impl Camera {
         let picture = witness.picture(frames_of(design));
         let black = (kind == Kind::Set).then(|| picture.clone());
         let engine = Engine::new(design);
-        Self { engine, picture, black, with_originals, original: None, frames: 0 }
+        Self {
+            engine,
+            picture,
+            black,
+            with_originals,
+            original: None,
+            frames: 0,
+            passed: Passed::default(),
+        }
     }
 
     /// The picture before the first frame.
     pub(crate) fn black(&self) -> Option<&[f32]> {
         self.black.as_ref().map(|picture| &picture.values[..])
+    }
+
+    /// Shows the design another frame, which the network does not see.
+    pub(crate) fn pass(&mut self, frame: &SourceFrame) -> Result<(), InferenceError> {
+        if self.black.is_some() {
+            self.engine.reset();
+        }
+        self.engine.step_raster(&frame.frame)?;
+        let outcome = self.engine.outcome();
+        let active = outcome.active.iter().filter(|&&active| active).count();
+        self.passed.active_regions += active as u64;
+        self.passed.sent.frames += 1;
+        self.passed.sent.values += self.engine.camera().values_of(&outcome.actions);
+        self.frames += 1;
+        Ok(())
     }
 
     /// Shows the design another frame, in which there may be known objects.
@@ -97,24 +138,22 @@ impl Camera {
         objects: Option<Vec<Rect>>,
     ) -> Result<Seen<'a>, InferenceError> {
         if let Some(black) = &self.black {
-            self.engine.reset();
             self.picture.clone_from(black);
         }
-        self.engine.step_raster(&frame.frame)?;
+        self.pass(frame)?;
+        let Passed { sent, active_regions } = std::mem::take(&mut self.passed);
         self.picture.show(self.engine.rendered());
         let words = || frame.frame.plane().to_words();
         self.original = self.with_originals.then(|| KeptOriginal { frame: words(), objects });
-        self.frames += 1;
-        let active = self.engine.outcome().active.iter().filter(|&&active| active).count();
         Ok(Seen {
             number: self.frames - 1,
             name: &frame.name,
             time_us: frame.time_us,
             values: &self.picture.values,
             changed: &self.picture.changed,
-            active_regions: active as u64,
+            active_regions,
             changed_regions: self.picture.changed_regions as u64,
-            sent_values: self.engine.camera().values_of(&self.engine.outcome().actions),
+            sent,
             screen: self.picture.frame(),
             original: self.original.as_ref().map(KeptOriginal::shown),
         })
@@ -131,7 +170,7 @@ pub(crate) struct Kept {
     changed: Mask,
     active_regions: u64,
     changed_regions: u64,
-    sent_values: u64,
+    sent: Sent,
     screen: Vec<u16>,
     original: Option<KeptOriginal>,
 }
@@ -159,7 +198,7 @@ impl Kept {
             changed: seen.changed.clone(),
             active_regions: seen.active_regions,
             changed_regions: seen.changed_regions,
-            sent_values: seen.sent_values,
+            sent: seen.sent,
             screen: seen.screen.to_vec(),
             original: seen.original.map(|original| KeptOriginal {
                 frame: original.frame.to_vec(),
@@ -177,7 +216,7 @@ impl Kept {
             changed: &self.changed,
             active_regions: self.active_regions,
             changed_regions: self.changed_regions,
-            sent_values: self.sent_values,
+            sent: self.sent,
             screen: &self.screen,
             original: self.original.as_ref().map(KeptOriginal::shown),
         }

@@ -31,6 +31,19 @@ pub fn parse_mode(text: &str) -> Result<Mode, String> {
     })
 }
 
+/// Standard deviations of noise as people write them, separated by commas; 0 is none.
+///
+/// # Errors
+/// When the text is none; the error says what would be right.
+pub fn parse_noise(text: &str) -> Result<Vec<f64>, String> {
+    let level = |text: &str| text.parse().ok().filter(|level| (0.0..=255.0).contains(level));
+    let levels: Option<Vec<f64>> = text.split(',').map(level).collect();
+    let levels = levels.ok_or(
+        "expected standard deviations in grey levels of 8 bits, each 0 to 255, such as 1,2,4; 0 is none",
+    )?;
+    Ok(levels.into_iter().filter(|&level| level > 0.0).collect())
+}
+
 /// A goal as people write it: `agreement=99%`, `cosine=0.999`, `psnr=40` or `variation=10%`.
 ///
 /// # Errors

@@ -9,6 +9,7 @@ use foveate_footage::{
     FootageError, Hooks, InputOptions, Progress, Source, Subject, is_read_once, open, read_ahead,
     shown_input, subjects,
 };
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -43,6 +44,8 @@ pub(crate) trait Audience {
 pub(crate) struct Showing<'a> {
     pub(crate) shown: Shown<'a>,
     pub(crate) clips: &'a mut Clips,
+    /// The network sees one of so many frames of a clip.
+    pub(crate) every: NonZeroU32,
     /// Frames that are done.
     pub(crate) done: u64,
 }
@@ -197,7 +200,7 @@ impl Showing<'_> {
         Ok(true)
     }
 
-    /// Shows the camera every frame, with the objects of the frames whose places in the input are known. Returns whether that was all of them.
+    /// Shows the camera every frame, and the audience what the network sees, with the objects of the frames whose places in the input are known. Returns whether that was all of them.
     fn watch(
         &mut self,
         clip: usize,
@@ -207,7 +210,7 @@ impl Showing<'_> {
         audience: &mut dyn Audience,
     ) -> Result<bool, InferenceError> {
         let (total, boxes) = (self.clips.frames, self.clips.boxes.get(clip));
-        let mut fits = boxes.is_none();
+        let (mut fits, mut number) = (boxes.is_none(), 0_u64);
         read_ahead(source, |frames| {
             while let Some((current, origin)) = frames.next()? {
                 if hooks.cancelled() {
@@ -218,7 +221,12 @@ impl Showing<'_> {
                     None => None,
                 };
                 fits |= objects.is_some();
-                audience.look(camera.see(&current, objects)?)?;
+                if number.is_multiple_of(self.every.get().into()) {
+                    audience.look(camera.see(&current, objects)?)?;
+                } else {
+                    camera.pass(&current)?;
+                }
+                number += 1;
                 frames.give_back(current);
                 self.done += 1;
                 hooks.progress(Progress { done: self.done, total });

@@ -22,6 +22,7 @@ use foveate_design::{Config, Design};
 use foveate_footage::{Hooks, InputOptions, Source};
 use foveate_network::Mode;
 use foveate_staging::{FolderKind, StagedFolder};
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 /// What is computed, and how.
@@ -35,6 +36,10 @@ pub struct Options {
     pub reference: bool,
     /// Whether the network runs on the whole frames, too, to compare what it says there.
     pub sight: bool,
+    /// Then under noise of these standard deviations, in grey levels of 8 bits, each above 0, too.
+    pub noise: Vec<f64>,
+    /// The network sees one of so many frames of a clip, the first one first; the camera sees all.
+    pub every: NonZeroU32,
     /// What is written of the outputs.
     pub record: Record,
     /// The words of the command line, which the page shows; none if there was no command.
@@ -142,9 +147,11 @@ impl Inference {
             details: Details::new(staging)?,
         };
         let (all, inputs) = (clips.count(), clips.inputs());
-        let judge = options.sight.then(|| Judge::new(&witness, &design, clips.have_boxes()));
+        let with_truth = clips.have_boxes();
+        let judge =
+            options.sight.then(|| Judge::new(&witness, &design, &options.noise, with_truth));
         let shown = Shown { design: &design, witness: &witness, with_originals: options.sight };
-        let mut showing = Showing { shown, clips: &mut clips, done: 0 };
+        let mut showing = Showing { shown, clips: &mut clips, every: options.every, done: 0 };
         let run = |way, reference| {
             let beside = Beside { reference, judge };
             Run::new(&design, Player::new(network, way), beside, costs, files)
@@ -192,6 +199,7 @@ impl Inference {
             inputs,
             mapping: viewing.mapping,
             framing: viewing.framing,
+            every: options.every,
         })?;
         write(staging, &ended)?;
         let Ended { summary, frames, detected } = &ended;

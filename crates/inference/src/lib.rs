@@ -36,7 +36,7 @@ mod tune;
 pub use arrays::{ArrayFile, ArraySummary, infer_arrays, is_array};
 pub use camera::frames_of;
 pub use checked::{CheckedNetwork, NetworkFacts, OPEN_SIZE, check_network};
-pub use choices::{parse_goal, parse_mode, read_accelerator};
+pub use choices::{parse_goal, parse_mode, parse_noise, read_accelerator};
 pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};
 pub use error::InferenceError;
@@ -49,6 +49,6 @@ pub use foveate_network::sight::{
 pub use inference::{Computed, INFERENCE, Inference, Options};
 pub use macs::Macs;
 pub use recording::{Record, Recorded};
-pub use sight::{Sight, Truth};
+pub use sight::{Intervals, NOISE_LEVELS, NoiseCeiling, Noisy, Sight, Truth, wilson};
 pub use summary::{Clip, Error, Layer, Outputs, Summary, Tried, Tuning};
 pub use traffic::FrameTraffic;

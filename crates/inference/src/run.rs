@@ -20,6 +20,7 @@ use crate::traffic::Traffic;
 use crate::{Framing, Goal, InferenceError, Mapping};
 use foveate_design::Design;
 use foveate_network::Network;
+use std::num::NonZeroU32;
 use std::time::Instant;
 
 /// What a summary says that no frame says.
@@ -34,6 +35,7 @@ pub(crate) struct Told {
     pub(crate) inputs: Vec<String>,
     pub(crate) mapping: Mapping,
     pub(crate) framing: Framing,
+    pub(crate) every: NonZeroU32,
 }
 
 /// A run at its end.
@@ -147,7 +149,8 @@ impl<'a> Run<'a> {
         let judge =
             |reference: &mut Reference<'_>| reference.judge(seen.values, executor, is_counted);
         let close = self.reference.as_mut().map(judge);
-        let look = |judge: &mut Judge<'_>| judge.look(&clip.name, seen, executor, is_counted);
+        let clip_at = (&clip.name[..], self.clips.len() as u64 - 1);
+        let look = |judge: &mut Judge<'_>| judge.look(clip_at, seen, executor, is_counted);
         let sight = self.judge.as_mut().and_then(look);
         let layers = LayerFrame::all(self.network, executor, &work, self.costs.as_ref());
         if is_counted {
@@ -159,7 +162,7 @@ impl<'a> Run<'a> {
                 costs.add(layers.iter().filter_map(|layer| layer.cost));
             }
         }
-        let share = |count| ratio(count, u64::from(self.design.regions()));
+        let regions = u64::from(self.design.regions());
         let frame = Frame {
             place: clip.place + seen.number,
             clip: clip.name.clone(),
@@ -167,8 +170,8 @@ impl<'a> Run<'a> {
             name: seen.name.to_owned(),
             time_us: seen.time_us,
             is_counted,
-            active: share(seen.active_regions),
-            changed: share(seen.changed_regions),
+            active: ratio(seen.active_regions, regions * seen.sent.frames),
+            changed: ratio(seen.changed_regions, regions),
             seconds,
             overhead: executor.overhead().as_secs_f64(),
             relative_rms: close.map(|close| close.distance.relative()),
@@ -251,6 +254,7 @@ impl<'a> Run<'a> {
             mode: told.mode,
             mapping: told.mapping,
             framing: told.framing,
+            every: told.every,
             width: self.design.width(),
             height: self.design.height(),
             frames: self.frames.len() as u64,

@@ -11,6 +11,7 @@ use crate::{Framing, Mapping, Recorded, Sight};
 use foveate_design::Config;
 use foveate_network::{Executor, Form, Mode, Network};
 use serde::Serialize;
+use std::num::NonZeroU32;
 
 /// A run of a network behind a camera. All shares and means are over the counted frames.
 #[derive(Clone, Debug, Serialize)]
@@ -41,7 +42,9 @@ pub struct Summary {
     pub width: u32,
     /// Height of the frames.
     pub height: u32,
-    /// Frames that were seen.
+    /// The network saw one of so many frames of the camera, the first one first.
+    pub every: NonZeroU32,
+    /// Frames that the network saw.
     pub frames: u64,
     /// Frames that are counted: all of a set, of a clip all but the first, which is computed whole.
     pub counted_frames: u64,

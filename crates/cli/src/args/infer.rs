@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The options of `infer`.
 
+use std::num::NonZeroU32;
 use std::path::PathBuf;
 
 use clap::{Args, ValueEnum};
 use foveate_accelerator::Accelerator;
-use foveate_inference::{Computed, Goal, Record, parse_goal, parse_mode, read_accelerator};
+use foveate_inference::{
+    Computed, Goal, NOISE_LEVELS, Record, parse_goal, parse_mode, parse_noise, read_accelerator,
+};
 use foveate_network::Mode;
 
 use super::DesignArgs;
@@ -24,7 +27,7 @@ use crate::error::CliError;
           foveate infer denoiser.onnx scene:street -o out --max-frames 8 --whole-frames
           foveate infer yolox_nano.onnx --check
           foveate infer yolox_nano.onnx images.npy -o out
-          foveate infer yolox_nano.onnx street.mp4 -o out --framing letterbox --scale 1/255 --detect yolox
+          foveate infer yolox_nano.onnx street.mp4 -o out --framing letterbox --scale 1/255 --detect yolox --every 25
           foveate infer resnet50.onnx street.mp4 -o out --resize 224x224 --mean 0.485,0.456,0.406 --scale 0.229,0.224,0.225")]
 pub(crate) struct InferArgs {
     /// The network: an ONNX file whose input is [1, channels, height, width], with 1 or 3 channels, or
@@ -61,9 +64,16 @@ pub(crate) struct InferArgs {
     #[arg(long)]
     pub(crate) reference: bool,
     /// Run the network on the whole frames, too, as they are before the camera, and print how much of what it says there it says of
-    /// what the receiver sees. Always on with --detect
+    /// what the receiver sees. Always on with --detect and --noise
     #[arg(long)]
     pub(crate) whole_frames: bool,
+    /// Whole frames are shown to the network with Gaussian noise of these standard deviations, too, in grey levels of 8 bits, and what it
+    /// keeps under noise is printed; at most 48 frames are, spread evenly. 0 is none [default: 1,2,4, with --whole-frames]
+    #[arg(long, value_name = "LEVELS", allow_negative_numbers = true, value_parser = NoiseLevels::parse)]
+    noise: Option<NoiseLevels>,
+    /// The network sees one of so many frames of every clip, the first one first; the camera sees all
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(crate) every: NonZeroU32,
     /// With --detect: ground-truth boxes for average precision, as of `foveate analyze recall`: one file or folder for all clips, or one for each
     #[arg(long, value_name = "FILE", requires = "detect")]
     pub(crate) boxes: Vec<PathBuf>,
@@ -99,6 +109,16 @@ pub(crate) enum OutputFormat {
     Png,
 }
 
+/// Standard deviations of noise: one value of the command line.
+#[derive(Clone, Debug)]
+struct NoiseLevels(Vec<f64>);
+
+impl NoiseLevels {
+    fn parse(text: &str) -> Result<Self, String> {
+        parse_noise(text).map(Self)
+    }
+}
+
 impl InferArgs {
     /// What is written of the outputs.
     pub(crate) fn record(&self) -> Record {
@@ -118,7 +138,13 @@ impl InferArgs {
 
     /// Whether the network runs on whole frames, too.
     pub(crate) fn sight(&self) -> bool {
-        self.whole_frames || self.viewing.detect.is_some()
+        self.whole_frames || self.noise.is_some() || self.viewing.detect.is_some()
+    }
+
+    /// Standard deviations of the noise on whole frames.
+    pub(crate) fn noise(&self) -> Vec<f64> {
+        let own = self.noise.as_ref().map(|levels| levels.0.clone());
+        own.unwrap_or_else(|| NOISE_LEVELS.to_vec())
     }
 
     /// Whether a whole computation runs beside.

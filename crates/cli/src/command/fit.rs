@@ -8,9 +8,11 @@ use foveate_explore::{
     Agreed, ExploreError, Figures, Fit, FitRequest, FittedDesign, FittedNetwork, Held, fit,
 };
 use foveate_footage::ImagesAs;
+use foveate_inference::Noisy;
 use foveate_staging::{check_file, write_file};
 
 use super::explore::Terminal;
+use crate::agreement_text::{confidence, grey_levels, noisy_shares};
 use crate::args::{FitArgs, warn_of};
 use crate::error::CliError;
 use crate::output;
@@ -184,9 +186,17 @@ fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
             format!("; {bytes:.0} bytes per frame, {share:.1} % of a whole one")
         });
         let (model, frames, share) = (&network.network, agreed.frames, 100.0 * agreed.share);
-        format!("{model} ({name}, {frames} frames): agreement {share:.1} %{found}{bytes}")
+        let interval = confidence(&agreed.intervals);
+        format!("{model} ({name}, {frames} frames): agreement {share:.1} %{interval}{found}{bytes}")
     };
-    parts.map(part).into()
+    let noisy = |noisy: &Noisy| {
+        let (model, level) = (&network.network, grey_levels(noisy.levels));
+        let (frames, shares) = (noisy.frames, noisy_shares(noisy));
+        format!(
+            "{model}, noise of {level} on the whole frames (held out, {frames} frames): {shares}"
+        )
+    };
+    parts.map(part).into_iter().chain(network.noise.iter().map(noisy)).collect()
 }
 
 /// How many RPUs or lanes there are.

@@ -15,6 +15,7 @@ use foveate_staging::StagedFolder;
 use indicatif::DecimalBytes;
 
 use super::simulate::Terminal;
+use crate::agreement_text::{confidence, grey_levels, noisy_shares};
 use crate::args::{InferArgs, warn_of};
 use crate::error::CliError;
 use crate::{notice, output};
@@ -41,6 +42,8 @@ fn clip(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliEr
         accelerator: args.accelerator()?,
         reference: args.has_reference(),
         sight: args.sight(),
+        noise: args.noise(),
+        every: args.every,
         record: args.record(),
         command: command(words),
         overwrite: args.force,
@@ -130,13 +133,18 @@ fn tuned(tuning: &Tuning, summary: &Summary) -> String {
 
 fn text(folder: &Path, summary: &Summary) -> String {
     let mut text = format!(
-        "{}: {} of {} x {} pixels, mode {}{}\n",
+        "{}: {}{} of {} x {} pixels, mode {}{}\n",
         folder.display(),
         frames(summary.frames, ""),
+        // What is usual is not said.
+        if summary.every.get() == 1 {
+            String::new()
+        } else {
+            format!(", one of {},", summary.every)
+        },
         summary.width,
         summary.height,
         summary.mode,
-        // What is usual is not said.
         if summary.layout == "nchw" {
             String::new()
         } else {
@@ -274,9 +282,19 @@ fn sighted(sight: &Sight) -> String {
     }
     let _ = writeln!(
         text,
-        "agreement  {} with whole frames; relative RMS error of the outputs {:.2e}",
+        "agreement  {} with whole frames{}; relative RMS error of the outputs {:.2e}",
         percent(sight.agreement),
+        confidence(&sight.intervals),
         sight.relative_rms
     );
+    for noisy in &sight.noise {
+        let _ = writeln!(
+            text,
+            "noise      of {} on the whole frames ({}): {}",
+            grey_levels(noisy.levels),
+            frames(noisy.frames, ""),
+            noisy_shares(noisy)
+        );
+    }
     text
 }

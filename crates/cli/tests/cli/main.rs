@@ -23,6 +23,7 @@ mod infer;
 mod infer_alone;
 mod infer_clips;
 mod infer_files;
+mod infer_noise;
 mod inputs;
 mod link;
 mod live;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How much a network agrees over some frames, and what that says of others.
 
-use foveate_inference::{Agreement, Found};
+use foveate_inference::{Agreement, Found, Intervals, wilson};
 use serde::Serialize;
 
 /// Frames are taken together in as many groups of neighbors: what is seen in one frame is seen in the next, too.
@@ -25,6 +25,8 @@ pub struct Agreed {
     pub at_most: bool,
     /// Detections, if they are read.
     pub detections: Option<Found>,
+    /// How far the agreement and the shares of detections say something of other frames.
+    pub intervals: Intervals,
 }
 
 impl Agreed {
@@ -36,12 +38,14 @@ impl Agreed {
         let by_count = all.counted().map_or(1.0, |count| elsewhere(share, count));
         let expected = by_groups.min(by_count);
         let (frames, detections) = (frames.len() as u64, all.found());
-        Self { frames, share, expected, at_most: false, detections }
+        let intervals = Intervals::new(share, detections, all.counted());
+        Self { frames, share, expected, at_most: false, detections, intervals }
     }
 
     /// After some frames no more than this share can be reached.
     pub(super) fn at_most(share: f64, frames: u64) -> Self {
-        Self { frames, share, expected: share, at_most: true, detections: None }
+        let intervals = Intervals::default();
+        Self { frames, share, expected: share, at_most: true, detections: None, intervals }
     }
 }
 
@@ -65,12 +69,7 @@ fn shortfall(frames: &[Agreement]) -> f64 {
 fn elsewhere(share: f64, count: u64) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "a number of things")]
     let half = count as f64 / 2.0;
-    if half == 0.0 {
-        return share;
-    }
-    let square = NORMAL.powi(2) / half;
-    let spread = NORMAL * (share * (1.0 - share) / half + square / (4.0 * half)).sqrt();
-    ((share + square / 2.0 - spread) / (1.0 + square)).max(0.0)
+    if half == 0.0 { share } else { wilson(share, half, NORMAL)[0] }
 }
 
 /// The standard error of a figure over some groups, from what it is without each of them.

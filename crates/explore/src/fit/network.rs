@@ -9,7 +9,10 @@ use std::path::Path;
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
-use foveate_inference::{Agreement, InferenceError, Testimony, Viewing, Witness, frames_of};
+use foveate_inference::{
+    Agreement, InferenceError, NOISE_LEVELS, NoiseCeiling, Noisy, Testimony, Viewing, Witness,
+    frames_of,
+};
 use rayon::prelude::*;
 use serde::Serialize;
 
@@ -64,6 +67,8 @@ pub struct FittedNetwork {
     pub confirmed: Agreed,
     /// On the second half, which influenced no choice.
     pub held_out: Agreed,
+    /// What it keeps of the whole frames of the second half under noise, level by level.
+    pub noise: Vec<Noisy>,
     /// Bytes of a whole frame.
     pub bytes_per_whole_frame: f64,
 }
@@ -111,6 +116,8 @@ pub(super) struct Jury<'a> {
     halves: &'a Halves,
     /// Of every clip, by parts.
     samples: [Vec<Vec<Sample>>; 3],
+    /// On the whole frames of the second halves.
+    noise: NoiseCeiling,
 }
 
 impl<'a> Jury<'a> {
@@ -127,18 +134,25 @@ impl<'a> Jury<'a> {
         let clips = halves.frames.len() as u64;
         let most = (goal.frames / clips).max(1);
         let mut samples = [const { Vec::new() }; 3];
+        let mut noise = NoiseCeiling::new(&NOISE_LEVELS, camera.pixel_max());
         for (clip, &frames) in halves.frames.iter().enumerate() {
-            let wanted = [Part::Search, Part::Confirmation, Part::HeldOut]
-                .map(|part| spread(part.frames(frames), most));
+            let parts = [Part::Search, Part::Confirmation, Part::HeldOut];
+            let wanted = parts.map(|part| (part, spread(part.frames(frames), most)));
             let mut looking = witness.look_at(frames_of(&camera));
             let mut source = footage.open(&footage.subjects[clip])?;
             let mut found = [const { Vec::new() }; 3];
             for number in 0..frames.1 {
                 footage.go_on(Progress::Asking { cameras: 0 })?;
                 let Some(current) = source.next_frame()? else { break };
-                for (found, wanted) in found.iter_mut().zip(&wanted) {
+                for (found, (part, wanted)) in found.iter_mut().zip(&wanted) {
                     if wanted.contains(&number) {
                         let whole = looking.look(current.frame.plane());
+                        if *part == Part::HeldOut {
+                            let frame = current.frame.plane().to_words();
+                            let at = (clip as u64, number);
+                            let findings = looking.findings();
+                            noise.look((&witness, &mut looking), (&frame, &findings), at);
+                        }
                         let best = witness.compare(&whole, &whole);
                         found.push(Sample { number, whole, best });
                     }
@@ -147,7 +161,7 @@ impl<'a> Jury<'a> {
             }
             samples.iter_mut().zip(found).for_each(|(part, found)| part.push(found));
         }
-        Ok(Self { witness, goal, footage, halves, samples })
+        Ok(Self { witness, goal, footage, halves, samples, noise })
     }
 
     /// Bytes per frame that cameras send on the first halves; `asked` cameras were shown to the network so far.
@@ -199,6 +213,7 @@ impl<'a> Jury<'a> {
                 None => self.ask(&camera, Part::Confirmation, None, 0)?,
             },
             held_out: self.ask(&camera, Part::HeldOut, None, 0)?,
+            noise: self.noise.found(),
             bytes_per_whole_frame: of_pixels * f64::from(self.footage.bits()) / 8.0,
         })
     }

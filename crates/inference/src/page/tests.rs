@@ -149,6 +149,7 @@ fn sample(frames: u32) -> Sample {
         mapping: Mapping { mean: vec![0.0], scale: vec![1.0] },
         framing: Framing::Same,
         sight: None,
+        every: std::num::NonZeroU32::MIN,
         width: 224,
         height: 224,
         frames: u64::from(frames) + 1,

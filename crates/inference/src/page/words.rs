@@ -2,7 +2,7 @@
 //! What was run and what came out, in sentences.
 
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
-use crate::{Mapping, Summary, Tuning};
+use crate::{Intervals, Mapping, Noisy, Sight, Summary, Tuning};
 use foveate_design::Design;
 use foveate_pictures::page::number::{grouped, things};
 use std::path::Path;
@@ -37,9 +37,10 @@ fn some(names: &[String]) -> String {
 pub(super) fn run(summary: &Summary, design: &Design) -> String {
     let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
     format!(
-        "The network {} ran on {} of {}{}, as a camera with {} shows them, in mode {}: {}. {}{}",
+        "The network {} ran on {}{} of {}{}, as a camera with {} shows them, in mode {}: {}. {}{}",
         summary.network,
         things(frames, "frame"),
+        every(summary),
         inputs(summary),
         clips(summary),
         camera(design),
@@ -48,6 +49,12 @@ pub(super) fn run(summary: &Summary, design: &Design) -> String {
         mapped(&summary.mapping),
         layout(summary)
     )
+}
+
+/// Of how many frames of the camera the network saw one, unless it saw all.
+fn every(summary: &Summary) -> String {
+    let every = summary.every.get();
+    if every == 1 { String::new() } else { format!(", one of {every},") }
 }
 
 /// How many clips there are, if there are several, and which of them are reported.
@@ -295,7 +302,30 @@ fn sighted(summary: &Summary) -> Vec<String> {
         "The outputs differ from those of whole frames by a relative RMS of {}.",
         error(sight.relative_rms)
     ));
+    found.extend(noisy(sight));
     found
+}
+
+/// What the network keeps of whole frames under noise, beside what it keeps behind the camera.
+fn noisy(sight: &Sight) -> Option<String> {
+    let frames = sight.noise.first()?.frames;
+    let all =
+        |of: &dyn Fn(&Noisy) -> String| sight.noise.iter().map(of).collect::<Vec<_>>().join(", ");
+    let agreement = |agreement: f64, intervals: &Intervals| {
+        let interval = intervals.of_few().map(|ends| ends.map(share).join(" to "));
+        share(agreement) + &interval.map_or_else(String::new, |ends| format!(" ({ends})"))
+    };
+    let is_few = std::iter::once(&sight.intervals)
+        .chain(sight.noise.iter().map(|noisy| &noisy.intervals))
+        .any(|intervals| intervals.of_few().is_some());
+    Some(format!(
+        "Noise of {} grey levels on the whole frames ({}) leaves an agreement of {}; behind the camera it is {}.{}",
+        all(&|noisy| noisy.levels.to_string()),
+        things(usize::try_from(frames).unwrap_or(usize::MAX), "frame"),
+        all(&|noisy| agreement(noisy.agreement, &noisy.intervals)),
+        agreement(sight.agreement, &sight.intervals),
+        if is_few { " In brackets are 95 % intervals, for few things say little." } else { "" }
+    ))
 }
 
 fn tuned(summary: &Summary, tuning: &Tuning) -> String {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The network on whole frames, beside the one behind the camera.
 
+use super::ceiling::NoiseCeiling;
+use super::interval::Intervals;
 use super::precision::Curve;
 use super::shots::Shots;
 use super::summary::{Received, Sight, Truth, psnr};
@@ -18,6 +20,7 @@ pub(crate) struct Judge<'a> {
     /// At whole frames.
     looking: Looking<'a>,
     sums: Sums,
+    noise: NoiseCeiling,
     received: Received,
     /// Against ground truth, of whole frames and of what the receiver sees.
     truth: Option<[Curve; 2]>,
@@ -57,12 +60,18 @@ pub(crate) struct DetectionRow {
 }
 
 impl<'a> Judge<'a> {
-    /// `with_truth` says whether there are ground-truth objects.
-    pub(crate) fn new(witness: &'a Witness, camera: &Camera, with_truth: bool) -> Self {
+    /// `noise` has standard deviations in grey levels of 8 bits; `with_truth` says whether there are ground-truth objects.
+    pub(crate) fn new(
+        witness: &'a Witness,
+        camera: &Camera,
+        noise: &[f64],
+        with_truth: bool,
+    ) -> Self {
         Self {
             witness,
             looking: witness.look_at(frames_of(camera)),
             sums: Sums::default(),
+            noise: NoiseCeiling::new(noise, camera.pixel_max()),
             received: Received::new(camera),
             truth: with_truth.then(Default::default),
             shots: Shots::new(camera),
@@ -74,7 +83,7 @@ impl<'a> Judge<'a> {
     /// Runs the network on a whole frame, and compares what it says with what `other` says of what the receiver sees. Only a counted frame is in the sums.
     pub(crate) fn look(
         &mut self,
-        clip: &str,
+        (clip, clip_number): (&str, u64),
         seen: Seen<'_>,
         other: &Executor<'_>,
         is_counted: bool,
@@ -87,15 +96,18 @@ impl<'a> Judge<'a> {
         let squared_error = squared_error(original.frame, seen.screen);
         let frame = SightFrame {
             agreement: sums.agreement(),
-            sent_bytes: self.received.bytes(1, seen.sent_values),
+            sent_bytes: self.received.bytes(seen.sent),
             picture_psnr: psnr(squared_error, self.received.pixels, self.received.max),
             found: sums.found(),
         };
         if is_counted {
             self.sums.add(&sums);
-            self.received.add(seen.sent_values, squared_error);
+            self.received.add(seen.sent, squared_error);
             self.seconds += seconds;
             self.add_truth(original, &whole, &found);
+            let at = (clip_number, seen.number);
+            let network = (self.witness, &mut self.looking);
+            self.noise.look(network, (original.frame, &whole), at);
             if let Some(pairs) = pairs {
                 self.tell(clip, seen, &pairs);
                 self.shots.add(clip, seen, pairs);
@@ -152,6 +164,12 @@ impl<'a> Judge<'a> {
         let seconds = self.seconds / self.sums.frames.max(1) as f64;
         Sight {
             agreement: self.sums.agreement(),
+            intervals: Intervals::new(
+                self.sums.agreement(),
+                self.sums.found(),
+                self.sums.counted(),
+            ),
+            noise: self.noise.found(),
             relative_rms: self.sums.distance.relative(),
             classes: self.sums.classes(),
             same_places: self.sums.places(),

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a network loses behind the camera, and what the camera sends for it.
 
+use super::ceiling::Noisy;
+use super::interval::Intervals;
+use crate::camera::Sent;
 use foveate_design::Camera;
 use foveate_network::sight::{self, ClassKept, DetectionsKept};
 use serde::Serialize;
@@ -11,6 +14,10 @@ pub struct Sight {
     /// The agreement in one number, 0 to 1. Of detections the smaller of the share that is kept and the share that is right; else the share of
     /// frames, or of places, with the same class; else what the relative RMS error leaves of 1.
     pub agreement: f64,
+    /// How far the agreement and the shares of detections say something of other frames.
+    pub intervals: Intervals,
+    /// What the network keeps of whole frames under noise, level by level: no camera can be asked for more.
+    pub noise: Vec<Noisy>,
     /// Root of the mean squared difference of the outputs, as a share of that of their values.
     pub relative_rms: f64,
     /// Of outputs that are one class, unless detections are read.
@@ -53,7 +60,9 @@ pub(super) struct Received {
     /// Of a frame.
     pub(super) pixels: f64,
     pub(super) max: f64,
+    /// Frames that the network looked at, and frames of the camera, of which it may have looked at some alone.
     frames: u64,
+    sent_frames: u64,
     values: u64,
     squared_error: f64,
 }
@@ -65,26 +74,28 @@ impl Received {
             pixels: f64::from(camera.width()) * f64::from(camera.height()),
             max: f64::from(camera.pixel_max()),
             frames: 0,
+            sent_frames: 0,
             values: 0,
             squared_error: 0.0,
         }
     }
 
-    pub(super) fn add(&mut self, values: u64, squared_error: f64) {
+    /// A frame that the network looks at, and what the camera has sent since the one before.
+    pub(super) fn add(&mut self, sent: Sent, squared_error: f64) {
         self.frames += 1;
-        self.values += values;
+        self.sent_frames += sent.frames;
+        self.values += sent.values;
         self.squared_error += squared_error;
     }
 
-    /// Bytes of some frames with so many values in all.
-    #[allow(clippy::cast_precision_loss, reason = "a mean is made of it")]
-    pub(super) fn bytes(&self, frames: u64, values: u64) -> f64 {
-        self.camera.bits_sent(frames, values) as f64 / 8.0
+    /// Mean bytes of some frames.
+    #[allow(clippy::cast_precision_loss, reason = "a mean")]
+    pub(super) fn bytes(&self, sent: Sent) -> f64 {
+        self.camera.bits_sent(sent.frames, sent.values) as f64 / 8.0 / sent.frames.max(1) as f64
     }
 
-    #[allow(clippy::cast_precision_loss, reason = "a mean")]
     pub(super) fn bytes_per_frame(&self) -> f64 {
-        self.bytes(self.frames, self.values) / self.frames.max(1) as f64
+        self.bytes(Sent { frames: self.sent_frames, values: self.values })
     }
 
     pub(super) fn share(&self) -> f64 {

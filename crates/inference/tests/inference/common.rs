@@ -3,6 +3,7 @@
 
 use std::collections::BTreeMap;
 use std::fs::File;
+use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
 use foveate_design::Config;
@@ -26,6 +27,8 @@ pub(crate) struct Run<'a> {
     pub(crate) reference: bool,
     pub(crate) framing: Framing,
     pub(crate) sight: bool,
+    /// Standard deviations of noise on whole frames.
+    pub(crate) noise: &'a [f64],
     pub(crate) detector: Option<Detector>,
     /// Ground truth.
     pub(crate) boxes: &'a [PathBuf],
@@ -45,6 +48,7 @@ impl Default for Run<'_> {
             reference: false,
             framing: Framing::Same,
             sight: false,
+            noise: &[],
             detector: None,
             boxes: &[],
             network: None,
@@ -73,6 +77,8 @@ impl Run<'_> {
             accelerator: self.accelerator.map(|name| read_accelerator(name).unwrap()),
             reference: self.reference,
             sight: self.sight,
+            noise: self.noise.to_vec(),
+            every: NonZeroU32::MIN,
             record: Record { arrays: true, pictures: false },
             command: Vec::new(),
             overwrite: true,

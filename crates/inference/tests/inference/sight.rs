@@ -114,6 +114,35 @@ fn means_keep_what_nothing_loses() {
     assert!(page.matches("class=\"kept\"").count() > 10);
 }
 
+/// Noise is put on few of many frames, spread evenly, and costs more the larger it is; what nothing changes is all found again.
+#[test]
+fn detections_are_lost_under_noise() {
+    let dir = tempfile::tempdir().unwrap();
+    let network = bright_squares(dir.path());
+    let (network, detector) = (Some(network.as_path()), Some(squares()));
+    let noise = &[0.05, 4.0, 40.0, 255.0];
+    let run = Run { network, detector, noise, sight: true, frames: 120, ..Run::default() };
+    let sight = run.write(dir.path()).unwrap().sight.unwrap();
+    let found: Vec<_> = sight.noise.iter().map(|noisy| noisy.detections.unwrap()).collect();
+    // 119 frames count, and 48 are the most: every fourth, from the first.
+    assert!(sight.noise.iter().all(|noisy| noisy.frames == 30));
+    assert!(found.iter().all(|level| level.whole == found[0].whole && level.whole > 50));
+    assert_eq!((found[0].kept, found[0].added), (found[0].whole, 0));
+    assert!(sight.noise.is_sorted_by(|one, next| one.agreement > next.agreement), "{found:?}");
+    for noisy in &sight.noise {
+        let (kept, right) = (noisy.kept_share.unwrap(), noisy.precision.unwrap());
+        assert_eq!(noisy.agreement, kept.min(right));
+        let [low, high] = noisy.intervals.agreement.unwrap();
+        assert!(low <= noisy.agreement && noisy.agreement <= high && low < high);
+    }
+    assert!(sight.intervals.kept.is_some() && sight.intervals.right.is_some());
+    // As few objects say less.
+    let few = Run { frames: 3, ..run }.write(dir.path()).unwrap().sight.unwrap();
+    let width = |[low, high]: [f64; 2]| high - low;
+    let [few, many] = [&few, &sight].map(|sight| width(sight.intervals.agreement.unwrap()));
+    assert!(few > 2.0 * many, "{few} and {many}");
+}
+
 /// Ground truth is what the network finds in whole frames, so that its precision there is 1.
 #[test]
 fn precision_is_against_ground_truth() {

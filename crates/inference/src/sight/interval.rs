@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What a share of few things says of the share of all: Wilson's score interval.
+//!
+//! E. B. Wilson, Probable Inference, the Law of Succession, and Statistical Inference, Journal of the American Statistical Association 22 (1927),
+//! pages 209 to 212. It takes the things for independent.
+
+use foveate_network::sight::Found;
+use serde::Serialize;
+
+/// 95 % of all values of a normal variable are at most so many standard deviations away.
+const NORMAL: f64 = 1.959_963_984_540_054;
+/// An interval that is wider than this is one of few things.
+const FEW: f64 = 0.02;
+
+/// Intervals that hold the shares of all such things with 95 % confidence, if these are independent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct Intervals {
+    /// Of the agreement; nothing where it is an error that counts, or nothing was found.
+    pub agreement: Option<[f64; 2]>,
+    /// Of the share of detections that are kept, if there are any.
+    pub kept: Option<[f64; 2]>,
+    /// Of the share of detections that are right, if there are any.
+    pub right: Option<[f64; 2]>,
+}
+
+impl Intervals {
+    /// Those of an agreement over so many things, which are detections if any were read.
+    #[must_use]
+    pub fn new(agreement: f64, found: Option<Found>, counted: Option<u64>) -> Self {
+        let interval = |share, count| (count > 0).then(|| wilson(share, real(count), NORMAL));
+        let Some(found) = found else {
+            let agreement = counted.and_then(|count| interval(agreement, count));
+            return Self { agreement, ..Self::default() };
+        };
+        let kept = interval(found.kept_share(), found.whole);
+        let right = interval(found.precision(), found.seen);
+        // That of the smaller share.
+        let is_kept = found.kept_share() <= found.precision();
+        Self { agreement: if is_kept { kept.or(right) } else { right.or(kept) }, kept, right }
+    }
+
+    /// The interval of the agreement, where it is wide because of few things.
+    #[must_use]
+    pub fn of_few(&self) -> Option<[f64; 2]> {
+        self.agreement.filter(|[low, high]| high - low > FEW)
+    }
+}
+
+/// Wilson's score interval of a share of `count` things, above 0, that reaches `deviations` standard deviations to both sides.
+#[must_use]
+pub fn wilson(share: f64, count: f64, deviations: f64) -> [f64; 2] {
+    let square = deviations.powi(2) / count;
+    let spread = deviations * (share * (1.0 - share) / count + square / (4.0 * count)).sqrt();
+    [-spread, spread].map(|way| ((share + square / 2.0 + way) / (1.0 + square)).clamp(0.0, 1.0))
+}
+
+#[allow(clippy::cast_precision_loss, reason = "a number of things")]
+fn real(count: u64) -> f64 {
+    count as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Ends as `scipy.stats.binomtest(kept, count).proportion_ci(0.95, method="wilson")` of `SciPy` prints them.
+    #[test]
+    fn intervals_are_those_of_scipy() {
+        for (kept, count, low, high) in [
+            (101.0, 107.0, 0.883_030_384_823_427_3, 0.974_049_637_496_375_2),
+            (20.0, 20.0, 0.838_874_841_947_180_8, 1.0),
+            (0.0, 9.0, 0.0, 0.299_145_048_419_544_04),
+            (3.0, 7.0, 0.158_219_855_251_470_2, 0.749_541_635_472_342_8),
+            (480.0, 488.0, 0.967_988_534_009_925_2, 0.991_670_298_191_270_8),
+        ] {
+            let found = wilson(kept / count, count, NORMAL);
+            assert!((found[0] - low).abs() < 1e-12, "{kept} of {count}: {found:?}");
+            assert!((found[1] - high).abs() < 1e-12, "{kept} of {count}: {found:?}");
+        }
+    }
+
+    /// Both ends are shares that a test at this confidence would just not tell from the one that was seen.
+    #[test]
+    fn ends_are_as_far_away_as_the_confidence_says() {
+        for (share, count) in [(0.94, 107.0), (0.5, 7.0), (0.02, 300.0)] {
+            for end in wilson(share, count, NORMAL) {
+                let away = (share - end).abs() / (end * (1.0 - end) / count).sqrt();
+                assert!((away - NORMAL).abs() < 1e-9, "{share} of {count}: {end}");
+            }
+        }
+        assert!(wilson(1.0, 20.0, NORMAL)[1] == 1.0 && wilson(0.0, 20.0, NORMAL)[0] == 0.0);
+    }
+
+    #[test]
+    fn the_agreement_has_the_interval_of_the_smaller_share() {
+        let found = |whole, kept, seen, added| Some(Found { whole, kept, seen, added });
+        let few = Intervals::new(0.9, found(100, 98, 100, 10), Some(100));
+        assert!(few.agreement == few.right && few.kept != few.right && few.of_few().is_some());
+        let none = Intervals::new(1.0, found(0, 0, 0, 0), Some(0));
+        assert_eq!((none, none.of_few()), (Intervals::default(), None));
+        // Nothing that was found in whole frames is there, and much else.
+        let only = Intervals::new(0.0, found(0, 0, 9, 9), Some(0));
+        assert_eq!((only.kept, only.agreement), (None, only.right));
+        let many = Intervals::new(0.99, None, Some(60_000));
+        assert!(many.agreement.is_some() && many.of_few().is_none());
+        assert_eq!(Intervals::new(0.9, None, None), Intervals::default());
+    }
+}
