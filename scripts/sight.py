@@ -4,10 +4,11 @@
 
     sight.py NETWORKS CLIP... [--frames N] [--only NAME]
 
-NETWORKS holds the trained networks of the table below. Every network runs on every clip, on the whole frames and on what the receiver of each camera
-sees. A clip is a file, or a folder of images with ground-truth boxes in gt.txt. The rows go to standard output.
+NETWORKS holds the trained networks of the table below. Every network runs on every clip, on whole frames, on these with noise, and on what the
+receiver of each camera sees: at least N frames, spread evenly over the whole clip, of which the camera sees all. A clip is a file, or a folder of
+images with ground-truth boxes in gt.txt. The MACs are those of a network that sees every frame, of the first 24. The rows go to standard output.
 
-Needs `foveate` on the path (or its path in FOVEATE).
+Needs `foveate` on the path (or its path in FOVEATE), and ffprobe, of ffmpeg.
 """
 import argparse
 import csv
@@ -48,27 +49,49 @@ CAMERAS = {
     "fovea; level 16": means(2, "--set", "periphery.level=16"),
     "fovea; level 32": means(2, "--set", "periphery.level=32"),
 }
-COLUMNS = ["network", "clip", "camera", "frames", "sent_percent", "psnr_db", "macs_percent", "agreement_percent", "found", "kept_percent",
-           "precision_percent", "objects", "ap50_whole", "ap50_seen"]
+# Standard deviations of the noise in grey levels.
+NOISE = [1, 2, 4]
+# Frames for MACs.
+FIRST = 24
+COLUMNS = ["network", "clip", "camera", "frames", "every", "sent_percent", "psnr_db", "macs_percent", "agreement_percent", "agreement_low",
+           "agreement_high", "found", "kept_percent", "precision_percent", "objects", "ap50_whole", "ap50_seen",
+           *(f"noise{level}_{figure}" for level in NOISE for figure in ["agreement", "kept", "precision"])]
 
 
-def run(network, clip, camera, frames):
+def foveate(network, clip, *more):
     """The summary of a run."""
-    path, (options, detector) = network
-    boxes = ["--boxes", "gt.txt"] if os.path.isdir(clip) and detector == "yolox" else []
-    detect = ["--detect", f"{detector},{PEDESTRIANS}" if boxes else detector] if detector else []
+    path, (options, _) = network
     with tempfile.TemporaryDirectory() as folder:
-        command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"), "--json", "--quiet",
-                   "--whole-frames", "--max-frames", str(frames), *options, *detect, *boxes, *camera]
+        command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"), "--json", "--quiet", *options, *more]
         done = subprocess.run(command, capture_output=True, text=True)
     if done.returncode != 0:
         raise SystemExit(f"sight: {' '.join(command)}: {done.stderr.strip()}")
     return json.loads(done.stdout)
 
 
-def row(network, clip, camera, summary):
+def run(network, clip, camera, every, noise):
+    """The summary of a run beside whole frames."""
+    detector = network[1][1]
+    boxes = ["--boxes", "gt.txt"] if os.path.isdir(clip) and detector == "yolox" else []
+    detect = ["--detect", f"{detector},{PEDESTRIANS}" if boxes else detector] if detector else []
+    return foveate(network, clip, "--whole-frames", "--every", str(every), "--noise", noise, *detect, *boxes, *camera)
+
+
+def length(clip):
+    """Frames of a clip."""
+    if os.path.isdir(clip):
+        return sum(name.endswith((".jpg", ".png")) for name in os.listdir(clip))
+    command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-count_packets"]
+    command += ["-show_entries", "stream=nb_read_packets", "-of", "csv=p=0", clip]
+    done = subprocess.run(command, capture_output=True, text=True)
+    if done.returncode != 0:
+        raise SystemExit(f"sight: {' '.join(command)}: {done.stderr.strip()}")
+    return int(done.stdout.strip().strip(","))
+
+
+def row(network, clip, camera, summary, noise, macs):
     """A row of the table."""
-    sight, macs = summary["sight"], summary["macs"]
+    sight = summary["sight"]
     found, truth = sight["detections"], sight["truth"]
 
     def shown(value, digits=1):
@@ -77,18 +100,23 @@ def row(network, clip, camera, summary):
     def percent(value):
         return shown(100 * value)
 
+    def known(value):
+        return "" if value is None else percent(value)
+
     return dict(zip(COLUMNS, [
-        network, os.path.basename(clip.rstrip("/")).rsplit(".", 1)[0], camera, summary["counted_frames"], shown(100 * sight["sent_share"], 2),
-        shown(sight["picture_psnr"]), percent(macs["needed"] / macs["dense"]), percent(sight["agreement"]),
+        network, os.path.basename(clip.rstrip("/")).rsplit(".", 1)[0], camera, summary["counted_frames"], summary["every"],
+        shown(100 * sight["sent_share"], 2), shown(sight["picture_psnr"]), percent(macs["needed"] / macs["dense"]), percent(sight["agreement"]),
+        *map(known, sight["intervals"]["agreement"] or [None] * 2),
         *([found["all"]["whole"], percent(found["kept_share"]), percent(found["precision"])] if found else [""] * 3),
-        *([truth["objects"], percent(truth["whole_ap50"]), percent(truth["seen_ap50"])] if truth else [""] * 3)], strict=True))
+        *([truth["objects"], percent(truth["whole_ap50"]), percent(truth["seen_ap50"])] if truth else [""] * 3),
+        *(known(level[figure]) for level in noise for figure in ["agreement", "kept_share", "precision"])], strict=True))
 
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("networks")
     parser.add_argument("clips", nargs="+")
-    parser.add_argument("--frames", type=int, default=40)
+    parser.add_argument("--frames", type=int, default=60)
     parser.add_argument("--only", help="a part of the name of a network")
     arguments = parser.parse_args()
     table = csv.DictWriter(sys.stdout, COLUMNS, lineterminator="\n")
@@ -96,10 +124,15 @@ def main():
     for name, options in NETWORKS.items():
         if arguments.only and arguments.only not in name:
             continue
+        network = (os.path.join(arguments.networks, name), options)
         for clip in arguments.clips:
+            every, noise = max(length(clip) // arguments.frames, 1), []
             for camera, settings in CAMERAS.items():
-                summary = run((os.path.join(arguments.networks, name), options), clip, settings, arguments.frames)
-                table.writerow(row(name.rsplit(".", 1)[0], clip, camera, summary))
+                # Whole frames are the same for every camera, with noise, too.
+                summary = run(network, clip, settings, every, "0" if noise else ",".join(map(str, NOISE)))
+                noise = noise or summary["sight"]["noise"]
+                macs = foveate(network, clip, "--max-frames", str(FIRST), *settings)["macs"]
+                table.writerow(row(name.rsplit(".", 1)[0], clip, camera, summary, noise, macs))
                 sys.stdout.flush()
 
 
