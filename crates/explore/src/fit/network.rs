@@ -10,8 +10,8 @@ use std::path::Path;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{
-    Agreement, InferenceError, NOISE_LEVELS, NoiseCeiling, Noisy, Testimony, Viewing, Witness,
-    frames_of,
+    Agreement, InferenceError, Intervals, NOISE_LEVELS, NoiseCeiling, Noisy, Testimony, Viewing,
+    Witness, frames_of, has_places,
 };
 use rayon::prelude::*;
 use serde::Serialize;
@@ -244,7 +244,9 @@ impl<'a> Jury<'a> {
                 }
             }
         }
-        Ok(Agreed::over(&frames[..looked]))
+        let agreed = Agreed::over(&frames[..looked]);
+        let no_interval = agreed.detections.is_none() && has_places(self.witness.network());
+        Ok(if no_interval { Agreed { intervals: Intervals::default(), ..agreed } } else { agreed })
     }
 }
 

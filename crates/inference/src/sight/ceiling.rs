@@ -106,6 +106,6 @@ fn noisy(levels: f64, sums: &Sums) -> Noisy {
         detections,
         kept_share: detections.map(|found| found.kept_share()),
         precision: detections.map(|found| found.precision()),
-        intervals: Intervals::new(agreement, detections, sums.counted()),
+        intervals: Intervals::of(sums),
     }
 }

@@ -4,7 +4,8 @@
 //! E. B. Wilson, Probable Inference, the Law of Succession, and Statistical Inference, Journal of the American Statistical Association 22 (1927),
 //! pages 209 to 212. It takes the things for independent.
 
-use foveate_network::sight::Found;
+use foveate_network::Network;
+use foveate_network::sight::{Found, Sums};
 use serde::Serialize;
 
 /// 95 % of all values of a normal variable are at most so many standard deviations away.
@@ -15,7 +16,7 @@ const FEW: f64 = 0.02;
 /// Intervals that hold the shares of all such things with 95 % confidence, if these are independent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Intervals {
-    /// Of the agreement; nothing where it is an error that counts, or nothing was found.
+    /// Of the agreement; nothing where it is an error that counts, or a class at every place, or nothing was found.
     pub agreement: Option<[f64; 2]>,
     /// Of the share of detections that are kept, if there are any.
     pub kept: Option<[f64; 2]>,
@@ -24,6 +25,12 @@ pub struct Intervals {
 }
 
 impl Intervals {
+    /// Those of sums over frames. Places of a frame have none: neighbors are so alike that their number says nothing of other frames.
+    pub(super) fn of(sums: &Sums) -> Self {
+        let counted = if sums.places().is_some() { None } else { sums.counted() };
+        Self::new(sums.agreement(), sums.found(), counted)
+    }
+
     /// Those of an agreement over so many things, which are detections if any were read.
     #[must_use]
     pub fn new(agreement: f64, found: Option<Found>, counted: Option<u64>) -> Self {
@@ -44,6 +51,13 @@ impl Intervals {
     pub fn of_few(&self) -> Option<[f64; 2]> {
         self.agreement.filter(|[low, high]| high - low > FEW)
     }
+}
+
+/// Whether a network has outputs with a class at every place.
+#[must_use]
+pub fn has_places(network: &Network) -> bool {
+    let is_map = |shape: &[usize]| matches!(*shape, [1, classes, height, width] if classes > 1 && height * width > 1);
+    network.outputs().iter().any(|&value| is_map(network.form(value).shape()))
 }
 
 /// Wilson's score interval of a share of `count` things, above 0, that reaches `deviations` standard deviations to both sides.

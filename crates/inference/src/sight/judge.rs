@@ -164,11 +164,7 @@ impl<'a> Judge<'a> {
         let seconds = self.seconds / self.sums.frames.max(1) as f64;
         Sight {
             agreement: self.sums.agreement(),
-            intervals: Intervals::new(
-                self.sums.agreement(),
-                self.sums.found(),
-                self.sums.counted(),
-            ),
+            intervals: Intervals::of(&self.sums),
             noise: self.noise.found(),
             relative_rms: self.sums.distance.relative(),
             classes: self.sums.classes(),

@@ -143,6 +143,19 @@ fn detections_are_lost_under_noise() {
     assert!(few > 2.0 * many, "{few} and {many}");
 }
 
+/// Without a detector the outputs are a class at every place, and places are too alike to say anything of other frames.
+#[test]
+fn places_have_no_interval() {
+    let dir = tempfile::tempdir().unwrap();
+    let network = bright_squares(dir.path());
+    let run = Run { network: Some(&network), noise: &[40.0], sight: true, ..Run::default() };
+    let sight = run.write(dir.path()).unwrap().sight.unwrap();
+    assert!(sight.same_places.is_some_and(|share| share == sight.agreement));
+    for intervals in [sight.intervals, sight.noise[0].intervals] {
+        assert_eq!(intervals, foveate_inference::Intervals::default());
+    }
+}
+
 /// Ground truth is what the network finds in whole frames, so that its precision there is 1.
 #[test]
 fn precision_is_against_ground_truth() {
