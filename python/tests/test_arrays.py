@@ -249,11 +249,11 @@ def test_what_dlpack_gives_is_a_frame():
 
     pixels = np.random.default_rng(3).integers(0, 256, (20, 30), np.uint8)
     expected = fv.Camera().step(pixels)
-    for given in (Exchanged(pixels), torch.from_numpy(pixels), memoryview(pixels)):
-        assert equal(fv.Camera().step(given), expected)
+    for value in (Exchanged(pixels), torch.from_numpy(pixels), memoryview(pixels)):
+        assert equal(fv.Camera().step(value), expected)
     colour = np.stack([pixels, pixels, pixels], axis=2)
-    for given in (Exchanged(colour), torch.from_numpy(colour)):
-        assert np.array_equal(fv.luma(given), fv.luma(colour))
+    for value in (Exchanged(colour), torch.from_numpy(colour)):
+        assert np.array_equal(fv.luma(value), fv.luma(colour))
     with pytest.raises(TypeError, match=r"in the memory of the processor; this Exchanged lies on another device \(DLPack device type 2\).*cpu\(\)"):
         fv.Camera().step(Exchanged(pixels, (2, 0)))
     with pytest.raises(TypeError, match="not float32; .* from 0 to 1, "):

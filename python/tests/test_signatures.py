@@ -78,8 +78,8 @@ def stub():
             owner = f"{node.name}." if isinstance(node, ast.ClassDef) else ""
             name = owner[:-1] if one.name == "__new__" else owner + one.name
             given = [*one.args.posonlyargs, *one.args.args]
-            defaults = dict(zip([arg.arg for arg in given[::-1]], one.args.defaults[::-1]))
-            defaults |= {arg.arg: value for arg, value in zip(one.args.kwonlyargs, one.args.kw_defaults) if value is not None}
+            defaults = dict(zip([arg.arg for arg in given[::-1]], one.args.defaults[::-1], strict=False))
+            defaults |= {arg.arg: value for arg, value in zip(one.args.kwonlyargs, one.args.kw_defaults, strict=True) if value is not None}
             names = [arg.arg for arg in [*given, *one.args.kwonlyargs] if arg.arg not in ("self", "cls")]
             found[name] = {name: ast.unparse(defaults[name]) if name in defaults else "" for name in names}
     return found

@@ -57,6 +57,12 @@ def network(_bench, _folder, path):
     return ["infer", path, "scene:street", *CLIP, "--framing", "stretch", "-o", "out", "--quiet"]
 
 
+def array(_bench, folder, path):
+    """The denoiser takes pictures of any size."""
+    shutil.copy(SOURCES / "networks/denoiser.onnx", folder / "denoiser.onnx")
+    return ["infer", folder / "denoiser.onnx", path, "-o", "out", "--quiet"]
+
+
 def accelerator(_bench, _folder, path):
     return ["infer", NETWORK, "scene:street", *CLIP, "--framing", "stretch", "--accelerator", path, "-o", "out", "--quiet"]
 
@@ -106,6 +112,12 @@ def verilog(_bench, folder, path):
 def pgm(offset=0):
     pixels = bytes((x * 5 + y * 3 + offset) % 256 for y in range(HEIGHT) for x in range(WIDTH))
     return b"P5\n%d %d\n255\n" % (WIDTH, HEIGHT) + pixels
+
+
+def npy():
+    words = f"{{'descr': '<f4', 'fortran_order': False, 'shape': (1, 1, {HEIGHT}, {WIDTH}), }}"
+    words = f"{words:<117}\n".encode()
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(words)) + words + bytes(4 * WIDTH * HEIGHT)
 
 
 def idx_images(count=5, side=28):
@@ -212,6 +224,7 @@ READERS = [
     Reader("events", "events.csv", sensor, just(events()), is_text=True),
     Reader("events-packed", "events.csv.gz", sensor, just(gzip.compress(events(), mtime=0))),
     Reader("onnx", "network.onnx", network, text_of("crates/network/tests/network/golden/lenet.onnx")),
+    Reader("npy", "picture.npy", array, just(npy())),
     Reader("packets", "packets.bin", decode, packets("scores")),
     Reader("packets-stream", "packets.bin", decode_stream, packets("plain"), is_piped=True),
     Reader("measurement", "measured.json", explored, measured, is_text=True),
