@@ -57,7 +57,7 @@ def only_operator(model):
 
 
 def run(case, folder):
-    """What comes of a test, and why."""
+    """The outcome of a test, and the reason."""
     (folder / "model.onnx").write_bytes(case.model.SerializeToString())
     inputs, wanted = case.data_sets[0]
     words = [FOVEATE, "infer", "model.onnx"]
@@ -99,7 +99,7 @@ def compare(case, wanted, folder):
 
 
 def run_light(path, folder):
-    """How far the outputs of a light network are from those beside it, as a share of the largest value."""
+    """The largest difference between the outputs of a light network and those beside it, as a share of the largest value."""
     graph = onnx.load(path).graph
     constants = {constant.name for constant in graph.initializer}
     (picture,) = [value for value in graph.input if value.name not in constants]

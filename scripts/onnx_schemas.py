@@ -33,7 +33,7 @@ def supported():
 
 
 def count(least, most):
-    """How many inputs or outputs there are."""
+    """The number of inputs or outputs, as the file has it."""
     return f"{least}.." if most > 1 << 30 else f"{least}..{most}"
 
 

@@ -77,7 +77,7 @@ class Inference:
 
     @property
     def summary(self) -> dict[str, Any]:
-        """What ``inference.json`` says, as a dict."""
+        """The content of ``inference.json`` as a dict."""
         return self._summary
 
     @property

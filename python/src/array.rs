@@ -87,7 +87,7 @@ fn refuse_devices(value: &Bound<'_, PyAny>, right: &str) -> PyResult<()> {
     )))
 }
 
-/// How an array becomes one of pixels of so many bits, by its type and by the values that it has.
+/// The conversion of an array to pixels of so many bits, by its type and by the values that it has.
 pub(crate) fn conversion(array: &Bound<'_, PyUntypedArray>, bits: u32) -> PyResult<String> {
     let dtype = array.dtype();
     let (largest, pixels) = ((1u32 << bits) - 1, if bits > 8 { "uint16" } else { "uint8" });
@@ -96,7 +96,7 @@ pub(crate) fn conversion(array: &Bound<'_, PyUntypedArray>, bits: u32) -> PyResu
             let scaled = format!("frame.astype(\"{pixels}\") * {largest}");
             return Ok(format!("; for black and white, {scaled}"));
         }
-        // Of another order of bytes.
+        // An array of another order of bytes.
         b'u' if dtype.itemsize() == 2 => {
             return Ok("; convert it, for example with frame.astype(\"uint16\")".to_owned());
         }

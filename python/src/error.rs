@@ -58,7 +58,7 @@ pub(crate) fn os_error(source: &io::Error, message: String) -> PyErr {
     }
 }
 
-/// What is wrong with a value, or, where an error of the operating system lies behind it, the exception of its kind.
+/// A ValueError about a value, or, where an error of the operating system lies behind it, the exception of its kind.
 fn behind(error: &(dyn Error + 'static)) -> PyErr {
     let mut cause = Some(error);
     while let Some(own) = cause {

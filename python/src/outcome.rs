@@ -205,7 +205,7 @@ impl Outcome {
         self.once(py, &self.active, self.taken.result.active.iter().copied())
     }
 
-    /// What becomes of a region on the screen, an index into `foveate.ACTIONS`: array of uint8, shape (rows, columns).
+    /// The action of each region on the screen, an index into `foveate.ACTIONS`: array of uint8, shape (rows, columns).
     #[getter]
     fn action(&self, py: Python<'_>) -> Py<PyArray2<u8>> {
         self.once(py, &self.action, self.taken.result.actions.iter().map(|&action| code(action)))
@@ -241,7 +241,7 @@ impl Outcome {
         self.frame.as_ref().map(|frame| frame.0.clone_ref(py))
     }
 
-    /// What the receiver's screen shows: array of uint8 or uint16, shape (height, width). Read it before the next step, unless it was kept.
+    /// The picture on the receiver's screen: array of uint8 or uint16, shape (height, width). Read it before the next step, unless it was kept.
     #[getter]
     fn rendered(&self, py: Python<'_>) -> PyResult<Py<PyUntypedArray>> {
         let read = || {

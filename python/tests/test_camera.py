@@ -155,7 +155,7 @@ def test_times_never_go_back(frames):
     camera.step(frames[0], time_us=1_000)
     with pytest.raises(ValueError, match="time_us = 999 is before the time of the frame before, 1000; times never go back"):
         camera.step(frames[1], time_us=999)
-    # What is refused changes nothing.
+    # A refused frame changes nothing.
     assert camera.frames == 1
     assert camera.step(frames[1]).time_us == 34_333
     camera.reset()

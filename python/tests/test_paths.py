@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What is no file, a folder, or not to be read raises what Python raises, wherever a path is given."""
+"""A path that is no file, a folder, or not to be read raises the exception of Python, wherever a path is given."""
 from pathlib import Path
 
 import numpy as np

@@ -25,7 +25,7 @@ def classes():
 
 
 def made():
-    """Those that users make themselves."""
+    """The classes that users make themselves."""
     return {name: classes()[name] for name in ("Camera", "Design", "Registers")}
 
 
@@ -58,7 +58,7 @@ def test_a_docstring_has_the_parameters_of_the_signature(name):
     text = inspect.getdoc(callables()[name])
     assert text, name
     if "Parameters\n----------" not in text:
-        # What it does is said where it is a function.
+        # The function of this name has the docstring.
         assert len(parameters(callables()[name])) < 1 or "see `foveate." in text or name in BY_NAME | {"Registers.clear", "Inference.table"}, name
         return
     section = text.split("Parameters\n----------\n")[1]

@@ -24,7 +24,7 @@ def settled(line):
 
 
 def agreed(part, printed):
-    """How many lines of a part are those that are printed."""
+    """The number of lines of a part that are printed."""
     both = zip(part, printed, strict=False)
     return next((number for number, (one, other) in enumerate(both) if one != other), min(len(part), len(printed)))
 

@@ -24,7 +24,7 @@ class LeftOut:
 
 @dataclasses.dataclass
 class Count:
-    """What was done of a page."""
+    """The counts of a page that has run."""
 
     commands: int = 0
     outputs: int = 0

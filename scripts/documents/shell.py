@@ -8,7 +8,7 @@ import signal
 import subprocess
 import tempfile
 
-# Those that run, to be ended with what they have started.
+# Shells that run, to be ended with all that they have started.
 RUNNING = set()
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""That scripts/snippets.py notices a page that cannot be pasted or shows something else, and names page and line."""
+"""Tests that scripts/snippets.py notices a page that cannot be pasted or shows something else, and names page and line."""
 import os
 import pathlib
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""That scripts/release.sh lets every test take its lists whole, and chooses none by a name."""
+"""Tests that scripts/release.sh lets every test take its lists whole, and chooses none by a name."""
 import pathlib
 import re
 import shlex
@@ -10,7 +10,7 @@ ALLOWED = ["--workspace", "--locked", "--", "--include-ignored"]
 
 
 def chosen(text):
-    """What stands in calls of `cargo test` with FOVEATE_WHOLE and chooses some of the tests; none if there is no such call."""
+    """Words in calls of `cargo test` with FOVEATE_WHOLE that choose some of the tests; none if there is no such call."""
     calls = re.findall(r"(?m)^[^#\n]*FOVEATE_WHOLE=1 cargo test(.*)$", text)
     words = [[word for word in shlex.split(call) if word not in ALLOWED] for call in calls]
     return words if calls else None

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a network keeps, in words that several commands print.
+//! The words in which several commands print how much a network keeps.
 
-use foveate_inference::{Intervals, Noisy};
+use foveate_inference::{Intervals, NoiseAgreement};
 
 /// The interval of an agreement over few things, as what follows it.
 pub(crate) fn confidence(intervals: &Intervals) -> String {
@@ -17,8 +17,8 @@ pub(crate) fn grey_levels(levels: f64) -> String {
     format!("{levels} {unit}")
 }
 
-/// What is kept under noise.
-pub(crate) fn noisy_shares(noisy: &Noisy) -> String {
+/// The lines about the agreement under noise.
+pub(crate) fn noisy_shares(noisy: &NoiseAgreement) -> String {
     let detections = noisy.kept_share.zip(noisy.precision).map_or_else(
         || format!("; relative RMS error of the outputs {:.2e}", noisy.relative_rms),
         |(kept, right)| format!("; {:.1} % kept, {:.1} % right", 100.0 * kept, 100.0 * right),

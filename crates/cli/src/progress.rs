@@ -19,13 +19,13 @@ use lines::Lines;
 use stage::{Amount, Counted, Stage, locked};
 use words::drawn;
 
-/// What has no length.
+/// A line for a source without a known length.
 const OPEN: &str = "{spinner} {told}";
-/// What has one.
+/// A line for a source of known length.
 const BAR: &str = "{told} {wide_bar}";
 /// Columns where nobody knows how many there are.
 const COLUMNS: usize = 80;
-/// How often the time that has passed is drawn anew.
+/// Time between two drawings of the time that has passed.
 const TICK: Duration = Duration::from_millis(120);
 
 /// What a command is about. Nothing is shown before it says so, nothing when quiet, and nothing remains on

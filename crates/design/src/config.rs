@@ -87,7 +87,7 @@ pub struct HardwareConfig {
     pub organization: Organization,
     /// Regions per lane K of the serial organization, 1..=M; 1 for `pipelined`.
     pub fold: u32,
-    /// How pixels enter the serial organization; left out it is `parallel`. Only a serial design has
+    /// The way in which pixels enter the serial organization; left out it is `parallel`. Only a serial design has
     /// it, and others refuse it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feed: Option<Feed>,

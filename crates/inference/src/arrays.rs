@@ -31,7 +31,7 @@ pub struct ArraySummary {
 /// An array and its file.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArrayFile {
-    /// What the model calls an output; nothing of an input.
+    /// The name of an output in the model; none for an input.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Type of a value, as NumPy calls it.

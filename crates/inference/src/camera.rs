@@ -21,7 +21,7 @@ pub(crate) struct Camera {
     original: Option<KeptOriginal>,
     /// Frames so far.
     frames: u64,
-    /// What became of those that the network has not seen, up to the next one that it sees.
+    /// The outcome of the frames that the network has not seen, up to the next one that it sees.
     passed: Passed,
 }
 
@@ -32,7 +32,7 @@ pub(crate) struct Sent {
     pub(crate) values: u64,
 }
 
-/// What a camera has done.
+/// The outcome of a frame in the camera.
 #[derive(Clone, Copy, Debug, Default)]
 struct Passed {
     sent: Sent,

@@ -17,7 +17,7 @@ pub struct CheckedNetwork {
     pub nodes: usize,
     /// A sentence for every node that cannot be run; none if the network can.
     pub problems: Vec<String>,
-    /// What there is to say of a network that can be run.
+    /// Facts about the network, if it can be run.
     pub network: Option<NetworkFacts>,
 }
 
@@ -30,7 +30,7 @@ pub struct NetworkFacts {
     pub layout: &'static str,
     /// Names and shapes of the outputs.
     pub outputs: Vec<(String, Vec<usize>)>,
-    /// How many nodes have each operator, after those that do the work of several have taken it over.
+    /// Nodes of each operator, after operators that do the work of several nodes have taken it over.
     pub operators: BTreeMap<String, usize>,
     /// Multiplications and additions for a frame.
     pub macs: u64,

@@ -49,6 +49,8 @@ pub use foveate_network::sight::{
 pub use inference::{Computed, INFERENCE, Inference, Options};
 pub use macs::Macs;
 pub use recording::{Record, Recorded};
-pub use sight::{Intervals, NOISE_LEVELS, NoiseCeiling, Noisy, Sight, Truth, has_places, wilson};
+pub use sight::{
+    Intervals, NOISE_LEVELS, NoiseAgreement, NoiseCeiling, Sight, Truth, has_places, wilson,
+};
 pub use summary::{Clip, Error, Layer, Outputs, Summary, Tried, Tuning};
 pub use traffic::FrameTraffic;

@@ -33,7 +33,7 @@ pub enum NetworkError {
         node: String,
         /// The operator with its domain.
         operator: String,
-        /// What can be done, behind a semicolon; nothing where that has been said.
+        /// Advice behind a semicolon; empty where it has been given.
         advice: &'static str,
     },
     /// A node is not valid, or uses its operator in a way that is not supported.

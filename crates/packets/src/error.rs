@@ -74,11 +74,11 @@ pub enum PacketError {
     Count {
         /// The type of the packet.
         packet: &'static str,
-        /// What it carries.
+        /// The quantity in the field.
         what: &'static str,
-        /// How much it was given.
+        /// The value that was given.
         found: usize,
-        /// How much it carries.
+        /// The largest value of the field.
         right: usize,
     },
 }

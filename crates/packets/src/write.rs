@@ -146,7 +146,7 @@ pub fn register(out: &mut Vec<u8>, register: Register) {
     packet(out, head, REGISTER_WORDS, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
 }
 
-/// What the first word of a packet says beside its length.
+/// The fields of a packet's first word beside its length.
 #[derive(Clone, Copy)]
 struct Head {
     kind: u8,
@@ -156,7 +156,7 @@ struct Head {
 }
 
 impl Head {
-    /// That of a packet about a row of regions.
+    /// The fields of a packet about a row of regions.
     fn of_row(kind: u8, layout: &Layout, row: u32) -> Result<Self, PacketError> {
         let row = below("row", row, layout.rows())?;
         Ok(Self { kind, flags: 0, row, column: layout.info().columns })

@@ -8,7 +8,7 @@ use foveate_explore::{
     Agreed, ExploreError, Figures, Fit, FitRequest, FittedDesign, FittedNetwork, Held, fit,
 };
 use foveate_footage::ImagesAs;
-use foveate_inference::Noisy;
+use foveate_inference::NoiseAgreement;
 use foveate_staging::{check_file, write_file};
 
 use super::explore::Terminal;
@@ -189,7 +189,7 @@ fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
         let interval = confidence(&agreed.intervals);
         format!("{model} ({name}, {frames} frames): agreement {share:.1} %{interval}{found}{bytes}")
     };
-    let noisy = |noisy: &Noisy| {
+    let noisy = |noisy: &NoiseAgreement| {
         let (model, level) = (&network.network, grey_levels(noisy.levels));
         let (frames, shares) = (noisy.frames, noisy_shares(noisy));
         format!(

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a command is about, how much of it is done, since when, and at which rate: how long the rest takes.
+//! A stage of a command: its task, how much of it is done, since when, at which rate, and how long the rest takes.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
@@ -9,7 +9,7 @@ const PACE_AFTER: Duration = Duration::from_secs(2);
 /// A longer time is told as more than this: no run that is meant takes it.
 pub(super) const LONGEST: Duration = Duration::from_secs(7 * 24 * 3600);
 
-/// What is counted.
+/// The things that a stage counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Counted {
     /// Nothing: one run of a tool.
@@ -20,7 +20,7 @@ pub(super) enum Counted {
     Frames,
 }
 
-/// How much is done, of how much if that is known.
+/// The count that is done, and the total if it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Amount {
     pub(super) done: u64,
@@ -72,14 +72,14 @@ impl Stage {
         what.clone_into(&mut self.what);
     }
 
-    /// What was done since the stage began, and how long that took; nothing before it says anything of a pace.
+    /// The count since the stage began, and the time that it took; nothing until a pace can be told from them.
     fn pace(&self, now: Instant) -> Option<(u64, Duration)> {
         let elapsed = now.saturating_duration_since(self.began);
         let fresh = self.amount.done.saturating_sub(self.first);
         (fresh > 0 && elapsed >= PACE_AFTER).then_some((fresh, elapsed))
     }
 
-    /// How many a second, since the stage began.
+    /// The count per second since the stage began.
     pub(super) fn rate(&self, now: Instant) -> Option<f64> {
         let (fresh, elapsed) = self.pace(now)?;
         #[allow(clippy::cast_precision_loss, reason = "three digits of it are told")]
@@ -165,7 +165,7 @@ mod tests {
     fn a_rate_is_what_was_done_in_the_time_that_it_took() {
         let start = Instant::now();
         let mut stage = Stage::new(start);
-        // What was done before is not counted, and a length that is found out begins anew.
+        // A count from before the stage is left out, and a length that becomes known begins a new stage.
         stage.enter(Frames, "", Amount::new(100, None), start);
         stage.enter(Frames, "", Amount::new(149, None), start + 5 * SECOND);
         assert_eq!(stage.rate(start + 5 * SECOND), Some(9.8));

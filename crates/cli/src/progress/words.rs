@@ -8,7 +8,7 @@ use textwrap::core::display_width;
 
 use super::stage::{Amount, Counted, Left, Stage};
 
-/// What goes on, for a log; nothing before the command has said so. `start` is when the command began.
+/// The state of a command for a log; nothing until the command has reported one. `start` is when the command began.
 pub(super) fn logged(stage: &Stage, start: Instant, now: Instant) -> Option<String> {
     let (counted, what) = (stage.counted?, &stage.what);
     let Amount { done, all } = stage.amount;
@@ -28,7 +28,7 @@ pub(super) fn logged(stage: &Stage, start: Instant, now: Instant) -> Option<Stri
     })
 }
 
-/// What goes on, in at most so many columns of a terminal: the count always, and then what is left, the rate, the time that
+/// The state of a command in at most so many columns of a terminal: the count always, and then what is left, the rate, the time that
 /// it took and the note, as there is room.
 pub(super) fn drawn(stage: &Stage, elapsed: Duration, now: Instant, columns: usize) -> String {
     let Some(counted) = stage.counted else { return String::new() };
@@ -88,7 +88,7 @@ fn rate_of(rate: f64, counted: Counted) -> String {
         rate if rate * 60.0 >= 1.0 => (rate * 60.0, "min"),
         rate => (rate * 3600.0, "h"),
     };
-    // Of 9.96 there are 10, not 10.0.
+    // 9.96 is shown as 10, not as 10.0.
     if count < 9.95 {
         return format!("{count:.1}{unit}/{time}");
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What noise on whole frames costs a network, end to end: of `infer` and of `fit`; and a network that sees one of several frames.
+//! The cost of noise on whole frames for a network, end to end with `infer` and `fit`, and a network that sees one of several frames.
 
 use std::fs;
 use std::path::Path;

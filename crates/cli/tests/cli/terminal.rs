@@ -110,7 +110,7 @@ fn no_line_is_wider_than_the_terminal() {
 
 #[test]
 fn nothing_is_shown_of_nothing() {
-    // What has a length says so from the first line on: never 0 of 0.
+    // A source of known length shows it from the first line on, never 0 of 0.
     let scene: &[&str] = &["simulate", "scene:street", "-o", "out", "--max-frames", "40"];
     for arguments in [scene, STREAM] {
         let lines = drawn(80, arguments, |input| {

@@ -44,7 +44,7 @@ impl Takes for Pipelined {
     }
 
     fn validate(asked: &HardwareConfig, _: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused before, or were asked for.
+        // Values without a name are refused before, or were asked for.
         let &HardwareConfig {
             pipelining,
             fold: _,

@@ -63,7 +63,7 @@ impl Takes for Raster {
     }
 
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused before, or were asked for.
+        // Values without a name are refused before, or were asked for.
         let &HardwareConfig {
             pixels_per_clock,
             pipelining,

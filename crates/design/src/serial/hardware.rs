@@ -53,7 +53,7 @@ impl Takes for Serial {
     }
 
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Those without a name are refused before, or were asked for.
+        // Values without a name are refused before, or were asked for.
         let &HardwareConfig {
             fold,
             feed,

@@ -14,7 +14,7 @@ struct Row<'a> {
     key: &'a str,
     values: &'a str,
     meaning: &'a str,
-    /// What stands between the heading and the table.
+    /// The text between the heading and the table.
     section: &'a str,
 }
 
@@ -73,7 +73,7 @@ fn others(owner: &str) -> Vec<String> {
     names.iter().map(|name| format!("{key}=\"{name}\"")).collect()
 }
 
-/// What becomes of a small design with these keys.
+/// The result of reading a small design with these keys.
 fn made(keys: &[&str]) -> Result<(), String> {
     let base = "[frame]\nwidth = 64\nheight = 64\n[[spatial]]\nfeature = \"edge\"\n";
     let config = Config::from_toml_with(base, keys).map_err(|error| error.to_string())?;

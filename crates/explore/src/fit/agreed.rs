@@ -25,7 +25,7 @@ pub struct Agreed {
     pub at_most: bool,
     /// Detections, if they are read.
     pub detections: Option<Found>,
-    /// How far the agreement and the shares of detections say something of other frames.
+    /// Intervals in which the agreement and the shares of detections lie for other frames of this kind.
     pub intervals: Intervals,
 }
 

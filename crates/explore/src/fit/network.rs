@@ -10,8 +10,8 @@ use std::path::Path;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{
-    Agreement, InferenceError, Intervals, NOISE_LEVELS, NoiseCeiling, Noisy, Testimony, Viewing,
-    Witness, frames_of, has_places,
+    Agreement, InferenceError, Intervals, NOISE_LEVELS, NoiseAgreement, NoiseCeiling, Testimony,
+    Viewing, Witness, frames_of, has_places,
 };
 use rayon::prelude::*;
 use serde::Serialize;
@@ -67,8 +67,8 @@ pub struct FittedNetwork {
     pub confirmed: Agreed,
     /// On the second half, which influenced no choice.
     pub held_out: Agreed,
-    /// What it keeps of the whole frames of the second half under noise, level by level.
-    pub noise: Vec<Noisy>,
+    /// The agreement with whole frames of the second half under noise, level by level.
+    pub noise: Vec<NoiseAgreement>,
     /// Bytes of a whole frame.
     pub bytes_per_whole_frame: f64,
 }

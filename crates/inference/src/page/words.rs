@@ -2,7 +2,7 @@
 //! What was run and what came out, in sentences.
 
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
-use crate::{Intervals, Mapping, Noisy, Sight, Summary, Tuning};
+use crate::{Intervals, Mapping, NoiseAgreement, Sight, Summary, Tuning};
 use foveate_design::Design;
 use foveate_pictures::page::number::{grouped, things};
 use std::path::Path;
@@ -51,7 +51,7 @@ pub(super) fn run(summary: &Summary, design: &Design) -> String {
     )
 }
 
-/// Of how many frames of the camera the network saw one, unless it saw all.
+/// The number of camera frames for each one that the network saw, unless it saw all.
 fn every(summary: &Summary) -> String {
     let every = summary.every.get();
     if every == 1 { String::new() } else { format!(", one of {every},") }
@@ -306,11 +306,12 @@ fn sighted(summary: &Summary) -> Vec<String> {
     found
 }
 
-/// What the network keeps of whole frames under noise, beside what it keeps behind the camera.
+/// The agreement with whole frames under noise, beside that behind the camera.
 fn noisy(sight: &Sight) -> Option<String> {
     let frames = sight.noise.first()?.frames;
-    let all =
-        |of: &dyn Fn(&Noisy) -> String| sight.noise.iter().map(of).collect::<Vec<_>>().join(", ");
+    let all = |of: &dyn Fn(&NoiseAgreement) -> String| {
+        sight.noise.iter().map(of).collect::<Vec<_>>().join(", ")
+    };
     let agreement = |agreement: f64, intervals: &Intervals| {
         let interval = intervals.of_few().map(|ends| ends.map(share).join(" to "));
         share(agreement) + &interval.map_or_else(String::new, |ends| format!(" ({ends})"))

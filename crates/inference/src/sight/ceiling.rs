@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a network keeps of whole frames that have noise on them: more than that no camera can be asked for.
+//! The agreement of a network with itself when whole frames have noise on them: no camera can be asked for more.
 
 use super::interval::Intervals;
 use super::noise::GaussianNoise;
@@ -11,9 +11,9 @@ pub const NOISE_LEVELS: [f64; 3] = [1.0, 2.0, 4.0];
 /// The most frames that noise is put on, which bounds what it costs.
 const MOST: usize = 48;
 
-/// What the network says of whole frames with noise beside what it says of the same without.
+/// The findings of the network on whole frames with noise, compared with those on the same frames without.
 #[derive(Clone, Debug, Serialize)]
-pub struct Noisy {
+pub struct NoiseAgreement {
     /// Standard deviation of the noise, in grey levels of 8 bits.
     pub levels: f64,
     /// Frames that were looked at, spread evenly.
@@ -28,7 +28,7 @@ pub struct Noisy {
     pub kept_share: Option<f64>,
     /// Share of the detections under noise that are in whole frames, too.
     pub precision: Option<f64>,
-    /// How far these shares say something of other frames.
+    /// Intervals in which these shares lie for other frames of this kind.
     pub intervals: Intervals,
 }
 
@@ -81,9 +81,9 @@ impl NoiseCeiling {
         }
     }
 
-    /// What came out, level by level; nothing of no frame.
+    /// The results, level by level; none if no frame was looked at.
     #[must_use]
-    pub fn found(&self) -> Vec<Noisy> {
+    pub fn found(&self) -> Vec<NoiseAgreement> {
         let level = |(at, &(levels, _)): (usize, &(f64, GaussianNoise))| {
             let mut all = Sums::default();
             self.looked.iter().for_each(|(_, sums)| all.add(&sums[at]));
@@ -96,9 +96,9 @@ impl NoiseCeiling {
     }
 }
 
-fn noisy(levels: f64, sums: &Sums) -> Noisy {
+fn noisy(levels: f64, sums: &Sums) -> NoiseAgreement {
     let (agreement, detections) = (sums.agreement(), sums.found());
-    Noisy {
+    NoiseAgreement {
         levels,
         frames: sums.frames,
         agreement,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a share of few things says of the share of all: Wilson's score interval.
+//! An interval for the share of all things, from the share of a few: Wilson's score interval.
 //!
 //! E. B. Wilson, Probable Inference, the Law of Succession, and Statistical Inference, Journal of the American Statistical Association 22 (1927),
 //! pages 209 to 212. It takes the things for independent.
@@ -16,22 +16,22 @@ const FEW: f64 = 0.02;
 /// Intervals that hold the shares of all such things with 95 % confidence, if these are independent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Intervals {
-    /// Of the agreement; nothing where it is an error that counts, or a class at every place, or nothing was found.
+    /// The interval of the agreement; none where the agreement is an error or a class at every place, or nothing was found.
     pub agreement: Option<[f64; 2]>,
-    /// Of the share of detections that are kept, if there are any.
+    /// The interval of the share of detections that are kept, if there are any.
     pub kept: Option<[f64; 2]>,
-    /// Of the share of detections that are right, if there are any.
+    /// The interval of the share of detections that are right, if there are any.
     pub right: Option<[f64; 2]>,
 }
 
 impl Intervals {
-    /// Those of sums over frames. Places of a frame have none: neighbors are so alike that their number says nothing of other frames.
+    /// The intervals of sums over frames. Places of a frame have none: neighbors are so alike that their number says nothing of other frames.
     pub(super) fn of(sums: &Sums) -> Self {
         let counted = if sums.places().is_some() { None } else { sums.counted() };
         Self::new(sums.agreement(), sums.found(), counted)
     }
 
-    /// Those of an agreement over so many things, which are detections if any were read.
+    /// The intervals of an agreement over so many things, which are detections if any were read.
     #[must_use]
     pub fn new(agreement: f64, found: Option<Found>, counted: Option<u64>) -> Self {
         let interval = |share, count| (count > 0).then(|| wilson(share, real(count), NORMAL));
@@ -41,7 +41,7 @@ impl Intervals {
         };
         let kept = interval(found.kept_share(), found.whole);
         let right = interval(found.precision(), found.seen);
-        // That of the smaller share.
+        // The interval of the smaller share.
         let is_kept = found.kept_share() <= found.precision();
         Self { agreement: if is_kept { kept.or(right) } else { right.or(kept) }, kept, right }
     }

@@ -10,7 +10,7 @@ mod precision;
 mod shots;
 mod summary;
 
-pub use ceiling::{NOISE_LEVELS, NoiseCeiling, Noisy};
+pub use ceiling::{NOISE_LEVELS, NoiseAgreement, NoiseCeiling};
 pub use interval::{Intervals, has_places, wilson};
 pub(crate) use judge::{Detected, DetectionRow, Judge, SightFrame};
 pub(crate) use shots::{Shot, Shots};

@@ -17,7 +17,7 @@ const LARGEST_OF_8_BITS: f64 = 255.0;
 /// Noise of one standard deviation on frames of one depth.
 #[derive(Clone, Debug)]
 pub(super) struct GaussianNoise {
-    /// How far down a pixel may go.
+    /// The largest step down of a pixel.
     down: i64,
     /// Which draws are still those of a step, for every step but the last, from the one that goes furthest down.
     ends: Vec<u32>,

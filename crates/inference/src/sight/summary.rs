@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! What a network loses behind the camera, and what the camera sends for it.
 
-use super::ceiling::Noisy;
+use super::ceiling::NoiseAgreement;
 use super::interval::Intervals;
 use crate::camera::Sent;
 use foveate_design::Camera;
@@ -14,10 +14,10 @@ pub struct Sight {
     /// The agreement in one number, 0 to 1. Of detections the smaller of the share that is kept and the share that is right; else the share of
     /// frames, or of places, with the same class; else what the relative RMS error leaves of 1.
     pub agreement: f64,
-    /// How far the agreement and the shares of detections say something of other frames.
+    /// Intervals in which the agreement and the shares of detections lie for other frames of this kind.
     pub intervals: Intervals,
-    /// What the network keeps of whole frames under noise, level by level: no camera can be asked for more.
-    pub noise: Vec<Noisy>,
+    /// The agreement with whole frames under noise, level by level: no camera can be asked for more.
+    pub noise: Vec<NoiseAgreement>,
     /// Root of the mean squared difference of the outputs, as a share of that of their values.
     pub relative_rms: f64,
     /// Of outputs that are one class, unless detections are read.

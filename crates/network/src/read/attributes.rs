@@ -27,7 +27,7 @@ impl<'a> Attributes<'a> {
         Some(&self.node.attribute[at])
     }
 
-    /// Those that nobody has looked at.
+    /// The attributes that nobody has looked at.
     pub(super) fn not_read(&self) -> impl Iterator<Item = &'a AttributeProto> {
         let read = self.read.borrow().clone();
         self.node.attribute.iter().zip(read).filter(|(_, read)| !read).map(|(own, _)| own)

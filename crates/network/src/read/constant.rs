@@ -149,7 +149,7 @@ impl Constant {
         })
     }
 
-    /// How tensors store its values, if they can.
+    /// The type in which tensors store its values, if there is one.
     pub(super) fn element(&self) -> Option<Element> {
         element(self.kind)
     }

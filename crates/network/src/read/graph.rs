@@ -30,7 +30,7 @@ pub(super) enum InputSource<'a> {
     Arrays(&'a [TensorProto]),
 }
 
-/// What is done about a node that cannot be read.
+/// The reaction to a node that cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum OnProblem {
     /// The reading ends.
@@ -292,7 +292,7 @@ impl Reading<'_> {
         Ok(made)
     }
 
-    /// What the outputs are.
+    /// The outputs of the graph.
     fn outputs(&self, graph: &GraphProto) -> Result<Vec<(String, Known)>, NetworkError> {
         if graph.output.is_empty() {
             return Err(NetworkError::Network("it has no output".to_owned()));

@@ -65,7 +65,7 @@ pub(super) struct BoundInputs {
     /// The form of the input with channels first.
     pub(super) form: Form,
     pub(super) layout: Layout,
-    /// What the inputs are called.
+    /// The names of the inputs, and their values.
     pub(super) known: Vec<(String, Known)>,
     /// The name of the input and how it is stored, if in 8 bits.
     pub(super) stored: Option<(String, Element)>,

@@ -80,7 +80,7 @@ impl Network {
     }
 
     /// Reads a network, and goes on behind a node that cannot be read. `open` is the size of frames where the network takes any.
-    /// Of a node that depends on one that cannot be read only the operator and its attributes are looked at.
+    /// A node that depends on one that cannot be read is checked for its operator and its attributes alone.
     ///
     /// # Errors
     /// As [`Network::read`], but for nodes.
@@ -93,7 +93,7 @@ impl Network {
     }
 }
 
-/// What is said of all nodes of a network.
+/// The result of a check of all nodes of a network.
 #[derive(Debug)]
 pub struct NetworkCheck {
     /// Nodes of the model. The network has fewer where an operator does the work of several.
@@ -102,7 +102,7 @@ pub struct NetworkCheck {
     pub network: Result<Network, Vec<NetworkError>>,
 }
 
-/// What a file holds, up to a limit.
+/// The bytes of a file, up to a limit.
 fn contents(path: &Path) -> Result<Vec<u8>, NetworkError> {
     if !path.metadata().map_err(NetworkError::io(path))?.is_file() {
         return Err(not_onnx(path, "it is not a file"));

@@ -15,7 +15,7 @@ fn layout() -> Layout {
     Layout::new(&design, true, 1000).unwrap()
 }
 
-/// What is refused; what was there before is all that is left.
+/// The refusal of a packet, which leaves the output as it was.
 fn refusal(attempt: impl FnOnce(&mut Vec<u8>) -> Result<(), PacketError>) -> String {
     let mut bytes = vec![7; 3];
     let error = attempt(&mut bytes).unwrap_err();
