@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Arithmetic, comparisons and choices of constants, each repeated where it has one element.
 
-use super::constant::{Constant, Folder, Values};
+use super::constant::Constant;
+use super::constant_values::Values;
+use super::folder::Folder;
 use super::rearrange::spread;
 use crate::onnx::data_type;
 use crate::operator::{Activation, broadcast};

@@ -53,7 +53,7 @@ pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
         _ => {
             let Some(inputs) = constants(node) else { return Ok(None) };
             let made = computed(node, &inputs)?;
-            made.iter().try_for_each(|made| node.folder.keep(made))?;
+            made.iter().try_for_each(|made| node.folder.keep(&made.shape, &made.values))?;
             Ok(made)
         }
     }

@@ -2,8 +2,9 @@
 //! The graph of a model, node by node.
 
 use super::attributes::Attributes;
-use super::constant::{Constant, Folder};
+use super::constant::Constant;
 use super::fold;
+use super::folder::Folder;
 use super::input::{FrameSize, arrays_of, frame_input, puts_channels_first};
 use super::made::Made;
 use super::names::{full_kind, name_of, shown_name};
@@ -79,23 +80,9 @@ pub(super) fn read(
     if let Some((name, element)) = bound.stored {
         reading.store(&name, element)?;
     }
-    let mut problems = Vec::new();
-    for (index, node) in graph.node.iter().enumerate() {
-        let first = inputs.first().map_or("", |input| name_of(input));
-        let read = if bound.layout == Layout::Nhwc && puts_channels_first(node, first) {
-            // The input is read as what this makes of it.
-            reading.same(node, index, 0)
-        } else {
-            reading.node(node, index)
-        };
-        match read {
-            Err(problem) if on_problem == OnProblem::Note => {
-                problems.push(problem);
-                reading.unknown.extend(node.output.iter().cloned());
-            }
-            read => read?,
-        }
-    }
+    let first = inputs.first().map_or("", |input| name_of(input));
+    let channels_last = (bound.layout == Layout::Nhwc).then_some(first);
+    let problems = reading.nodes(graph, channels_last)?;
     let outputs = if problems.is_empty() { reading.outputs(graph)? } else { Vec::new() };
     let mut network = reading.network;
     network.finish(values_of(&outputs), odd);
@@ -145,6 +132,28 @@ pub(super) struct Reading<'a> {
 }
 
 impl Reading<'_> {
+    /// Reads all nodes, and returns the problems that are noted. `channels_last` names an input that is read as its transpose.
+    fn nodes(
+        &mut self,
+        graph: &GraphProto,
+        channels_last: Option<&str>,
+    ) -> Result<Vec<NetworkError>, NetworkError> {
+        let mut problems = Vec::new();
+        for (index, node) in graph.node.iter().enumerate() {
+            let is_transpose = channels_last.is_some_and(|name| puts_channels_first(node, name));
+            let read =
+                if is_transpose { self.same(node, index, 0) } else { self.node(node, index) };
+            match read {
+                Err(problem) if self.on_problem == OnProblem::Note => {
+                    problems.push(problem);
+                    self.unknown.extend(node.output.iter().cloned());
+                }
+                read => read?,
+            }
+        }
+        Ok(problems)
+    }
+
     fn node(&mut self, node: &NodeProto, index: usize) -> Result<(), NetworkError> {
         let name = shown_name(node, index);
         let operator = full_kind(node);

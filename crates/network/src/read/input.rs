@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The input of a network, and the frames that it is to take.
 
-use super::constant::{Constant, Folder};
+use super::constant::Constant;
+use super::folder::Folder;
 use super::names::{full_kind, is_standard, name_of, shown_name};
 use super::node::Known;
 use crate::element::Element;

@@ -4,11 +4,15 @@
 mod arrays;
 mod attributes;
 mod constant;
+mod constant_values;
+mod decode;
 mod elementwise;
 mod fold;
+mod folder;
 mod fuse;
 mod graph;
 mod input;
+
 mod made;
 mod memory;
 mod moves;
@@ -29,7 +33,7 @@ mod transposed;
 use crate::error::NetworkError;
 use crate::network::Network;
 use crate::onnx::ModelProto;
-use constant::Folder;
+use folder::Folder;
 use graph::{InputSource, OnProblem, ReadGraph};
 use node::Known;
 use prost::Message as _;

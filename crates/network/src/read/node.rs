@@ -2,7 +2,8 @@
 //! A node as operators read it: attributes with their defaults, constants, and values.
 
 use super::attributes::Attributes;
-use super::constant::{Constant, Folder};
+use super::constant::Constant;
+use super::folder::Folder;
 use super::names;
 use crate::element::{Element, typed_byte};
 use crate::form::Form;

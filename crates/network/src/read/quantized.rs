@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The operators of quantized networks: those of ONNX, and those of onnxruntime (`com.microsoft`).
 
-use super::constant::{Constant, Values};
+use super::constant::Constant;
+use super::constant_values::Values;
 use super::made::{Made, one};
 use super::node::{Known, NodeReader};
 use super::normal::shares;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Constants whose values are taken from another one: what exporters write to make the widths of padding from a list.
 
-use super::constant::{Constant, Folder, Values};
+use super::constant::Constant;
+use super::constant_values::Values;
+use super::folder::Folder;
 use super::node::{NodeReader, from_start, signed};
 use crate::form::MAX_AXES;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Scales, zero points and weights of quantized networks, checked.
 
-use super::constant::{Constant, Values};
+use super::constant::Constant;
+use super::constant_values::Values;
 use super::node::NodeReader;
 use crate::element::{Element, Encoding};
 use crate::onnx::data_type;

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The values of a constant.
+
+/// Values of a constant: those of floating point with 32 bits, integers with 64.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Values {
+    Floats(Vec<f32>),
+    Integers(Vec<i64>),
+}
+
+impl Values {
+    pub(super) fn count(&self) -> usize {
+        match self {
+            Self::Floats(values) => values.len(),
+            Self::Integers(values) => values.len(),
+        }
+    }
+
+    /// Bytes of a value.
+    pub(super) fn bytes_each(&self) -> u64 {
+        match self {
+            Self::Floats(_) => 4,
+            Self::Integers(_) => 8,
+        }
+    }
+}

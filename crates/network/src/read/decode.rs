@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The values of tensors in messages.
+
+use super::constant_values::Values;
+use crate::onnx::{TensorProto, data_type};
+
+/// Values from bytes, the lowest first.
+pub(super) fn decode(kind: i32, bytes: &[u8]) -> Result<Values, String> {
+    fn each<const N: usize, T>(bytes: &[u8], of: impl Fn([u8; N]) -> T) -> Result<Vec<T>, String> {
+        let (values, rest) = bytes.as_chunks::<N>();
+        if rest.is_empty() {
+            Ok(values.iter().map(|&bytes| of(bytes)).collect())
+        } else {
+            Err(format!("{} bytes are not values of {N} bytes", bytes.len()))
+        }
+    }
+    Ok(match kind {
+        data_type::FLOAT => Values::Floats(each(bytes, f32::from_le_bytes)?),
+        #[allow(clippy::cast_possible_truncation, reason = "weights are 32 bits wide here")]
+        data_type::DOUBLE => Values::Floats(each(bytes, |bytes| f64::from_le_bytes(bytes) as f32)?),
+        data_type::FLOAT16 => Values::Floats(each(bytes, |bytes| half(u16::from_le_bytes(bytes)))?),
+        data_type::BFLOAT16 => {
+            Values::Floats(each(bytes, |bytes| brain(u16::from_le_bytes(bytes)))?)
+        }
+        data_type::INT64 => Values::Integers(each(bytes, i64::from_le_bytes)?),
+        data_type::INT32 => {
+            Values::Integers(each(bytes, |bytes| i64::from(i32::from_le_bytes(bytes)))?)
+        }
+        data_type::INT8 => {
+            Values::Integers(each(bytes, |bytes| i64::from(i8::from_le_bytes(bytes)))?)
+        }
+        data_type::UINT8 | data_type::BOOL => {
+            Values::Integers(each(bytes, |[byte]| i64::from(byte))?)
+        }
+        other => return Err(unknown(other)),
+    })
+}
+
+/// Values that are fields of the message.
+pub(super) fn unpacked(kind: i32, tensor: &TensorProto) -> Result<Values, String> {
+    Ok(match kind {
+        data_type::FLOAT => Values::Floats(tensor.float_data.clone()),
+        #[allow(clippy::cast_possible_truncation, reason = "weights are 32 bits wide here")]
+        data_type::DOUBLE => {
+            Values::Floats(tensor.double_data.iter().map(|&value| value as f32).collect())
+        }
+        data_type::FLOAT16 => {
+            Values::Floats(tensor.int32_data.iter().map(bits).map(half).collect())
+        }
+        data_type::BFLOAT16 => {
+            Values::Floats(tensor.int32_data.iter().map(bits).map(brain).collect())
+        }
+        data_type::INT64 => Values::Integers(tensor.int64_data.clone()),
+        data_type::INT32 | data_type::INT8 | data_type::UINT8 | data_type::BOOL => {
+            Values::Integers(tensor.int32_data.iter().map(|&value| i64::from(value)).collect())
+        }
+        other => return Err(unknown(other)),
+    })
+}
+
+fn unknown(kind: i32) -> String {
+    format!("values of {} are not supported", data_type::name(kind.into()))
+}
+
+/// The lowest 16 bits, which are a value.
+#[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what the field holds")]
+fn bits(field: &i32) -> u16 {
+    *field as u16
+}
+
+/// A value of 16 bits that is the first half of one of 32.
+fn brain(bits: u16) -> f32 {
+    f32::from_bits(u32::from(bits) << 16)
+}
+
+/// A value of 16 bits: IEEE 754 binary16.
+fn half(bits: u16) -> f32 {
+    let (sign, exponent, fraction) = (bits >> 15, bits >> 10 & 31, bits & 1023);
+    let fraction = f32::from(fraction);
+    let value = match exponent {
+        0 => fraction * f32::powi(2.0, -24),
+        31 if fraction == 0.0 => f32::INFINITY,
+        31 => f32::NAN,
+        _ => (1.0 + fraction / 1024.0) * f32::powi(2.0, i32::from(exponent) - 15),
+    };
+    if sign == 1 { -value } else { value }
+}

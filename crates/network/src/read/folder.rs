@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! The folder of a model, whose files hold constants, and how much memory constants may still take.
+
+use super::constant_values::Values;
+use crate::onnx::TensorProto;
+use std::cell::Cell;
+use std::io::{Read as _, Seek as _, SeekFrom};
+use std::path::{Component, Path, PathBuf};
+
+/// The folder of the model, in which data outside of the file must lie.
+pub(super) struct Folder {
+    path: PathBuf,
+    /// Bytes of constants that may still be read.
+    left: Cell<u64>,
+    /// Bytes of constants that may still be computed.
+    room: Cell<u64>,
+}
+
+/// Bytes of all constants in the files of a model.
+const MAX_BYTES: u64 = 1 << 32;
+/// Bytes of all constants that are computed when a model is read. A few bytes of a file are enough to ask for them.
+const MAX_COMPUTED: u64 = 1 << 30;
+
+impl Folder {
+    pub(super) fn of(model: &Path) -> Self {
+        let path = model.parent().unwrap_or_else(|| Path::new("")).to_owned();
+        Self { path, left: Cell::new(MAX_BYTES), room: Cell::new(MAX_COMPUTED) }
+    }
+
+    /// Counts bytes that are to be read.
+    pub(super) fn charge(&self, bytes: u64) -> Result<(), String> {
+        let left = self.left.get().checked_sub(bytes);
+        self.left.set(left.ok_or("all constants together have more than 4 GiB")?);
+        Ok(())
+    }
+
+    /// The number of values of a shape, if there is room for them as a computed constant of this type.
+    pub(super) fn check_room(&self, shape: &[usize], like: &Values) -> Result<usize, String> {
+        let count = shape.iter().try_fold(1usize, |count, &length| count.checked_mul(length));
+        let bytes = count.and_then(|count| (count as u64).checked_mul(like.bytes_each()));
+        match (count, bytes.and_then(|bytes| self.room.get().checked_sub(bytes))) {
+            (Some(count), Some(_)) => Ok(count),
+            _ => Err(format!(
+                "it makes a constant of shape {shape:?}, and all computed constants together have at most 1 GiB, of which {} MiB are left",
+                self.room.get() >> 20
+            )),
+        }
+    }
+
+    /// Counts a computed constant, which is kept.
+    pub(super) fn keep(&self, shape: &[usize], values: &Values) -> Result<(), String> {
+        let count = self.check_room(shape, values)? as u64;
+        self.room.set(self.room.get() - count * values.bytes_each());
+        Ok(())
+    }
+}
+
+/// The bytes of a tensor in a file of its own, which must lie in the folder of the model.
+pub(super) fn external(tensor: &TensorProto, folder: &Folder) -> Result<Vec<u8>, String> {
+    let entry = |key: &str| {
+        tensor
+            .external_data
+            .iter()
+            .find(|entry| entry.key.as_deref() == Some(key))
+            .and_then(|entry| entry.value.as_deref())
+    };
+    let number = |key: &str| {
+        entry(key)
+            .map(|text| text.parse::<u64>().map_err(|_| format!("its {key} is no number: {text}")))
+            .transpose()
+    };
+    let location = Path::new(entry("location").ok_or("its data has no location")?);
+    if !location.components().all(|part| matches!(part, Component::Normal(_) | Component::CurDir)) {
+        return Err(format!(
+            "its data `{}` is outside the folder of the model",
+            location.display()
+        ));
+    }
+    let path = folder.path.join(location);
+    let fails =
+        |error: std::io::Error| format!("cannot read its data `{}`: {error}", path.display());
+    let outside =
+        |_| format!("its data `{}` is outside the folder of the model", location.display());
+    if !path.metadata().map_err(fails)?.is_file() {
+        return Err(format!("its data `{}` is not a file", location.display()));
+    }
+    let (real, root) = (
+        path.canonicalize().map_err(fails)?,
+        if folder.path.as_os_str().is_empty() { Path::new(".") } else { &folder.path }
+            .canonicalize()
+            .map_err(fails)?,
+    );
+    real.strip_prefix(root).map_err(outside)?;
+    let mut file = std::fs::File::open(real).map_err(fails)?;
+    let all = file.metadata().map_err(fails)?.len();
+    let offset = number("offset")?.unwrap_or(0);
+    let length = number("length")?.unwrap_or(all.saturating_sub(offset));
+    if offset.checked_add(length).is_none_or(|end| end > all) {
+        return Err(format!(
+            "its data is {length} bytes from {offset} on, but `{}` has {all}",
+            location.display()
+        ));
+    }
+    folder.charge(length)?;
+    file.seek(SeekFrom::Start(offset)).map_err(fails)?;
+    let mut bytes = Vec::new();
+    file.take(length).read_to_end(&mut bytes).map_err(fails)?;
+    Ok(bytes)
+}
