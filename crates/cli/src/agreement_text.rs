@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The words in which several commands print how much a network keeps.
 
-use foveate_inference::{Intervals, NoiseAgreement};
+use foveate_inference::{ConfidenceIntervals, NoiseAgreement};
 
 /// The interval of an agreement over few things, as what follows it.
-pub(crate) fn confidence(intervals: &Intervals) -> String {
+pub(crate) fn confidence(intervals: &ConfidenceIntervals) -> String {
     intervals.of_few().map_or_else(String::new, |[low, high]| {
         format!(" (95 % interval {:.1} to {:.1} %)", 100.0 * low, 100.0 * high)
     })

@@ -16,7 +16,7 @@ use terminal_size::Width;
 
 use crate::notice::printable;
 use lines::Lines;
-use stage::{Amount, Counted, Stage, locked};
+use stage::{Stage, StageAmount, StageUnit, locked};
 use words::drawn;
 
 /// A line for a source without a known length.
@@ -54,7 +54,7 @@ impl Progress {
 
     /// Work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
     pub(crate) fn work(&self, what: &str) {
-        self.enter(Counted::Work, what, Amount::default());
+        self.enter(StageUnit::Work, what, StageAmount::default());
     }
 
     /// So many of all steps are done: `designs over clips`. While there is none to do it is [`Progress::work`].
@@ -62,12 +62,12 @@ impl Progress {
         if all == 0 {
             return self.work(what);
         }
-        self.enter(Counted::Steps, what, Amount::new(done, Some(all)));
+        self.enter(StageUnit::Steps, what, StageAmount::new(done, Some(all)));
     }
 
     /// So many frames are done, of so many if that is known; `note` stands beside it.
     pub(crate) fn frames(&self, done: u64, all: Option<u64>, note: &str) {
-        self.enter(Counted::Frames, note, Amount::new(done, all));
+        self.enter(StageUnit::Frames, note, StageAmount::new(done, all));
     }
 
     /// Clears the line of the terminal and is silent from then on: before results are printed.
@@ -76,7 +76,7 @@ impl Progress {
         self.bar.finish_and_clear();
     }
 
-    fn enter(&self, counted: Counted, what: &str, amount: Amount) {
+    fn enter(&self, counted: StageUnit, what: &str, amount: StageAmount) {
         let what = &*printable(what);
         // Not held while the bar is told: it asks for the stage when it draws.
         let before = {

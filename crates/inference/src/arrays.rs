@@ -6,7 +6,7 @@ use crate::inference::INFERENCE;
 use crate::recording::{FOLDER, free_name};
 use foveate_files::npy::{self, NpyArray};
 use foveate_network::onnx::{TensorProto, data_type};
-use foveate_network::{Evaluation, evaluate};
+use foveate_network::{NetworkEvaluation, evaluate};
 use foveate_staging::{StagedFolder, StagingError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
@@ -80,7 +80,7 @@ pub fn infer_arrays(
         inputs.push(ArrayFile { name: None, dtype, shape: array.shape.clone(), file });
         tensors.push(tensor(array, kind));
     }
-    let Evaluation { outputs, macs, weight_bytes, time } = evaluate(network, &tensors)?;
+    let NetworkEvaluation { outputs, macs, weight_bytes, time } = evaluate(network, &tensors)?;
     let outputs = write(&staging, outputs).map_err(|error| staging.named(error))?;
     let seconds = time.as_secs_f64();
     let network = network.to_owned();

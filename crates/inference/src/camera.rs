@@ -22,20 +22,20 @@ pub(crate) struct Camera {
     /// Frames so far.
     frames: u64,
     /// The outcome of the frames that the network has not seen, up to the next one that it sees.
-    passed: Passed,
+    passed: CameraTally,
 }
 
 /// Frames of a camera, and the values of P bits that it sends for them: pixels and means.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Sent {
+pub(crate) struct SentCount {
     pub(crate) frames: u64,
     pub(crate) values: u64,
 }
 
 /// The outcome of a frame in the camera.
 #[derive(Clone, Copy, Debug, Default)]
-struct Passed {
-    sent: Sent,
+struct CameraTally {
+    sent: SentCount,
     active_regions: u64,
 }
 
@@ -62,7 +62,7 @@ pub(crate) struct Seen<'a> {
     /// Beside that frame.
     pub(crate) changed_regions: u64,
     /// Since that frame.
-    pub(crate) sent: Sent,
+    pub(crate) sent: SentCount,
     /// What is on the receiver's screen.
     pub(crate) screen: &'a [u16],
     pub(crate) original: Option<Original<'a>>,
@@ -107,7 +107,7 @@ impl Camera {
             with_originals,
             original: None,
             frames: 0,
-            passed: Passed::default(),
+            passed: CameraTally::default(),
         }
     }
 
@@ -141,7 +141,7 @@ impl Camera {
             self.picture.clone_from(black);
         }
         self.pass(frame)?;
-        let Passed { sent, active_regions } = std::mem::take(&mut self.passed);
+        let CameraTally { sent, active_regions } = std::mem::take(&mut self.passed);
         self.picture.show(self.engine.rendered());
         let words = || frame.frame.plane().to_words();
         self.original = self.with_originals.then(|| KeptOriginal { frame: words(), objects });
@@ -170,7 +170,7 @@ pub(crate) struct Kept {
     changed: Mask,
     active_regions: u64,
     changed_regions: u64,
-    sent: Sent,
+    sent: SentCount,
     screen: Vec<u16>,
     original: Option<KeptOriginal>,
 }

@@ -12,7 +12,7 @@ pub const OPEN_SIZE: (u32, u32) = (224, 224);
 
 /// A network that was looked at.
 #[derive(Clone, Debug, Serialize)]
-pub struct CheckedNetwork {
+pub struct NetworkReport {
     /// Nodes of the model.
     pub nodes: usize,
     /// A sentence for every node that cannot be run; none if the network can.
@@ -44,16 +44,16 @@ pub struct NetworkFacts {
 ///
 /// # Errors
 /// When the file cannot be read, is not a valid ONNX model, or its inputs are not one that takes frames.
-pub fn check_network(path: &Path, open: (u32, u32)) -> Result<CheckedNetwork, InferenceError> {
+pub fn check_network(path: &Path, open: (u32, u32)) -> Result<NetworkReport, InferenceError> {
     let open = FrameSize { width: open.0 as usize, height: open.1 as usize };
     let NetworkCheck { nodes, network } = Network::check(path, open)?;
     Ok(match network {
         Ok(network) => {
-            CheckedNetwork { nodes, problems: Vec::new(), network: Some(facts(&network)) }
+            NetworkReport { nodes, problems: Vec::new(), network: Some(facts(&network)) }
         }
         Err(problems) => {
             let problems = problems.iter().map(ToString::to_string).collect();
-            CheckedNetwork { nodes, problems, network: None }
+            NetworkReport { nodes, problems, network: None }
         }
     })
 }
@@ -70,8 +70,8 @@ fn facts(network: &Network) -> NetworkFacts {
         layout: network.layout().name(),
         outputs: names.zip(network.outputs().iter().map(shape)).collect(),
         operators,
-        macs: (0..network.nodes().len()).map(|node| network.macs(node)).sum(),
-        weight_bytes: network.nodes().iter().map(|node| node.weight_bytes()).sum(),
+        macs: network.total_macs(),
+        weight_bytes: network.weight_bytes(),
         kept_bytes: network.kept_bytes(),
     }
 }

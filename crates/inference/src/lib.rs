@@ -35,7 +35,7 @@ mod tune;
 
 pub use arrays::{ArrayFile, ArraySummary, infer_arrays, is_array};
 pub use camera::frames_of;
-pub use checked::{CheckedNetwork, NetworkFacts, OPEN_SIZE, check_network};
+pub use checked::{NetworkFacts, NetworkReport, OPEN_SIZE, check_network};
 pub use choices::{parse_goal, parse_mode, parse_noise, read_accelerator};
 pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};
@@ -50,7 +50,8 @@ pub use inference::{Computed, INFERENCE, Inference, Options};
 pub use macs::Macs;
 pub use recording::{Record, Recorded};
 pub use sight::{
-    Intervals, NOISE_LEVELS, NoiseAgreement, NoiseCeiling, Sight, Truth, has_places, wilson,
+    ConfidenceIntervals, NOISE_LEVELS, NoiseAgreement, NoiseCeiling, Sight, Truth, has_places,
+    wilson,
 };
 pub use summary::{Clip, Error, Layer, Outputs, Summary, Tried, Tuning};
 pub use traffic::FrameTraffic;

@@ -5,7 +5,6 @@ use crate::error::NetworkError;
 use crate::executor::{Executor, Mode};
 use crate::mask::Mask;
 use crate::moment::Moment;
-use crate::network::Network;
 use crate::onnx::TensorProto;
 use crate::read::read_for_arrays;
 use std::path::Path;
@@ -13,7 +12,7 @@ use std::time::Duration;
 
 /// The outputs of a network for some arrays.
 #[derive(Debug)]
-pub struct Evaluation {
+pub struct NetworkEvaluation {
     /// The outputs in the order of the model, each with its name.
     pub outputs: Vec<(String, TensorProto)>,
     /// Multiplications and additions.
@@ -29,7 +28,7 @@ pub struct Evaluation {
 ///
 /// # Errors
 /// When the network cannot be read, or an array has another type or shape than its input.
-pub fn evaluate(path: &Path, arrays: &[TensorProto]) -> Result<Evaluation, NetworkError> {
+pub fn evaluate(path: &Path, arrays: &[TensorProto]) -> Result<NetworkEvaluation, NetworkError> {
     let read = read_for_arrays(path, arrays)?;
     let network = &read.network;
     let mut executor = Executor::new(network, Mode::Dense);
@@ -38,13 +37,6 @@ pub fn evaluate(path: &Path, arrays: &[TensorProto]) -> Result<Evaluation, Netwo
     executor.step(&read.picture, &whole);
     let time = start.elapsed();
     let outputs = read.outputs(&executor)?;
-    Ok(Evaluation { outputs, macs: macs(network), weight_bytes: weights(network), time })
-}
-
-fn macs(network: &Network) -> u64 {
-    (0..network.nodes().len()).map(|node| network.macs(node)).sum()
-}
-
-fn weights(network: &Network) -> u64 {
-    network.nodes().iter().map(|node| node.weight_bytes()).sum()
+    let (macs, weight_bytes) = (network.total_macs(), network.weight_bytes());
+    Ok(NetworkEvaluation { outputs, macs, weight_bytes, time })
 }

@@ -7,6 +7,11 @@ use std::ops::Range;
 /// Axes that a tensor of a network has at most.
 pub(crate) const MAX_AXES: usize = 8;
 
+/// The number of elements of a shape; nothing if no memory could hold so many.
+pub(crate) fn elements_of(shape: &[usize]) -> Option<usize> {
+    shape.iter().try_fold(1usize, |product, &length| product.checked_mul(length))
+}
+
 /// A shape, of which some axes are the rows and columns of the picture.
 ///
 /// In memory a tensor is `outer` x `height` x `width` x `inner` values, row by row. The features of a convolution have their channels

@@ -28,7 +28,7 @@ mod values;
 
 pub use element::{Element, Encoding};
 pub use error::NetworkError;
-pub use evaluate::{Evaluation, evaluate};
+pub use evaluate::{NetworkEvaluation, evaluate};
 pub use executor::{Executor, Mode, Work};
 pub use form::Form;
 pub use layout::Layout;

@@ -3,7 +3,7 @@
 
 use crate::element::Encoding;
 use crate::error::NetworkError;
-use crate::form::{Form, MAX_AXES};
+use crate::form::{Form, MAX_AXES, elements_of};
 use crate::layout::Layout;
 use crate::mask::Mask;
 use crate::operator::{Operator, Products};
@@ -232,6 +232,18 @@ impl Network {
         (form.elements() * of_each) as u64
     }
 
+    /// Multiplications and additions of all nodes for a whole frame.
+    #[must_use]
+    pub fn total_macs(&self) -> u64 {
+        (0..self.nodes.len()).map(|node| self.macs(node)).sum()
+    }
+
+    /// Bytes of the weights of all nodes.
+    #[must_use]
+    pub fn weight_bytes(&self) -> u64 {
+        self.weight_bytes
+    }
+
     /// Positions that are computed for a whole output of a node: whole blocks, so that there may be more than it has.
     #[must_use]
     pub fn scheduled(&self, node: usize) -> usize {
@@ -250,9 +262,7 @@ fn limit(form: &Form) -> Result<(), String> {
     if form.shape().len() > MAX_AXES {
         return Err(format!("a tensor has {} axes, more than {MAX_AXES}", form.shape().len()));
     }
-    let elements =
-        form.shape().iter().try_fold(1usize, |product, &length| product.checked_mul(length));
-    match elements {
+    match elements_of(form.shape()) {
         Some(1..=MAX_ELEMENTS) => Ok(()),
         Some(0) => Err(format!("a tensor is empty: {}", form.describe())),
         _ => Err(format!("a tensor has more than {MAX_ELEMENTS} values: {}", form.describe())),

@@ -20,7 +20,7 @@ pub fn frame(out: &mut Vec<u8>, layout: &Layout, number: u32, (time, first): (u6
         | u64::from(info.has_scores) << 29
         | u64::from(info.columns) << 32
         | u64::from(info.rows) << 48;
-    let head = Head { kind: FRAME, flags: first.into(), row: info.version, column: 0 };
+    let head = PacketFields { kind: FRAME, flags: first.into(), row: info.version, column: 0 };
     packet(out, head, FRAME_WORDS, number, |out| {
         out.extend(MAGIC);
         out.extend([info.fingerprint, time, size, rest].into_iter().flat_map(u64::to_le_bytes));
@@ -38,7 +38,7 @@ pub fn row(
     row: u32,
     decisions: &[Decision],
 ) -> Result<(), PacketError> {
-    let head = Head::of_row(ROW, layout, row)?;
+    let head = PacketFields::of_row(ROW, layout, row)?;
     count("ROW", "decisions", decisions.len(), layout.info().columns.into())?;
     let bits = layout.decision_bits();
     packet(out, head, layout.row_bytes() / WORD, number, |out| {
@@ -62,7 +62,7 @@ pub fn scores<S: IntoIterator<Item = u64>>(
     row: u32,
     regions: impl Iterator<Item = S>,
 ) -> Result<(), PacketError> {
-    let head = Head::of_row(SCORES, layout, row)?;
+    let head = PacketFields::of_row(SCORES, layout, row)?;
     let info = layout.info();
     let columns = if info.has_scores { info.columns.into() } else { 0 };
     let (mut regions, mut records, mut found) = (regions, Vec::new(), 0);
@@ -115,7 +115,7 @@ pub fn region(
     if let Some(&value) = values.iter().find(|&&value| value > most) {
         field("value", value.into(), 0..=most.into())?;
     }
-    let head = Head { kind: REGION, flags: flags.bits(), row, column };
+    let head = PacketFields { kind: REGION, flags: flags.bits(), row, column };
     let words = layout.region_bytes(flags.summary) / WORD;
     packet(out, head, words, number, |out| match layout.lane() {
         1 => out.extend(values.iter().map(|value| value.to_le_bytes()[0])),
@@ -131,7 +131,7 @@ pub fn region(
 pub fn end(out: &mut Vec<u8>, number: u32, end: End) -> Result<(), PacketError> {
     let dropped = end.regions_dropped > 0 || end.rows_dropped > 0;
     let row = narrow("dropped rows", end.rows_dropped.into())?;
-    let head = Head { kind: END, flags: dropped.into(), row, column: 0 };
+    let head = PacketFields { kind: END, flags: dropped.into(), row, column: 0 };
     packet(out, head, END_WORDS, number, |out| {
         let counts = u64::from(end.regions_sent) | u64::from(end.regions_dropped) << 32;
         out.extend(counts.to_le_bytes());
@@ -142,20 +142,20 @@ pub fn end(out: &mut Vec<u8>, number: u32, end: End) -> Result<(), PacketError> 
 /// Appends a REGISTER, which belongs to no frame.
 pub fn register(out: &mut Vec<u8>, register: Register) {
     let flags = register.written.into();
-    let head = Head { kind: REGISTER, flags, row: register.address, column: 0 };
+    let head = PacketFields { kind: REGISTER, flags, row: register.address, column: 0 };
     packet(out, head, REGISTER_WORDS, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
 }
 
 /// The fields of a packet's first word beside its length.
 #[derive(Clone, Copy)]
-struct Head {
+struct PacketFields {
     kind: u8,
     flags: u8,
     row: u16,
     column: u16,
 }
 
-impl Head {
+impl PacketFields {
     /// The fields of a packet about a row of regions.
     fn of_row(kind: u8, layout: &Layout, row: u32) -> Result<Self, PacketError> {
         let row = below("row", row, layout.rows())?;
@@ -182,7 +182,7 @@ fn count(
 /// Appends a packet of so many words around what `carry` writes: head before, padding to whole words and tail behind.
 fn packet(
     out: &mut Vec<u8>,
-    head: Head,
+    head: PacketFields,
     words: usize,
     number: u32,
     carry: impl FnOnce(&mut Vec<u8>),

@@ -239,7 +239,7 @@ fn facts(network: &Network, usual: &Usual, detector: Option<&Detector>) -> Value
     let outputs = network.outputs().iter().zip(network.output_names());
     let outputs =
         outputs.map(|(&value, name)| json!({ "name": name, "shape": network.form(value).shape() }));
-    let macs: u64 = (0..network.nodes().len()).map(|node| network.macs(node)).sum();
+    let macs = network.total_macs();
     json!({
         "input": { "width": input.width(), "height": input.height(), "channels": input.shape()[1] },
         "outputs": outputs.collect::<Vec<_>>(),

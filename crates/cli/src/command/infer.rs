@@ -136,7 +136,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
         "{}: {}{} of {} x {} pixels, mode {}{}\n",
         folder.display(),
         frames(summary.frames, ""),
-        // What is usual is not said.
+        // The usual layout is left out.
         if summary.every.get() == 1 {
             String::new()
         } else {

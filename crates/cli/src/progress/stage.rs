@@ -11,7 +11,7 @@ pub(super) const LONGEST: Duration = Duration::from_secs(7 * 24 * 3600);
 
 /// The things that a stage counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Counted {
+pub(super) enum StageUnit {
     /// Nothing: one run of a tool.
     Work,
     /// Steps, with a name.
@@ -22,12 +22,12 @@ pub(super) enum Counted {
 
 /// The count that is done, and the total if it is known.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(super) struct Amount {
+pub(super) struct StageAmount {
     pub(super) done: u64,
     pub(super) all: Option<u64>,
 }
 
-impl Amount {
+impl StageAmount {
     /// Nothing has no length, and what is done lies in it: a damaged video may promise less than it has.
     pub(super) fn new(done: u64, all: Option<u64>) -> Self {
         Self { done, all: all.filter(|&all| all > 0).map(|all| all.max(done)) }
@@ -38,9 +38,9 @@ impl Amount {
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stage {
     /// None before the command has said what it does.
-    pub(super) counted: Option<Counted>,
+    pub(super) counted: Option<StageUnit>,
     pub(super) what: String,
-    pub(super) amount: Amount,
+    pub(super) amount: StageAmount,
     /// When it began, and what was done of it by then.
     began: Instant,
     first: u64,
@@ -55,16 +55,22 @@ pub(super) enum Left {
 
 impl Stage {
     pub(super) fn new(now: Instant) -> Self {
-        let (amount, what) = (Amount::default(), String::new());
+        let (amount, what) = (StageAmount::default(), String::new());
         Self { counted: None, what, amount, began: now, first: 0 }
     }
 
     /// The next stage, or the same with other words. Steps of another kind have a pace of their own; notes
     /// beside frames change while these go on.
-    pub(super) fn enter(&mut self, counted: Counted, what: &str, amount: Amount, now: Instant) {
+    pub(super) fn enter(
+        &mut self,
+        counted: StageUnit,
+        what: &str,
+        amount: StageAmount,
+        now: Instant,
+    ) {
         let same = self.counted == Some(counted)
             && self.amount.all.is_some() == amount.all.is_some()
-            && (counted != Counted::Steps || self.what == what);
+            && (counted != StageUnit::Steps || self.what == what);
         if !same || amount.done < self.first {
             (self.began, self.first) = (now, amount.done);
         }
@@ -109,13 +115,13 @@ pub(super) fn locked(stage: &Mutex<Stage>) -> MutexGuard<'_, Stage> {
 
 #[cfg(test)]
 mod tests {
-    use super::Counted::{Frames, Steps};
+    use super::StageUnit::{Frames, Steps};
     use super::*;
 
     const SECOND: Duration = Duration::from_secs(1);
 
-    fn of(done: u64, all: u64) -> Amount {
-        Amount::new(done, Some(all))
+    fn of(done: u64, all: u64) -> StageAmount {
+        StageAmount::new(done, Some(all))
     }
 
     #[test]
@@ -166,8 +172,8 @@ mod tests {
         let start = Instant::now();
         let mut stage = Stage::new(start);
         // A count from before the stage is left out, and a length that becomes known begins a new stage.
-        stage.enter(Frames, "", Amount::new(100, None), start);
-        stage.enter(Frames, "", Amount::new(149, None), start + 5 * SECOND);
+        stage.enter(Frames, "", StageAmount::new(100, None), start);
+        stage.enter(Frames, "", StageAmount::new(149, None), start + 5 * SECOND);
         assert_eq!(stage.rate(start + 5 * SECOND), Some(9.8));
         assert_eq!(stage.rate(start + SECOND), None, "too early");
         assert_eq!(stage.left(start + 5 * SECOND), None, "the length is not known");
@@ -177,7 +183,7 @@ mod tests {
 
     #[test]
     fn nothing_has_no_length() {
-        assert_eq!(Amount::new(0, Some(0)), Amount::new(0, None));
-        assert_eq!(Amount::new(5, Some(3)), of(5, 5));
+        assert_eq!(StageAmount::new(0, Some(0)), StageAmount::new(0, None));
+        assert_eq!(StageAmount::new(5, Some(3)), of(5, 5));
     }
 }

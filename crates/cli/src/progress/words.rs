@@ -6,12 +6,12 @@ use std::time::{Duration, Instant};
 use indicatif::{HumanCount, HumanDuration};
 use textwrap::core::display_width;
 
-use super::stage::{Amount, Counted, Left, Stage};
+use super::stage::{Left, Stage, StageAmount, StageUnit};
 
 /// The state of a command for a log; nothing until the command has reported one. `start` is when the command began.
 pub(super) fn logged(stage: &Stage, start: Instant, now: Instant) -> Option<String> {
     let (counted, what) = (stage.counted?, &stage.what);
-    let Amount { done, all } = stage.amount;
+    let StageAmount { done, all } = stage.amount;
     let elapsed = HumanDuration(now.saturating_duration_since(start));
     let rate = stage.rate(now).map(|rate| format!(", {}", rate_of(rate, counted)));
     let left = stage.left(now).map(|left| match left {
@@ -22,9 +22,9 @@ pub(super) fn logged(stage: &Stage, start: Instant, now: Instant) -> Option<Stri
     let amount = all.map_or(done.to_string(), |all| format!("{done} of {all}"));
     let note = if what.is_empty() { String::new() } else { format!(" ({what})") };
     Some(match counted {
-        Counted::Work => format!("{what}, {elapsed} so far"),
-        Counted::Steps => format!("{what}: {amount} {after}"),
-        Counted::Frames => format!("{amount} frames {after}{note}"),
+        StageUnit::Work => format!("{what}, {elapsed} so far"),
+        StageUnit::Steps => format!("{what}: {amount} {after}"),
+        StageUnit::Frames => format!("{amount} frames {after}{note}"),
     })
 }
 
@@ -38,12 +38,12 @@ pub(super) fn drawn(stage: &Stage, elapsed: Duration, now: Instant, columns: usi
         Left::About(left) => format!("{:#} left", HumanDuration(left)),
         Left::MoreThan(left) => format!("over {:#} left", HumanDuration(left)),
     });
-    let Amount { done, all } = stage.amount;
+    let StageAmount { done, all } = stage.amount;
     let amount = all.map_or(done.to_string(), |all| format!("{done}/{all}"));
     let (before, unit, note) = match counted {
-        Counted::Work => (stage.what.clone(), String::new(), ""),
-        Counted::Steps => (format!("{} {amount}", stage.what), amount.clone(), ""),
-        Counted::Frames => (format!("{amount} frames"), amount.clone(), &*stage.what),
+        StageUnit::Work => (stage.what.clone(), String::new(), ""),
+        StageUnit::Steps => (format!("{} {amount}", stage.what), amount.clone(), ""),
+        StageUnit::Frames => (format!("{amount} frames"), amount.clone(), &*stage.what),
     };
     let details = |parts: &[Option<&String>]| -> String {
         let parts: Vec<&str> = parts.iter().flatten().map(|part| part.as_str()).collect();
@@ -78,10 +78,10 @@ fn cut(text: &str, columns: usize) -> String {
 }
 
 /// A rate with two or three digits, in the unit of time that gives it some before the point.
-fn rate_of(rate: f64, counted: Counted) -> String {
+fn rate_of(rate: f64, counted: StageUnit) -> String {
     let unit = match counted {
-        Counted::Work | Counted::Steps => "",
-        Counted::Frames => " frames",
+        StageUnit::Work | StageUnit::Steps => "",
+        StageUnit::Frames => " frames",
     };
     let (count, time) = match rate {
         rate if rate >= 1.0 => (rate, "s"),
@@ -104,16 +104,16 @@ mod tests {
     const SECOND: Duration = Duration::from_secs(1);
 
     /// A stage 66 seconds after the start, of which `first` were done then.
-    fn stage(counted: Counted, what: &str, first: u64, amount: Amount) -> (Stage, Instant) {
+    fn stage(counted: StageUnit, what: &str, first: u64, amount: StageAmount) -> (Stage, Instant) {
         let start = Instant::now();
         let mut stage = Stage::new(start);
-        stage.enter(counted, what, Amount::new(first, amount.all), start);
+        stage.enter(counted, what, StageAmount::new(first, amount.all), start);
         stage.enter(counted, what, amount, start + 66 * SECOND);
         (stage, start)
     }
 
-    fn of(done: u64, all: u64) -> Amount {
-        Amount::new(done, Some(all))
+    fn of(done: u64, all: u64) -> StageAmount {
+        StageAmount::new(done, Some(all))
     }
 
     #[test]
@@ -122,22 +122,22 @@ mod tests {
             let (stage, start) = stage(counted, what, first, amount);
             logged(&stage, start, start + 66 * SECOND).unwrap()
         };
-        let work = told(Counted::Work, "compiling", 0, Amount::default());
+        let work = told(StageUnit::Work, "compiling", 0, StageAmount::default());
         assert_eq!(work, "compiling, 66 seconds so far");
-        let none = told(Counted::Steps, "designs", 12, of(12, 40));
+        let none = told(StageUnit::Steps, "designs", 12, of(12, 40));
         assert_eq!(none, "designs: 12 of 40 after 66 seconds");
-        let some = told(Counted::Steps, "designs", 0, of(12, 40));
+        let some = told(StageUnit::Steps, "designs", 0, of(12, 40));
         assert_eq!(some, "designs: 12 of 40 after 66 seconds, 11/min, about 3 minutes left");
         assert_eq!(
-            told(Counted::Frames, "1/2 clips", 6, of(12, 40)),
+            told(StageUnit::Frames, "1/2 clips", 6, of(12, 40)),
             "12 of 40 frames after 66 seconds, 5.5 frames/min, about 5 minutes left (1/2 clips)"
         );
         assert_eq!(
-            told(Counted::Frames, "1/2 clips", 0, Amount::new(647, None)),
+            told(StageUnit::Frames, "1/2 clips", 0, StageAmount::new(647, None)),
             "647 frames after 66 seconds, 9.8 frames/s (1/2 clips)"
         );
-        assert_eq!(told(Counted::Frames, "", 0, of(0, 0)), "0 frames after 66 seconds");
-        let most = told(Counted::Steps, "designs", 0, of(12, u64::MAX));
+        assert_eq!(told(StageUnit::Frames, "", 0, of(0, 0)), "0 frames after 66 seconds");
+        let most = told(StageUnit::Steps, "designs", 0, of(12, u64::MAX));
         assert!(most.ends_with("after 66 seconds, 11/min, more than 7 days left"), "{most}");
         let start = Instant::now();
         assert_eq!(logged(&Stage::new(start), start, start), None);
@@ -149,7 +149,7 @@ mod tests {
             let (stage, start) = stage(counted, what, 0, amount);
             drawn(&stage, 66 * SECOND, start + 66 * SECOND, columns)
         };
-        let frames = |columns| told(Counted::Frames, "1/2 clips", of(647, 1000), columns);
+        let frames = |columns| told(StageUnit::Frames, "1/2 clips", of(647, 1000), columns);
         assert_eq!(frames(80), "647/1000 frames [66s, 9.8 frames/s, 36s left] 1/2 clips");
         assert_eq!(frames(54), "647/1000 frames [66s, 9.8 frames/s, 36s left]");
         assert_eq!(frames(44), "647/1000 frames [9.8 frames/s, 36s left]");
@@ -159,17 +159,18 @@ mod tests {
         assert_eq!(frames(10), "647/1000");
         assert_eq!(frames(5), "647/1");
         assert_eq!(frames(0), "");
-        let stream = |columns| told(Counted::Frames, "", Amount::new(647, None), columns);
+        let stream = |columns| told(StageUnit::Frames, "", StageAmount::new(647, None), columns);
         assert_eq!(stream(40), "647 frames [66s, 9.8 frames/s]");
         assert_eq!(stream(20), "647 [9.8 frames/s]");
-        let steps = |columns| told(Counted::Steps, "synthesizing", of(12, 40), columns);
+        let steps = |columns| told(StageUnit::Steps, "synthesizing", of(12, 40), columns);
         assert_eq!(steps(80), "synthesizing 12/40 [66s, 11/min, 3m left]");
         assert_eq!(steps(20), "12/40 [3m left]");
-        let work = |columns| told(Counted::Work, "placing and routing", Amount::default(), columns);
+        let work =
+            |columns| told(StageUnit::Work, "placing and routing", StageAmount::default(), columns);
         assert_eq!((&*work(40), &*work(19)), ("placing and routing [66s]", "placing and routing"));
         assert_eq!(work(7), "placing");
-        assert_eq!(told(Counted::Frames, "", of(0, 0), 40), "0 frames [66s]");
-        assert_eq!(told(Counted::Frames, "", of(1, 1), 40), "1/1 frames [66s, 55 frames/h]");
+        assert_eq!(told(StageUnit::Frames, "", of(0, 0), 40), "0 frames [66s]");
+        assert_eq!(told(StageUnit::Frames, "", of(1, 1), 40), "1/1 frames [66s, 55 frames/h]");
     }
 
     #[test]
@@ -185,9 +186,9 @@ mod tests {
             (1234.5, "1,235 frames/s"),
             (0.0, "0.0 frames/h"),
         ] {
-            assert_eq!(rate_of(rate, Counted::Frames), told);
+            assert_eq!(rate_of(rate, StageUnit::Frames), told);
         }
-        assert_eq!(rate_of(2.0, Counted::Steps), "2.0/s");
-        assert_eq!(rate_of(f64::INFINITY, Counted::Steps), "18,446,744,073,709,551,615/s");
+        assert_eq!(rate_of(2.0, StageUnit::Steps), "2.0/s");
+        assert_eq!(rate_of(f64::INFINITY, StageUnit::Steps), "18,446,744,073,709,551,615/s");
     }
 }

@@ -10,7 +10,7 @@ use foveate_design::{Config, FeatureKind, Irrelevant, Organization};
 const PAGE: &str = include_str!("../../../../docs/configuration.md");
 
 /// A row of the tables of keys.
-struct Row<'a> {
+struct KeyRow<'a> {
     key: &'a str,
     values: &'a str,
     meaning: &'a str,
@@ -18,7 +18,7 @@ struct Row<'a> {
     section: &'a str,
 }
 
-fn rows() -> Vec<Row<'static>> {
+fn rows() -> Vec<KeyRow<'static>> {
     let sections = PAGE.split("\n## ").skip(1);
     let rows = sections.flat_map(|section| {
         let (before, table) = section.split_once("\n| key |").unwrap_or((section, ""));
@@ -26,14 +26,14 @@ fn rows() -> Vec<Row<'static>> {
             let mut cells = line.strip_prefix("| ")?.split(" | ");
             let (key, values, meaning) = (cells.next()?, cells.next()?, cells.next()?);
             let key = key.strip_prefix('`')?.strip_suffix('`')?;
-            Some(Row { key, values, meaning, section: before })
+            Some(KeyRow { key, values, meaning, section: before })
         })
     });
     rows.filter(|row| row.key.contains('.')).collect()
 }
 
 /// The values that a row names, as TOML, the default first; a name that is its own organization's is none.
-fn values(row: &Row<'_>) -> Vec<String> {
+fn values(row: &KeyRow<'_>) -> Vec<String> {
     let takes = Config::keys().find(|(key, _)| *key == row.key).unwrap();
     if let Takes::Names(names) = takes.1 {
         return names.iter().map(|name| format!("\"{name}\"")).collect();
@@ -43,8 +43,8 @@ fn values(row: &Row<'_>) -> Vec<String> {
     words.filter(is_value).map(str::to_owned).collect()
 }
 
-/// Whose a key is: the setting with which alone it goes.
-fn owner(row: &Row<'_>) -> Option<String> {
+/// The owner of a key: the only setting with which it is taken.
+fn owner(row: &KeyRow<'_>) -> Option<String> {
     let alone = row.meaning.strip_prefix("Only for `").and_then(|rest| rest.split('`').next());
     if let Some(name) = alone {
         let key = if Organization::NAMES.contains(&name) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! How much a network agrees over some frames, and what that says of others.
 
-use foveate_inference::{Agreement, Found, Intervals, wilson};
+use foveate_inference::{Agreement, ConfidenceIntervals, Found, wilson};
 use serde::Serialize;
 
 /// Frames are taken together in as many groups of neighbors: what is seen in one frame is seen in the next, too.
@@ -26,7 +26,7 @@ pub struct Agreed {
     /// Detections, if they are read.
     pub detections: Option<Found>,
     /// Intervals in which the agreement and the shares of detections lie for other frames of this kind.
-    pub intervals: Intervals,
+    pub intervals: ConfidenceIntervals,
 }
 
 impl Agreed {
@@ -38,13 +38,13 @@ impl Agreed {
         let by_count = all.counted().map_or(1.0, |count| elsewhere(share, count));
         let expected = by_groups.min(by_count);
         let (frames, detections) = (frames.len() as u64, all.found());
-        let intervals = Intervals::new(share, detections, all.counted());
+        let intervals = ConfidenceIntervals::new(share, detections, all.counted());
         Self { frames, share, expected, at_most: false, detections, intervals }
     }
 
     /// After some frames no more than this share can be reached.
     pub(super) fn at_most(share: f64, frames: u64) -> Self {
-        let intervals = Intervals::default();
+        let intervals = ConfidenceIntervals::default();
         Self { frames, share, expected: share, at_most: true, detections: None, intervals }
     }
 }

@@ -10,8 +10,8 @@ use std::path::Path;
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::Engine;
 use foveate_inference::{
-    Agreement, InferenceError, Intervals, NOISE_LEVELS, NoiseAgreement, NoiseCeiling, Testimony,
-    Viewing, Witness, frames_of, has_places,
+    Agreement, ConfidenceIntervals, InferenceError, NOISE_LEVELS, NoiseAgreement, NoiseCeiling,
+    Testimony, Viewing, Witness, frames_of, has_places,
 };
 use rayon::prelude::*;
 use serde::Serialize;
@@ -246,7 +246,11 @@ impl<'a> Jury<'a> {
         }
         let agreed = Agreed::over(&frames[..looked]);
         let no_interval = agreed.detections.is_none() && has_places(self.witness.network());
-        Ok(if no_interval { Agreed { intervals: Intervals::default(), ..agreed } } else { agreed })
+        Ok(if no_interval {
+            Agreed { intervals: ConfidenceIntervals::default(), ..agreed }
+        } else {
+            agreed
+        })
     }
 }
 

@@ -2,7 +2,7 @@
 //! What was run and what came out, in sentences.
 
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
-use crate::{Intervals, Mapping, NoiseAgreement, Sight, Summary, Tuning};
+use crate::{ConfidenceIntervals, Mapping, NoiseAgreement, Sight, Summary, Tuning};
 use foveate_design::Design;
 use foveate_pictures::page::number::{grouped, things};
 use std::path::Path;
@@ -312,7 +312,7 @@ fn noisy(sight: &Sight) -> Option<String> {
     let all = |of: &dyn Fn(&NoiseAgreement) -> String| {
         sight.noise.iter().map(of).collect::<Vec<_>>().join(", ")
     };
-    let agreement = |agreement: f64, intervals: &Intervals| {
+    let agreement = |agreement: f64, intervals: &ConfidenceIntervals| {
         let interval = intervals.of_few().map(|ends| ends.map(share).join(" to "));
         share(agreement) + &interval.map_or_else(String::new, |ends| format!(" ({ends})"))
     };

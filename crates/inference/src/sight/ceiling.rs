@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The agreement of a network with itself when whole frames have noise on them: no camera can be asked for more.
 
-use super::interval::Intervals;
+use super::interval::ConfidenceIntervals;
 use super::noise::GaussianNoise;
 use foveate_network::sight::{Findings, Found, Looking, Sums, Witness};
 use serde::Serialize;
@@ -29,7 +29,7 @@ pub struct NoiseAgreement {
     /// Share of the detections under noise that are in whole frames, too.
     pub precision: Option<f64>,
     /// Intervals in which these shares lie for other frames of this kind.
-    pub intervals: Intervals,
+    pub intervals: ConfidenceIntervals,
 }
 
 /// Puts noise on some of the frames that it is shown, and has the network look at these.
@@ -106,6 +106,6 @@ fn noisy(levels: f64, sums: &Sums) -> NoiseAgreement {
         detections,
         kept_share: detections.map(|found| found.kept_share()),
         precision: detections.map(|found| found.precision()),
-        intervals: Intervals::of(sums),
+        intervals: ConfidenceIntervals::of(sums),
     }
 }

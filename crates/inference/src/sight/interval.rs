@@ -15,7 +15,7 @@ const FEW: f64 = 0.02;
 
 /// Intervals that hold the shares of all such things with 95 % confidence, if these are independent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
-pub struct Intervals {
+pub struct ConfidenceIntervals {
     /// The interval of the agreement; none where the agreement is an error or a class at every place, or nothing was found.
     pub agreement: Option<[f64; 2]>,
     /// The interval of the share of detections that are kept, if there are any.
@@ -24,7 +24,7 @@ pub struct Intervals {
     pub right: Option<[f64; 2]>,
 }
 
-impl Intervals {
+impl ConfidenceIntervals {
     /// The intervals of sums over frames. Places of a frame have none: neighbors are so alike that their number says nothing of other frames.
     pub(super) fn of(sums: &Sums) -> Self {
         let counted = if sums.places().is_some() { None } else { sums.counted() };
@@ -108,15 +108,15 @@ mod tests {
     #[test]
     fn the_agreement_has_the_interval_of_the_smaller_share() {
         let found = |whole, kept, seen, added| Some(Found { whole, kept, seen, added });
-        let few = Intervals::new(0.9, found(100, 98, 100, 10), Some(100));
+        let few = ConfidenceIntervals::new(0.9, found(100, 98, 100, 10), Some(100));
         assert!(few.agreement == few.right && few.kept != few.right && few.of_few().is_some());
-        let none = Intervals::new(1.0, found(0, 0, 0, 0), Some(0));
-        assert_eq!((none, none.of_few()), (Intervals::default(), None));
+        let none = ConfidenceIntervals::new(1.0, found(0, 0, 0, 0), Some(0));
+        assert_eq!((none, none.of_few()), (ConfidenceIntervals::default(), None));
         // Nothing that was found in whole frames is there, and much else.
-        let only = Intervals::new(0.0, found(0, 0, 9, 9), Some(0));
+        let only = ConfidenceIntervals::new(0.0, found(0, 0, 9, 9), Some(0));
         assert_eq!((only.kept, only.agreement), (None, only.right));
-        let many = Intervals::new(0.99, None, Some(60_000));
+        let many = ConfidenceIntervals::new(0.99, None, Some(60_000));
         assert!(many.agreement.is_some() && many.of_few().is_none());
-        assert_eq!(Intervals::new(0.9, None, None), Intervals::default());
+        assert_eq!(ConfidenceIntervals::new(0.9, None, None), ConfidenceIntervals::default());
     }
 }

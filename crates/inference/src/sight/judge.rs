@@ -2,7 +2,7 @@
 //! The network on whole frames, beside the one behind the camera.
 
 use super::ceiling::NoiseCeiling;
-use super::interval::Intervals;
+use super::interval::ConfidenceIntervals;
 use super::precision::Curve;
 use super::shots::Shots;
 use super::summary::{Received, Sight, Truth, psnr};
@@ -164,7 +164,7 @@ impl<'a> Judge<'a> {
         let seconds = self.seconds / self.sums.frames.max(1) as f64;
         Sight {
             agreement: self.sums.agreement(),
-            intervals: Intervals::of(&self.sums),
+            intervals: ConfidenceIntervals::of(&self.sums),
             noise: self.noise.found(),
             relative_rms: self.sums.distance.relative(),
             classes: self.sums.classes(),

@@ -11,7 +11,7 @@ mod shots;
 mod summary;
 
 pub use ceiling::{NOISE_LEVELS, NoiseAgreement, NoiseCeiling};
-pub use interval::{Intervals, has_places, wilson};
+pub use interval::{ConfidenceIntervals, has_places, wilson};
 pub(crate) use judge::{Detected, DetectionRow, Judge, SightFrame};
 pub(crate) use shots::{Shot, Shots};
 pub use summary::{Sight, Truth};

@@ -2,8 +2,8 @@
 //! What a network loses behind the camera, and what the camera sends for it.
 
 use super::ceiling::NoiseAgreement;
-use super::interval::Intervals;
-use crate::camera::Sent;
+use super::interval::ConfidenceIntervals;
+use crate::camera::SentCount;
 use foveate_design::Camera;
 use foveate_network::sight::{self, ClassKept, DetectionsKept};
 use serde::Serialize;
@@ -15,7 +15,7 @@ pub struct Sight {
     /// frames, or of places, with the same class; else what the relative RMS error leaves of 1.
     pub agreement: f64,
     /// Intervals in which the agreement and the shares of detections lie for other frames of this kind.
-    pub intervals: Intervals,
+    pub intervals: ConfidenceIntervals,
     /// The agreement with whole frames under noise, level by level: no camera can be asked for more.
     pub noise: Vec<NoiseAgreement>,
     /// Root of the mean squared difference of the outputs, as a share of that of their values.
@@ -81,7 +81,7 @@ impl Received {
     }
 
     /// A frame that the network looks at, and what the camera has sent since the one before.
-    pub(super) fn add(&mut self, sent: Sent, squared_error: f64) {
+    pub(super) fn add(&mut self, sent: SentCount, squared_error: f64) {
         self.frames += 1;
         self.sent_frames += sent.frames;
         self.values += sent.values;
@@ -90,12 +90,12 @@ impl Received {
 
     /// Mean bytes of some frames.
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
-    pub(super) fn bytes(&self, sent: Sent) -> f64 {
+    pub(super) fn bytes(&self, sent: SentCount) -> f64 {
         self.camera.bits_sent(sent.frames, sent.values) as f64 / 8.0 / sent.frames.max(1) as f64
     }
 
     pub(super) fn bytes_per_frame(&self) -> f64 {
-        self.bytes(Sent { frames: self.sent_frames, values: self.values })
+        self.bytes(SentCount { frames: self.sent_frames, values: self.values })
     }
 
     pub(super) fn share(&self) -> f64 {

@@ -152,7 +152,7 @@ fn places_have_no_interval() {
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     assert!(sight.same_places.is_some_and(|share| share == sight.agreement));
     for intervals in [sight.intervals, sight.noise[0].intervals] {
-        assert_eq!(intervals, foveate_inference::Intervals::default());
+        assert_eq!(intervals, foveate_inference::ConfidenceIntervals::default());
     }
 }
 

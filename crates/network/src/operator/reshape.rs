@@ -4,7 +4,7 @@
 use super::places::{aligned, all_if};
 use super::{Job, Operator, Products, moved, only};
 use crate::element::{Encoding, typed};
-use crate::form::Form;
+use crate::form::{Form, elements_of};
 use crate::mask::Mask;
 use std::ops::Range;
 
@@ -67,10 +67,7 @@ impl Reshape {
                 _ => usize::try_from(length).map_err(|_| wrong())?,
             });
         }
-        let product = shape
-            .iter()
-            .try_fold(1usize, |product, &length| product.checked_mul(length))
-            .ok_or_else(wrong)?;
+        let product = elements_of(&shape).ok_or_else(wrong)?;
         if let Some(axis) = open {
             shape[axis] = input.elements().checked_div(product).ok_or_else(wrong)?;
         }

@@ -2,7 +2,7 @@
 //! Networks that are read for arrays, one for each input.
 
 use super::constant::Constant;
-use super::graph::{InputSource, OnProblem};
+use super::graph::{InputSource, ProblemPolicy};
 use super::names::element_type;
 use super::node::Known;
 use super::{contents, decoded, graph_of};
@@ -13,15 +13,15 @@ use crate::onnx::TensorProto;
 use std::path::Path;
 
 /// A network that was read for arrays.
-pub(crate) struct ReadArrays {
+pub(crate) struct ArrayNetwork {
     pub(crate) network: Network,
     /// The values of the network's input.
     pub(crate) picture: Vec<f32>,
-    outputs: Vec<ReadOutput>,
+    outputs: Vec<ArrayOutput>,
 }
 
 /// An output of a network.
-struct ReadOutput {
+struct ArrayOutput {
     name: String,
     /// Its type, if the model says it.
     kind: Option<i32>,
@@ -32,19 +32,19 @@ struct ReadOutput {
 pub(crate) fn read_for_arrays(
     path: &Path,
     arrays: &[TensorProto],
-) -> Result<ReadArrays, NetworkError> {
+) -> Result<ArrayNetwork, NetworkError> {
     let model = decoded(&contents(path)?, path)?;
-    let read = graph_of(&model, path, &InputSource::Arrays(arrays), OnProblem::Stop)?;
+    let read = graph_of(&model, path, &InputSource::Arrays(arrays), ProblemPolicy::Stop)?;
     let declared = model.graph.iter().flat_map(|graph| &graph.output);
     let outputs = read.outputs.into_iter().zip(declared).map(|((name, known), declared)| {
         let kind = element_type(declared);
-        ReadOutput { name, kind, known }
+        ArrayOutput { name, kind, known }
     });
     let outputs = outputs.collect();
-    Ok(ReadArrays { network: read.network, picture: read.picture, outputs })
+    Ok(ArrayNetwork { network: read.network, picture: read.picture, outputs })
 }
 
-impl ReadArrays {
+impl ArrayNetwork {
     /// The outputs, of which an executor has computed those that are not constant.
     pub(crate) fn outputs(
         &self,
@@ -57,7 +57,7 @@ impl ReadArrays {
     }
 }
 
-impl ReadOutput {
+impl ArrayOutput {
     fn tensor(&self, executor: &Executor<'_>) -> Result<TensorProto, NetworkError> {
         let own;
         let constant = match &self.known {

@@ -5,13 +5,13 @@ use crate::onnx::{AttributeProto, NodeProto};
 use std::cell::RefCell;
 
 /// The attributes of a node. One that nobody looks at may mean something that is not computed, so each look is noted.
-pub(super) struct Attributes<'a> {
+pub(super) struct NodeAttributes<'a> {
     node: &'a NodeProto,
     /// Which were looked at, in the order of the node.
     read: RefCell<Vec<bool>>,
 }
 
-impl<'a> Attributes<'a> {
+impl<'a> NodeAttributes<'a> {
     pub(super) fn of(node: &'a NodeProto) -> Self {
         Self { node, read: RefCell::new(vec![false; node.attribute.len()]) }
     }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Constants of a model.
 
-use super::constant_values::Values;
+use super::constant_values::ConstantValues;
 use super::decode::{decode, unpacked};
-use super::folder::{Folder, external};
+use super::folder::{ModelFolder, external};
 use crate::element::{Element, Encoding};
-use crate::form::{Form, MAX_AXES};
+use crate::form::{Form, MAX_AXES, elements_of};
 use crate::onnx::{TensorProto, data_type};
 use crate::tensor::Tensor;
 use crate::values::Number;
@@ -14,22 +14,22 @@ use crate::values::Number;
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Constant {
     pub(super) shape: Vec<usize>,
-    pub(super) values: Values,
+    pub(super) values: ConstantValues,
     /// Its type, a number of `data_type`.
     pub(super) kind: i32,
 }
 
 impl Constant {
     pub(super) fn integers(shape: Vec<usize>, values: Vec<i64>) -> Self {
-        Self { shape, values: Values::Integers(values), kind: data_type::INT64 }
+        Self { shape, values: ConstantValues::Integers(values), kind: data_type::INT64 }
     }
 
     pub(super) fn floats(shape: Vec<usize>, values: Vec<f32>) -> Self {
-        Self { shape, values: Values::Floats(values), kind: data_type::FLOAT }
+        Self { shape, values: ConstantValues::Floats(values), kind: data_type::FLOAT }
     }
 
     /// Decodes a tensor. Memory grows with the data that is there, not with what the shape claims.
-    pub(super) fn read(tensor: &TensorProto, folder: &Folder) -> Result<Self, String> {
+    pub(super) fn read(tensor: &TensorProto, folder: &ModelFolder) -> Result<Self, String> {
         let length = |&length: &i64| {
             usize::try_from(length).map_err(|_| format!("its shape has a length of {length}"))
         };
@@ -45,8 +45,7 @@ impl Constant {
         } else {
             unpacked(kind, tensor)?
         };
-        let wanted = shape.iter().try_fold(1usize, |product, &length| product.checked_mul(length));
-        if wanted != Some(values.count()) {
+        if elements_of(&shape) != Some(values.count()) {
             return Err(format!("it has {} values, but the shape {shape:?}", values.count()));
         }
         Ok(Self { shape, values, kind })
@@ -54,11 +53,13 @@ impl Constant {
 
     /// The values of a tensor as they are stored.
     pub(super) fn of_tensor(tensor: &Tensor) -> Self {
-        fn integers<T: Number + Into<i64>>(tensor: &Tensor) -> Values {
-            Values::Integers(tensor.values::<T>().iter().map(|&value| value.into()).collect())
+        fn integers<T: Number + Into<i64>>(tensor: &Tensor) -> ConstantValues {
+            ConstantValues::Integers(
+                tensor.values::<T>().iter().map(|&value| value.into()).collect(),
+            )
         }
         let (values, kind) = match tensor.form().encoding().element {
-            Element::F32 => (Values::Floats(tensor.values().to_vec()), data_type::FLOAT),
+            Element::F32 => (ConstantValues::Floats(tensor.values().to_vec()), data_type::FLOAT),
             Element::U8 => (integers::<u8>(tensor), data_type::UINT8),
             Element::I8 => (integers::<i8>(tensor), data_type::INT8),
             Element::I32 => (integers::<i32>(tensor), data_type::INT32),
@@ -70,10 +71,10 @@ impl Constant {
     pub(super) fn encode(&self, kind: i32) -> Result<TensorProto, String> {
         let own = self.cast(kind)?;
         let (bytes, kind) = match &own.values {
-            Values::Floats(values) => {
+            ConstantValues::Floats(values) => {
                 (values.iter().flat_map(|value| value.to_le_bytes()).collect(), data_type::FLOAT)
             }
-            Values::Integers(values) => {
+            ConstantValues::Integers(values) => {
                 let width = match kind {
                     data_type::BOOL | data_type::UINT8 | data_type::INT8 => 1,
                     data_type::INT32 => 4,
@@ -105,9 +106,9 @@ impl Constant {
         #[allow(clippy::cast_precision_loss, reason = "a cast rounds")]
         let float = |&value: &i64| value as f32;
         let values = match (element(kind), &self.values) {
-            (Some(Element::F32), Values::Floats(_)) => self.values.clone(),
-            (Some(Element::F32), Values::Integers(values)) => {
-                Values::Floats(values.iter().map(float).collect())
+            (Some(Element::F32), ConstantValues::Floats(_)) => self.values.clone(),
+            (Some(Element::F32), ConstantValues::Integers(values)) => {
+                ConstantValues::Floats(values.iter().map(float).collect())
             }
             (None, _) if kind != data_type::INT64 => {
                 return Err(format!(
@@ -115,16 +116,18 @@ impl Constant {
                     data_type::name(kind.into())
                 ));
             }
-            (_, Values::Integers(values)) => {
-                Values::Integers(values.iter().map(|&value| cut(value, kind)).collect())
+            (_, ConstantValues::Integers(values)) => {
+                ConstantValues::Integers(values.iter().map(|&value| cut(value, kind)).collect())
             }
-            (_, Values::Floats(values)) if kind == data_type::BOOL => {
-                Values::Integers(values.iter().map(|&value| i64::from(value != 0.0)).collect())
+            (_, ConstantValues::Floats(values)) if kind == data_type::BOOL => {
+                ConstantValues::Integers(
+                    values.iter().map(|&value| i64::from(value != 0.0)).collect(),
+                )
             }
             #[allow(clippy::cast_possible_truncation, reason = "a cast cuts off")]
-            (_, Values::Floats(values)) => {
-                Values::Integers(values.iter().map(|&value| cut(value as i64, kind)).collect())
-            }
+            (_, ConstantValues::Floats(values)) => ConstantValues::Integers(
+                values.iter().map(|&value| cut(value as i64, kind)).collect(),
+            ),
         };
         Ok(Self { shape: self.shape.clone(), values, kind })
     }
@@ -132,16 +135,18 @@ impl Constant {
     /// How many values are infinite or no numbers.
     pub(super) fn not_finite(&self) -> usize {
         match &self.values {
-            Values::Floats(values) => values.iter().filter(|value| !value.is_finite()).count(),
-            Values::Integers(_) => 0,
+            ConstantValues::Floats(values) => {
+                values.iter().filter(|value| !value.is_finite()).count()
+            }
+            ConstantValues::Integers(_) => 0,
         }
     }
 
     /// Its values as integers.
     pub(super) fn as_integers(&self) -> Result<&[i64], String> {
         match &self.values {
-            Values::Integers(values) => Ok(values),
-            Values::Floats(_) => Err(format!(
+            ConstantValues::Integers(values) => Ok(values),
+            ConstantValues::Floats(_) => Err(format!(
                 "a constant must be of integers, but is of {}",
                 data_type::name(self.kind.into())
             )),
@@ -170,8 +175,8 @@ impl Constant {
         }
         let form = Form::whole(Vec::new()).encoded(Encoding::plain(wanted));
         Ok(match &self.values {
-            Values::Floats(values) => Tensor::new(form, values.clone()),
-            Values::Integers(values) => Tensor::of_integers(form, values)?,
+            ConstantValues::Floats(values) => Tensor::new(form, values.clone()),
+            ConstantValues::Integers(values) => Tensor::of_integers(form, values)?,
         })
     }
 
@@ -188,25 +193,16 @@ impl Constant {
         }
         let form = Form::whole(self.shape.clone()).encoded(Encoding::plain(element));
         Ok(match &self.values {
-            Values::Floats(values) => Tensor::new(form, values.clone()),
-            Values::Integers(values) => Tensor::of_integers(form, values)?,
+            ConstantValues::Floats(values) => Tensor::new(form, values.clone()),
+            ConstantValues::Integers(values) => Tensor::of_integers(form, values)?,
         })
-    }
-
-    /// Its values as floating-point ones, whatever they are; integers are rounded to 24 bits.
-    pub(super) fn floats_of(&self) -> Vec<f32> {
-        match &self.values {
-            Values::Floats(values) => values.clone(),
-            #[allow(clippy::cast_precision_loss, reason = "as documented")]
-            Values::Integers(values) => values.iter().map(|&value| value as f32).collect(),
-        }
     }
 
     /// Its values as floating-point ones.
     pub(super) fn as_floats(&self) -> Result<&[f32], String> {
         match &self.values {
-            Values::Floats(values) => Ok(values),
-            Values::Integers(_) => Err(format!(
+            ConstantValues::Floats(values) => Ok(values),
+            ConstantValues::Integers(_) => Err(format!(
                 "a constant must be of floating-point values, but is of {}",
                 data_type::name(self.kind.into())
             )),

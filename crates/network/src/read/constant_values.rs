@@ -3,12 +3,12 @@
 
 /// Values of a constant: those of floating point with 32 bits, integers with 64.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Values {
+pub(super) enum ConstantValues {
     Floats(Vec<f32>),
     Integers(Vec<i64>),
 }
 
-impl Values {
+impl ConstantValues {
     pub(super) fn count(&self) -> usize {
         match self {
             Self::Floats(values) => values.len(),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The values of tensors in messages.
 
-use super::constant_values::Values;
+use super::constant_values::ConstantValues;
 use crate::onnx::{TensorProto, data_type};
 
 /// Values from bytes, the lowest first.
-pub(super) fn decode(kind: i32, bytes: &[u8]) -> Result<Values, String> {
+pub(super) fn decode(kind: i32, bytes: &[u8]) -> Result<ConstantValues, String> {
     fn each<const N: usize, T>(bytes: &[u8], of: impl Fn([u8; N]) -> T) -> Result<Vec<T>, String> {
         let (values, rest) = bytes.as_chunks::<N>();
         if rest.is_empty() {
@@ -15,44 +15,50 @@ pub(super) fn decode(kind: i32, bytes: &[u8]) -> Result<Values, String> {
         }
     }
     Ok(match kind {
-        data_type::FLOAT => Values::Floats(each(bytes, f32::from_le_bytes)?),
+        data_type::FLOAT => ConstantValues::Floats(each(bytes, f32::from_le_bytes)?),
         #[allow(clippy::cast_possible_truncation, reason = "weights are 32 bits wide here")]
-        data_type::DOUBLE => Values::Floats(each(bytes, |bytes| f64::from_le_bytes(bytes) as f32)?),
-        data_type::FLOAT16 => Values::Floats(each(bytes, |bytes| half(u16::from_le_bytes(bytes)))?),
-        data_type::BFLOAT16 => {
-            Values::Floats(each(bytes, |bytes| brain(u16::from_le_bytes(bytes)))?)
+        data_type::DOUBLE => {
+            ConstantValues::Floats(each(bytes, |bytes| f64::from_le_bytes(bytes) as f32)?)
         }
-        data_type::INT64 => Values::Integers(each(bytes, i64::from_le_bytes)?),
+        data_type::FLOAT16 => {
+            ConstantValues::Floats(each(bytes, |bytes| half(u16::from_le_bytes(bytes)))?)
+        }
+        data_type::BFLOAT16 => {
+            ConstantValues::Floats(each(bytes, |bytes| brain(u16::from_le_bytes(bytes)))?)
+        }
+        data_type::INT64 => ConstantValues::Integers(each(bytes, i64::from_le_bytes)?),
         data_type::INT32 => {
-            Values::Integers(each(bytes, |bytes| i64::from(i32::from_le_bytes(bytes)))?)
+            ConstantValues::Integers(each(bytes, |bytes| i64::from(i32::from_le_bytes(bytes)))?)
         }
         data_type::INT8 => {
-            Values::Integers(each(bytes, |bytes| i64::from(i8::from_le_bytes(bytes)))?)
+            ConstantValues::Integers(each(bytes, |bytes| i64::from(i8::from_le_bytes(bytes)))?)
         }
         data_type::UINT8 | data_type::BOOL => {
-            Values::Integers(each(bytes, |[byte]| i64::from(byte))?)
+            ConstantValues::Integers(each(bytes, |[byte]| i64::from(byte))?)
         }
         other => return Err(unknown(other)),
     })
 }
 
 /// Values that are fields of the message.
-pub(super) fn unpacked(kind: i32, tensor: &TensorProto) -> Result<Values, String> {
+pub(super) fn unpacked(kind: i32, tensor: &TensorProto) -> Result<ConstantValues, String> {
     Ok(match kind {
-        data_type::FLOAT => Values::Floats(tensor.float_data.clone()),
+        data_type::FLOAT => ConstantValues::Floats(tensor.float_data.clone()),
         #[allow(clippy::cast_possible_truncation, reason = "weights are 32 bits wide here")]
         data_type::DOUBLE => {
-            Values::Floats(tensor.double_data.iter().map(|&value| value as f32).collect())
+            ConstantValues::Floats(tensor.double_data.iter().map(|&value| value as f32).collect())
         }
         data_type::FLOAT16 => {
-            Values::Floats(tensor.int32_data.iter().map(bits).map(half).collect())
+            ConstantValues::Floats(tensor.int32_data.iter().map(bits).map(half).collect())
         }
         data_type::BFLOAT16 => {
-            Values::Floats(tensor.int32_data.iter().map(bits).map(brain).collect())
+            ConstantValues::Floats(tensor.int32_data.iter().map(bits).map(brain).collect())
         }
-        data_type::INT64 => Values::Integers(tensor.int64_data.clone()),
+        data_type::INT64 => ConstantValues::Integers(tensor.int64_data.clone()),
         data_type::INT32 | data_type::INT8 | data_type::UINT8 | data_type::BOOL => {
-            Values::Integers(tensor.int32_data.iter().map(|&value| i64::from(value)).collect())
+            ConstantValues::Integers(
+                tensor.int32_data.iter().map(|&value| i64::from(value)).collect(),
+            )
         }
         other => return Err(unknown(other)),
     })

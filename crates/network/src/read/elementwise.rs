@@ -2,8 +2,8 @@
 //! Arithmetic, comparisons and choices of constants, each repeated where it has one element.
 
 use super::constant::Constant;
-use super::constant_values::Values;
-use super::folder::Folder;
+use super::constant_values::ConstantValues;
+use super::folder::ModelFolder;
 use super::rearrange::spread;
 use crate::onnx::data_type;
 use crate::operator::{Activation, broadcast};
@@ -27,23 +27,23 @@ pub(super) fn unary(kind: &str, from: &Constant) -> Result<Option<Constant>> {
         _ => return Ok(None),
     };
     let values = match (&from.values, activation) {
-        (Values::Floats(values), activation) => {
-            Values::Floats(values.iter().map(|&value| activation.of(value)).collect())
+        (ConstantValues::Floats(values), activation) => {
+            ConstantValues::Floats(values.iter().map(|&value| activation.of(value)).collect())
         }
-        (Values::Integers(values), Activation::Neg) => {
-            Values::Integers(values.iter().map(|value| value.wrapping_neg()).collect())
+        (ConstantValues::Integers(values), Activation::Neg) => {
+            ConstantValues::Integers(values.iter().map(|value| value.wrapping_neg()).collect())
         }
-        (Values::Integers(values), Activation::Abs) => {
-            Values::Integers(values.iter().map(|value| value.wrapping_abs()).collect())
+        (ConstantValues::Integers(values), Activation::Abs) => {
+            ConstantValues::Integers(values.iter().map(|value| value.wrapping_abs()).collect())
         }
-        (Values::Integers(_), _) => return Err("its constant is of integers".to_owned()),
+        (ConstantValues::Integers(_), _) => return Err("its constant is of integers".to_owned()),
     };
     Ok(Some(Constant { values, ..from.clone() }))
 }
 
 /// A function of two values.
 pub(super) fn binary(
-    folder: &Folder,
+    folder: &ModelFolder,
     kind: &str,
     a: &Constant,
     b: &Constant,
@@ -60,20 +60,21 @@ pub(super) fn binary(
         b = exponent(&b, a.kind)?;
     }
     let values = match (&a.values, &b.values) {
-        (Values::Integers(of_a), Values::Integers(of_b)) => {
+        (ConstantValues::Integers(of_a), ConstantValues::Integers(of_b)) => {
             let pairs = of_a.iter().zip(of_b);
             let values: Option<Vec<i64>> = pairs.map(|(&a, &b)| integer(kind, a, b)).collect();
-            Values::Integers(values.ok_or("its result is no integer of 64 bits")?)
+            ConstantValues::Integers(values.ok_or("its result is no integer of 64 bits")?)
         }
-        (Values::Floats(of_a), Values::Floats(of_b)) => {
+        (ConstantValues::Floats(of_a), ConstantValues::Floats(of_b)) => {
             let pairs = of_a.iter().zip(of_b);
             if is_comparison {
-                Values::Integers(pairs.map(|(a, b)| compared(kind, a, b).into()).collect())
+                ConstantValues::Integers(pairs.map(|(a, b)| compared(kind, a, b).into()).collect())
             } else {
-                Values::Floats(pairs.map(|(&a, &b)| float(kind, a, b)).collect())
+                ConstantValues::Floats(pairs.map(|(&a, &b)| float(kind, a, b)).collect())
             }
         }
-        (Values::Integers(_), Values::Floats(_)) | (Values::Floats(_), Values::Integers(_)) => {
+        (ConstantValues::Integers(_), ConstantValues::Floats(_))
+        | (ConstantValues::Floats(_), ConstantValues::Integers(_)) => {
             return Err("one of its constants is of integers, the other is not".to_owned());
         }
     };
@@ -84,7 +85,7 @@ pub(super) fn binary(
 /// An exponent as a power of this base takes it, which may be of another type.
 pub(super) fn exponent(exponent: &Constant, base: i32) -> Result<Constant> {
     let largest = 1 << f32::MANTISSA_DIGITS;
-    if let Values::Integers(values) = &exponent.values
+    if let ConstantValues::Integers(values) = &exponent.values
         && let Some(odd) = values.iter().find(|value| !(-largest..=largest).contains(*value))
     {
         return Err(format!("its exponent is {odd}; integers are from {} to {largest}", -largest));
@@ -92,7 +93,7 @@ pub(super) fn exponent(exponent: &Constant, base: i32) -> Result<Constant> {
     let is_whole = |value: &f32| value.fract() == 0.0;
     let is_integer = base == data_type::INT64 || base == data_type::INT32;
     match &exponent.values {
-        Values::Floats(values) if is_integer && !values.iter().all(is_whole) => {
+        ConstantValues::Floats(values) if is_integer && !values.iter().all(is_whole) => {
             Err("a power of integers with an exponent that is none is not supported".to_owned())
         }
         _ => exponent.cast(base),
@@ -136,7 +137,7 @@ fn float(kind: &str, a: f32, b: f32) -> f32 {
 
 /// The second constant where the first is not 0, else the third.
 pub(super) fn select(
-    folder: &Folder,
+    folder: &ModelFolder,
     condition: &Constant,
     a: &Constant,
     b: &Constant,
@@ -149,11 +150,14 @@ pub(super) fn select(
         is.iter().zip(a.iter().zip(b)).map(|(&is, (&a, &b))| if is == 0 { b } else { a }).collect()
     }
     let values = match (&a.values, &b.values) {
-        (Values::Integers(of_a), Values::Integers(of_b)) => {
-            Values::Integers(chosen(is, of_a, of_b))
+        (ConstantValues::Integers(of_a), ConstantValues::Integers(of_b)) => {
+            ConstantValues::Integers(chosen(is, of_a, of_b))
         }
-        (Values::Floats(of_a), Values::Floats(of_b)) => Values::Floats(chosen(is, of_a, of_b)),
-        (Values::Integers(_), Values::Floats(_)) | (Values::Floats(_), Values::Integers(_)) => {
+        (ConstantValues::Floats(of_a), ConstantValues::Floats(of_b)) => {
+            ConstantValues::Floats(chosen(is, of_a, of_b))
+        }
+        (ConstantValues::Integers(_), ConstantValues::Floats(_))
+        | (ConstantValues::Floats(_), ConstantValues::Integers(_)) => {
             return Err("one of its constants is of integers, the other is not".to_owned());
         }
     };
@@ -161,7 +165,7 @@ pub(super) fn select(
 }
 
 /// Numbers from a first one to before a last one.
-pub(super) fn range(folder: &Folder, inputs: &[&Constant]) -> Result<Constant> {
+pub(super) fn range(folder: &ModelFolder, inputs: &[&Constant]) -> Result<Constant> {
     let &[start, limit, delta] = inputs else {
         return Err(format!("it has {} inputs, not 3", inputs.len()));
     };
@@ -177,10 +181,10 @@ pub(super) fn range(folder: &Folder, inputs: &[&Constant]) -> Result<Constant> {
             }
         };
         let shape = vec![usize::try_from(count).unwrap_or(usize::MAX)];
-        let count = folder.check_room(&shape, &Values::Integers(Vec::new()))?;
+        let count = folder.check_room(&shape, &ConstantValues::Integers(Vec::new()))?;
         let numbers = (0..).take(count);
         let values = numbers.map(|at: i64| start.wrapping_add(at.wrapping_mul(delta))).collect();
-        return Ok(Constant { shape, values: Values::Integers(values), kind });
+        return Ok(Constant { shape, values: ConstantValues::Integers(values), kind });
     }
     let one = |of: &Constant| match of.as_floats()? {
         &[value] => Ok(value),
@@ -197,7 +201,7 @@ pub(super) fn range(folder: &Folder, inputs: &[&Constant]) -> Result<Constant> {
         reason = "it is not negative"
     )]
     let shape = [count as usize];
-    let count = folder.check_room(&shape, &Values::Floats(Vec::new()))?;
+    let count = folder.check_room(&shape, &ConstantValues::Floats(Vec::new()))?;
     #[allow(clippy::cast_precision_loss, reason = "as the operator says")]
     let values = (0..count).map(|at| start + at as f32 * delta).collect();
     Ok(Constant::floats(vec![count], values))

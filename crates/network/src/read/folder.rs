@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The folder of a model, whose files hold constants, and how much memory constants may still take.
 
-use super::constant_values::Values;
+use super::constant_values::ConstantValues;
+use crate::form::elements_of;
 use crate::onnx::TensorProto;
 use std::cell::Cell;
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
 /// The folder of the model, in which data outside of the file must lie.
-pub(super) struct Folder {
+pub(super) struct ModelFolder {
     path: PathBuf,
     /// Bytes of constants that may still be read.
     left: Cell<u64>,
@@ -21,7 +22,7 @@ const MAX_BYTES: u64 = 1 << 32;
 /// Bytes of all constants that are computed when a model is read. A few bytes of a file are enough to ask for them.
 const MAX_COMPUTED: u64 = 1 << 30;
 
-impl Folder {
+impl ModelFolder {
     pub(super) fn of(model: &Path) -> Self {
         let path = model.parent().unwrap_or_else(|| Path::new("")).to_owned();
         Self { path, left: Cell::new(MAX_BYTES), room: Cell::new(MAX_COMPUTED) }
@@ -35,8 +36,12 @@ impl Folder {
     }
 
     /// The number of values of a shape, if there is room for them as a computed constant of this type.
-    pub(super) fn check_room(&self, shape: &[usize], like: &Values) -> Result<usize, String> {
-        let count = shape.iter().try_fold(1usize, |count, &length| count.checked_mul(length));
+    pub(super) fn check_room(
+        &self,
+        shape: &[usize],
+        like: &ConstantValues,
+    ) -> Result<usize, String> {
+        let count = elements_of(shape);
         let bytes = count.and_then(|count| (count as u64).checked_mul(like.bytes_each()));
         match (count, bytes.and_then(|bytes| self.room.get().checked_sub(bytes))) {
             (Some(count), Some(_)) => Ok(count),
@@ -48,7 +53,7 @@ impl Folder {
     }
 
     /// Counts a computed constant, which is kept.
-    pub(super) fn keep(&self, shape: &[usize], values: &Values) -> Result<(), String> {
+    pub(super) fn keep(&self, shape: &[usize], values: &ConstantValues) -> Result<(), String> {
         let count = self.check_room(shape, values)? as u64;
         self.room.set(self.room.get() - count * values.bytes_each());
         Ok(())
@@ -56,7 +61,7 @@ impl Folder {
 }
 
 /// The bytes of a tensor in a file of its own, which must lie in the folder of the model.
-pub(super) fn external(tensor: &TensorProto, folder: &Folder) -> Result<Vec<u8>, String> {
+pub(super) fn external(tensor: &TensorProto, folder: &ModelFolder) -> Result<Vec<u8>, String> {
     let entry = |key: &str| {
         tensor
             .external_data

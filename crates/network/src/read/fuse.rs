@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Activations that the operator before them applies itself.
 
-use super::graph::Reading;
+use super::graph::GraphReader;
 use super::names::full_kind;
 use super::node::Known;
 use super::pointwise;
 use crate::onnx::NodeProto;
 use crate::operator::Activation;
 
-impl Reading<'_> {
+impl GraphReader<'_> {
     /// Lets the operator just before apply an activation itself, if nobody else wants what it makes.
     pub(super) fn fuse(
         &mut self,

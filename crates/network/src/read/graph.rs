@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The graph of a model, node by node.
 
-use super::attributes::Attributes;
+use super::attributes::NodeAttributes;
 use super::constant::Constant;
 use super::fold;
-use super::folder::Folder;
+use super::folder::ModelFolder;
 use super::input::{FrameSize, arrays_of, frame_input, puts_channels_first};
 use super::made::Made;
 use super::names::{full_kind, name_of, shown_name};
 use super::node::{Known, NodeReader, Operand};
 use super::operators;
 use super::pointwise;
-use super::schema::Schema;
+use super::schema::OperatorSchema;
 use crate::element::Element;
 use crate::error::NetworkError;
 use crate::layout::Layout;
@@ -33,7 +33,7 @@ pub(super) enum InputSource<'a> {
 
 /// The reaction to a node that cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum OnProblem {
+pub(super) enum ProblemPolicy {
     /// The reading ends.
     Stop,
     /// The problem is noted, and nodes that depend on this one are only looked up.
@@ -41,7 +41,7 @@ pub(super) enum OnProblem {
 }
 
 /// A graph that was read.
-pub(super) struct ReadGraph {
+pub(super) struct GraphResult {
     pub(super) network: Network,
     /// The outputs in order: values of the network, or constants.
     pub(super) outputs: Vec<(String, Known)>,
@@ -53,10 +53,10 @@ pub(super) struct ReadGraph {
 /// Reads a graph.
 pub(super) fn read(
     graph: &GraphProto,
-    folder: &Folder,
+    folder: &ModelFolder,
     source: &InputSource<'_>,
-    (opset, on_problem): (i64, OnProblem),
-) -> Result<ReadGraph, NetworkError> {
+    (opset, on_problem): (i64, ProblemPolicy),
+) -> Result<GraphResult, NetworkError> {
     let (mut known, odd) = constants(graph, folder)?;
     let inputs: Vec<_> =
         graph.input.iter().filter(|input| !known.contains_key(name_of(input))).collect();
@@ -67,7 +67,7 @@ pub(super) fn read(
     };
     let network = Network::new(bound.form, bound.layout)?;
     known.extend(bound.known);
-    let mut reading = Reading {
+    let mut reading = GraphReader {
         network,
         known,
         unknown: HashSet::new(),
@@ -86,13 +86,13 @@ pub(super) fn read(
     let outputs = if problems.is_empty() { reading.outputs(graph)? } else { Vec::new() };
     let mut network = reading.network;
     network.finish(values_of(&outputs), odd);
-    Ok(ReadGraph { network, outputs, picture: bound.picture, problems })
+    Ok(GraphResult { network, outputs, picture: bound.picture, problems })
 }
 
 /// All constants by their names, and those that hold values that are not finite.
 type Constants = (HashMap<String, Known>, Vec<(String, usize)>);
 
-fn constants(graph: &GraphProto, folder: &Folder) -> Result<Constants, NetworkError> {
+fn constants(graph: &GraphProto, folder: &ModelFolder) -> Result<Constants, NetworkError> {
     let (mut known, mut odd) = (HashMap::new(), Vec::new());
     for tensor in &graph.initializer {
         let name = tensor.name.clone().unwrap_or_default();
@@ -117,21 +117,21 @@ fn values_of(outputs: &[(String, Known)]) -> Vec<(String, usize)> {
 }
 
 /// A graph of which some nodes have been read.
-pub(super) struct Reading<'a> {
+pub(super) struct GraphReader<'a> {
     pub(super) network: Network,
     pub(super) known: HashMap<String, Known>,
     /// Values of which nothing is known, because a node before them cannot be read.
     unknown: HashSet<String>,
-    folder: &'a Folder,
+    folder: &'a ModelFolder,
     opset: i64,
-    on_problem: OnProblem,
+    on_problem: ProblemPolicy,
     /// How often each name is taken.
     pub(super) uses: HashMap<&'a str, usize>,
     /// Values that have a second name.
     pub(super) aliased: HashSet<usize>,
 }
 
-impl Reading<'_> {
+impl GraphReader<'_> {
     /// Reads all nodes, and returns the problems that are noted. `channels_last` names an input that is read as its transpose.
     fn nodes(
         &mut self,
@@ -144,7 +144,7 @@ impl Reading<'_> {
             let read =
                 if is_transpose { self.same(node, index, 0) } else { self.node(node, index) };
             match read {
-                Err(problem) if self.on_problem == OnProblem::Note => {
+                Err(problem) if self.on_problem == ProblemPolicy::Note => {
                     problems.push(problem);
                     self.unknown.extend(node.output.iter().cloned());
                 }
@@ -159,8 +159,10 @@ impl Reading<'_> {
         let operator = full_kind(node);
         if !operators::is_known(&operator) {
             let advice = match self.on_problem {
-                OnProblem::Stop => "; `foveate infer --check MODEL` lists all nodes that are not",
-                OnProblem::Note => "",
+                ProblemPolicy::Stop => {
+                    "; `foveate infer --check MODEL` lists all nodes that are not"
+                }
+                ProblemPolicy::Note => "",
             };
             return Err(NetworkError::Operator { node: name, operator, advice });
         }
@@ -169,7 +171,7 @@ impl Reading<'_> {
             operator: node.op_type.clone().unwrap_or_default(),
             problem,
         };
-        Schema::check(node, self.opset).map_err(problem)?;
+        OperatorSchema::check(node, self.opset).map_err(problem)?;
         if node.input.iter().any(|input| self.unknown.contains(input)) {
             self.unknown.extend(node.output.iter().cloned());
             return Ok(());
@@ -284,7 +286,7 @@ impl Reading<'_> {
             }
         }
         let forms = |value: usize| self.network.form(value).clone();
-        let attributes = Attributes::of(node);
+        let attributes = NodeAttributes::of(node);
         let reader = NodeReader {
             node,
             attributes: &attributes,
@@ -297,7 +299,7 @@ impl Reading<'_> {
             Some(constant) => vec![Made::Constant(constant)],
             None => operators::make(&reader)?,
         };
-        Schema::check_read(&attributes, self.opset)?;
+        OperatorSchema::check_read(&attributes, self.opset)?;
         Ok(made)
     }
 

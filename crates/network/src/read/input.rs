@@ -2,7 +2,7 @@
 //! The input of a network, and the frames that it is to take.
 
 use super::constant::Constant;
-use super::folder::Folder;
+use super::folder::ModelFolder;
 use super::names::{full_kind, is_standard, name_of, shown_name};
 use super::node::Known;
 use crate::element::Element;
@@ -62,7 +62,7 @@ fn layout(
 }
 
 /// The inputs of a network, as it is read.
-pub(super) struct BoundInputs {
+pub(super) struct InputBinding {
     /// The form of the input with channels first.
     pub(super) form: Form,
     pub(super) layout: Layout,
@@ -80,7 +80,7 @@ pub(super) fn frame_input(
     graph: &GraphProto,
     frames: Option<FrameSize>,
     open: Option<FrameSize>,
-) -> Result<BoundInputs, NetworkError> {
+) -> Result<InputBinding, NetworkError> {
     let &[input] = inputs else {
         let names: Vec<_> = inputs.iter().map(|input| name_of(input)).collect();
         return Err(NetworkError::Network(format!(
@@ -91,15 +91,15 @@ pub(super) fn frame_input(
     };
     let (form, layout) = input_form(input, graph, frames, open)?;
     let known = vec![(name_of(input).to_owned(), Known::Value(0))];
-    Ok(BoundInputs { form, layout, known, stored: None, picture: Vec::new() })
+    Ok(InputBinding { form, layout, known, stored: None, picture: Vec::new() })
 }
 
 /// An array for each input. The first that the executor can take is the input of the network, the others are constants of it.
 pub(super) fn arrays_of(
     inputs: &[&ValueInfoProto],
     arrays: &[TensorProto],
-    folder: &Folder,
-) -> Result<BoundInputs, NetworkError> {
+    folder: &ModelFolder,
+) -> Result<InputBinding, NetworkError> {
     if inputs.len() != arrays.len() {
         let names: Vec<_> = inputs.iter().map(|input| name_of(input)).collect();
         return Err(NetworkError::Network(format!(
@@ -109,7 +109,7 @@ pub(super) fn arrays_of(
             arrays.len()
         )));
     }
-    let mut bound = BoundInputs {
+    let mut bound = InputBinding {
         form: Form::whole(vec![1]),
         layout: Layout::Nchw,
         known: Vec::new(),
@@ -120,8 +120,9 @@ pub(super) fn arrays_of(
     for (input, array) in inputs.iter().zip(arrays) {
         let name = name_of(input).to_owned();
         check_array(input, array)?;
-        let constant = Constant::read(array, folder)
-            .map_err(|problem| NetworkError::Network(format!("its input `{name}`: {problem}")))?;
+        let wrong =
+            |problem| NetworkError::Network(format!("its input `{}`: {problem}", name_of(input)));
+        let constant = Constant::read(array, folder).map_err(wrong)?;
         let is_float = matches!(constant.element(), Some(Element::F32));
         let is_byte = [data_type::UINT8, data_type::INT8].contains(&constant.kind);
         if is_taken || !(is_float || is_byte) || constant.values.count() == 0 {
@@ -132,7 +133,8 @@ pub(super) fn arrays_of(
         bound.form = Form::features(constant.shape.clone());
         bound.known.push((name.clone(), Known::Value(0)));
         bound.stored = constant.element().filter(|_| is_byte).map(|element| (name, element));
-        bound.picture = constant.floats_of();
+        let floats = constant.cast(data_type::FLOAT).map_err(wrong)?;
+        bound.picture = floats.as_floats().map_err(wrong)?.to_vec();
     }
     Ok(bound)
 }

@@ -12,7 +12,6 @@ mod folder;
 mod fuse;
 mod graph;
 mod input;
-
 mod made;
 mod memory;
 mod moves;
@@ -33,8 +32,8 @@ mod transposed;
 use crate::error::NetworkError;
 use crate::network::Network;
 use crate::onnx::ModelProto;
-use folder::Folder;
-use graph::{InputSource, OnProblem, ReadGraph};
+use folder::ModelFolder;
+use graph::{GraphResult, InputSource, ProblemPolicy};
 use node::Known;
 use prost::Message as _;
 use std::fs::File;
@@ -73,7 +72,7 @@ impl Network {
         frames: impl Into<Option<FrameSize>>,
     ) -> Result<Self, NetworkError> {
         let source = InputSource::Frames(frames.into());
-        let read = read_graph(bytes, path, &source, OnProblem::Stop)?;
+        let read = graph_of(&decoded(bytes, path)?, path, &source, ProblemPolicy::Stop)?;
         let constant = read.outputs.iter().find(|(_, of)| matches!(of, Known::Constant(_)));
         match constant {
             None => Ok(read.network),
@@ -90,7 +89,7 @@ impl Network {
     /// As [`Network::read`], but for nodes.
     pub fn check(path: &Path, open: FrameSize) -> Result<NetworkCheck, NetworkError> {
         let model = decoded(&contents(path)?, path)?;
-        let read = graph_of(&model, path, &InputSource::Open(open), OnProblem::Note)?;
+        let read = graph_of(&model, path, &InputSource::Open(open), ProblemPolicy::Note)?;
         let nodes = model.graph.map_or(0, |graph| graph.node.len());
         let network = if read.problems.is_empty() { Ok(read.network) } else { Err(read.problems) };
         Ok(NetworkCheck { nodes, network })
@@ -124,21 +123,13 @@ fn not_onnx(path: &Path, problem: &str) -> NetworkError {
     NetworkError::NotOnnx { path: path.to_owned(), problem: problem.to_owned() }
 }
 
-fn read_graph(
-    bytes: &[u8],
-    path: &Path,
-    source: &InputSource<'_>,
-    on_problem: OnProblem,
-) -> Result<ReadGraph, NetworkError> {
-    graph_of(&decoded(bytes, path)?, path, source, on_problem)
-}
-
+/// Reads the graph of a model.
 fn graph_of(
     model: &ModelProto,
     path: &Path,
     source: &InputSource<'_>,
-    on_problem: OnProblem,
-) -> Result<ReadGraph, NetworkError> {
+    on_problem: ProblemPolicy,
+) -> Result<GraphResult, NetworkError> {
     let graph = model.graph.as_ref().ok_or_else(|| not_onnx(path, "it has no graph"))?;
     let own = model.opset_import.iter().find(|set| names::is_standard(set.domain.as_deref()));
     let opset = own.and_then(|set| set.version).unwrap_or(MAX_OPSET);
@@ -147,7 +138,7 @@ fn graph_of(
             "it uses version {opset} of the ONNX operators; versions {MIN_OPSET} to {MAX_OPSET} are supported"
         )));
     }
-    graph::read(graph, &Folder::of(path), source, (opset, on_problem))
+    graph::read(graph, &ModelFolder::of(path), source, (opset, on_problem))
 }
 
 /// The model in a file.

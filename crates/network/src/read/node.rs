@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! A node as operators read it: attributes with their defaults, constants, and values.
 
-use super::attributes::Attributes;
+use super::attributes::NodeAttributes;
 use super::constant::Constant;
-use super::folder::Folder;
+use super::folder::ModelFolder;
 use super::names;
 use crate::element::{Element, typed_byte};
 use crate::form::Form;
@@ -30,9 +30,9 @@ pub(super) enum Operand {
 
 pub(super) struct NodeReader<'a> {
     pub(super) node: &'a NodeProto,
-    pub(super) attributes: &'a Attributes<'a>,
+    pub(super) attributes: &'a NodeAttributes<'a>,
     pub(super) known: &'a HashMap<String, Known>,
-    pub(super) folder: &'a Folder,
+    pub(super) folder: &'a ModelFolder,
     /// The version of the operators.
     pub(super) opset: i64,
     pub(super) forms: &'a dyn Fn(usize) -> Form,

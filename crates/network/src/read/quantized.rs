@@ -2,7 +2,7 @@
 //! The operators of quantized networks: those of ONNX, and those of onnxruntime (`com.microsoft`).
 
 use super::constant::Constant;
-use super::constant_values::Values;
+use super::constant_values::ConstantValues;
 use super::made::{Made, one};
 use super::node::{Known, NodeReader};
 use super::normal::shares;
@@ -66,7 +66,7 @@ pub(super) fn quantized(node: &NodeReader<'_>, constant: &Constant) -> Result<Co
     let values = constant.as_floats()?.iter().enumerate().map(stored).collect();
     Ok(Constant {
         shape: constant.shape.clone(),
-        values: Values::Integers(values),
+        values: ConstantValues::Integers(values),
         kind: stored_as(to),
     })
 }

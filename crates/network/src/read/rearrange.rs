@@ -2,10 +2,10 @@
 //! Constants whose values are taken from another one: what exporters write to make the widths of padding from a list.
 
 use super::constant::Constant;
-use super::constant_values::Values;
-use super::folder::Folder;
+use super::constant_values::ConstantValues;
+use super::folder::ModelFolder;
 use super::node::{NodeReader, from_start, signed};
-use crate::form::MAX_AXES;
+use crate::form::{MAX_AXES, elements_of};
 
 /// As many times the same value as a shape says.
 pub(super) fn filled(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant, String> {
@@ -19,8 +19,8 @@ pub(super) fn filled(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant
     }
     let count = node.folder.check_room(&shape, &value.values)?;
     let values = match &value.values {
-        Values::Floats(values) => Values::Floats(vec![values[0]; count]),
-        Values::Integers(values) => Values::Integers(vec![values[0]; count]),
+        ConstantValues::Floats(values) => ConstantValues::Floats(vec![values[0]; count]),
+        ConstantValues::Integers(values) => ConstantValues::Integers(vec![values[0]; count]),
     };
     Ok(Constant { shape, values, kind: value.kind })
 }
@@ -49,13 +49,11 @@ pub(super) fn reshaped(
     let shape: Option<Vec<usize>> = wanted.iter().enumerate().map(length).collect();
     let mut shape = shape.ok_or_else(wrong)?;
     if let Some(open) = wanted.iter().position(|&length| length == -1) {
-        let known = shape.iter().try_fold(1usize, |known, &length| known.checked_mul(length));
+        let known = elements_of(&shape);
         shape[open] =
             from.values.count().checked_div(known.ok_or_else(wrong)?).ok_or_else(wrong)?;
     }
-    if shape.iter().try_fold(1usize, |all, &length| all.checked_mul(length))
-        != Some(from.values.count())
-    {
+    if elements_of(&shape) != Some(from.values.count()) {
         return Err(wrong());
     }
     Ok(Constant { shape, ..from.clone() })
@@ -129,7 +127,11 @@ pub(super) fn stretch(
 }
 
 /// A constant repeated to a shape along axes of one element, and along new axes in front.
-pub(super) fn spread(folder: &Folder, of: &Constant, shape: &[usize]) -> Result<Constant, String> {
+pub(super) fn spread(
+    folder: &ModelFolder,
+    of: &Constant,
+    shape: &[usize],
+) -> Result<Constant, String> {
     if of.shape == shape {
         return Ok(of.clone());
     }
@@ -205,14 +207,14 @@ pub(super) fn joined(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Const
         (0..outer).flat_map(line).collect()
     }
     let values = match &first.values {
-        Values::Integers(_) => {
+        ConstantValues::Integers(_) => {
             let parts =
                 parts.iter().map(|part| part.as_integers()).collect::<Result<Vec<_>, _>>()?;
-            Values::Integers(lines(&parts, outer))
+            ConstantValues::Integers(lines(&parts, outer))
         }
-        Values::Floats(_) => {
+        ConstantValues::Floats(_) => {
             let parts = parts.iter().map(|part| part.as_floats()).collect::<Result<Vec<_>, _>>()?;
-            Values::Floats(lines(&parts, outer))
+            ConstantValues::Floats(lines(&parts, outer))
         }
     };
     Ok(Constant { shape, values, kind: first.kind })
@@ -230,7 +232,7 @@ fn stride(shape: &[usize], axis: usize) -> usize {
 
 /// A constant whose value at each place is another's value, of which `from` gives the number.
 fn pick(
-    folder: &Folder,
+    folder: &ModelFolder,
     of: &Constant,
     shape: Vec<usize>,
     from: impl Fn(&[usize]) -> usize,
@@ -243,8 +245,12 @@ fn pick(
         number
     });
     let values = match &of.values {
-        Values::Floats(values) => Values::Floats(numbers.map(|at| values[at]).collect()),
-        Values::Integers(values) => Values::Integers(numbers.map(|at| values[at]).collect()),
+        ConstantValues::Floats(values) => {
+            ConstantValues::Floats(numbers.map(|at| values[at]).collect())
+        }
+        ConstantValues::Integers(values) => {
+            ConstantValues::Integers(numbers.map(|at| values[at]).collect())
+        }
     };
     Ok(Constant { shape, values, kind: of.kind })
 }

@@ -2,7 +2,7 @@
 //! Scales, zero points and weights of quantized networks, checked.
 
 use super::constant::Constant;
-use super::constant_values::Values;
+use super::constant_values::ConstantValues;
 use super::node::NodeReader;
 use crate::element::{Element, Encoding};
 use crate::onnx::data_type;
@@ -187,7 +187,10 @@ pub(super) fn row_major(
     let values = matrix.as_integers()?;
     let turned = |output| (0..rows).map(move |input| values[input * columns + output]);
     let values = (0..columns).flat_map(turned).collect();
-    let turned =
-        Constant { shape: vec![columns, rows], values: Values::Integers(values), ..*matrix };
+    let turned = Constant {
+        shape: vec![columns, rows],
+        values: ConstantValues::Integers(values),
+        ..*matrix
+    };
     Ok((Cow::Owned(turned), columns, rows))
 }

@@ -2,7 +2,7 @@
 //! Operators as their standard describes them, version by version: how many inputs and outputs a node has, and its attributes.
 //! `scripts/onnx_schemas.py` compares the table with the schemas of ONNX and onnxruntime.
 
-use super::attributes::Attributes;
+use super::attributes::NodeAttributes;
 use super::names;
 use crate::onnx::{AttributeProto, NodeProto, attribute_type};
 use std::collections::HashMap;
@@ -10,16 +10,16 @@ use std::sync::LazyLock;
 
 /// A line of the table: an operator from a version on.
 #[derive(Debug)]
-pub(super) struct Schema {
+pub(super) struct OperatorSchema {
     since: i64,
     inputs: (usize, Option<usize>),
     outputs: (usize, Option<usize>),
-    attributes: Vec<SchemaAttribute>,
+    attributes: Vec<AttributeSchema>,
 }
 
 /// An attribute that a node may have.
 #[derive(Debug)]
-struct SchemaAttribute {
+struct AttributeSchema {
     name: &'static str,
     kind: &'static str,
     is_required: bool,
@@ -28,8 +28,8 @@ struct SchemaAttribute {
 }
 
 /// The lines of each operator, from the oldest version to the newest.
-static SCHEMAS: LazyLock<HashMap<&str, Vec<Schema>>> = LazyLock::new(|| {
-    let mut schemas: HashMap<&str, Vec<Schema>> = HashMap::new();
+static SCHEMAS: LazyLock<HashMap<&str, Vec<OperatorSchema>>> = LazyLock::new(|| {
+    let mut schemas: HashMap<&str, Vec<OperatorSchema>> = HashMap::new();
     for line in include_str!("schemas.txt").lines() {
         let (name, schema) = parse(line).expect("a test reads every line of the table");
         schemas.entry(name).or_default().push(schema);
@@ -56,7 +56,7 @@ const WITHOUT_EFFECT: &[(&str, &[&str])] = &[
     ("Range", &["stash_type"]),
 ];
 
-impl Schema {
+impl OperatorSchema {
     /// Checks that a node has what its operator has in a version of the operators.
     pub(super) fn check(node: &NodeProto, opset: i64) -> Result<(), String> {
         let Some(schema) = Self::of(node, opset)? else { return Ok(()) };
@@ -79,7 +79,7 @@ impl Schema {
     }
 
     /// Refuses an attribute that says something and was not looked at.
-    pub(super) fn check_read(attributes: &Attributes<'_>, opset: i64) -> Result<(), String> {
+    pub(super) fn check_read(attributes: &NodeAttributes<'_>, opset: i64) -> Result<(), String> {
         let node = attributes.node();
         let Some(schema) = Self::of(node, opset)? else { return Ok(()) };
         let full = names::full_kind(node);
@@ -116,7 +116,7 @@ impl Schema {
     }
 }
 
-impl SchemaAttribute {
+impl AttributeSchema {
     /// Refuses a value of another type.
     fn check(&self, attribute: &AttributeProto) -> Result<(), String> {
         if attribute.ref_attr_name.as_deref().is_some_and(|name| !name.is_empty()) {
@@ -179,13 +179,13 @@ fn within(what: &str, count: usize, (least, most): (usize, Option<usize>)) -> Re
 }
 
 /// A line of the table, with the name of its operator.
-fn parse(line: &'static str) -> Option<(&'static str, Schema)> {
+fn parse(line: &'static str) -> Option<(&'static str, OperatorSchema)> {
     let mut words = line.split(' ');
     let name = words.next()?;
     let since = words.next()?.parse().ok()?;
     let (inputs, outputs) = (range(words.next()?)?, range(words.next()?)?);
     let attributes = words.map(attribute).collect::<Option<_>>()?;
-    Some((name, Schema { since, inputs, outputs, attributes }))
+    Some((name, OperatorSchema { since, inputs, outputs, attributes }))
 }
 
 fn range(word: &str) -> Option<(usize, Option<usize>)> {
@@ -194,14 +194,14 @@ fn range(word: &str) -> Option<(usize, Option<usize>)> {
     Some((least.parse().ok()?, most))
 }
 
-fn attribute(word: &'static str) -> Option<SchemaAttribute> {
+fn attribute(word: &'static str) -> Option<AttributeSchema> {
     let (name, rest) = word.split_once(':')?;
     let (rest, default) = match rest.split_once('=') {
         Some((kind, default)) => (kind, Some(default)),
         None => (rest, None),
     };
     let kind = rest.trim_end_matches('!');
-    Some(SchemaAttribute { name, kind, is_required: kind != rest, default })
+    Some(AttributeSchema { name, kind, is_required: kind != rest, default })
 }
 
 #[cfg(test)]
@@ -220,7 +220,8 @@ mod tests {
     fn attributes_without_effect_are_attributes() {
         for (kind, names) in WITHOUT_EFFECT {
             for name in *names {
-                let has = |schema: &Schema| schema.attributes.iter().any(|own| own.name == *name);
+                let has =
+                    |schema: &OperatorSchema| schema.attributes.iter().any(|own| own.name == *name);
                 assert!(SCHEMAS[kind].iter().any(has), "{kind} has no {name}");
             }
         }

@@ -8,7 +8,7 @@ use std::path::Path;
 use clap::CommandFactory;
 use clap::parser::ValueSource;
 use foveate_inference::{
-    ArrayFile, ArraySummary, CheckedNetwork, NetworkFacts, OPEN_SIZE, check_network, infer_arrays,
+    ArrayFile, ArraySummary, NetworkFacts, NetworkReport, OPEN_SIZE, check_network, infer_arrays,
     is_array,
 };
 use foveate_network::operators;
@@ -61,10 +61,10 @@ pub(super) fn check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError
 
 /// Refuses arguments that have no meaning here.
 fn only(words: &[OsString], allowed: &[&str], here: &str) -> Result<(), CliError> {
-    let matches = Cli::command().get_matches_from(words);
+    let command = Cli::command();
+    let matches = command.clone().get_matches_from(words);
     let Some((name, matches)) = matches.subcommand() else { return Ok(()) };
     let is_given = |id: &str| matches.value_source(id) == Some(ValueSource::CommandLine);
-    let command = Cli::command();
     let own = command.find_subcommand(name).expect("it has been parsed");
     let mut odd = own.get_arguments().filter(|argument| {
         let id = argument.get_id().as_str();
@@ -103,7 +103,7 @@ fn of_arrays(folder: &Path, summary: &ArraySummary) -> String {
     text
 }
 
-fn of_check(path: &Path, checked: &CheckedNetwork) -> String {
+fn of_check(path: &Path, checked: &NetworkReport) -> String {
     let name = path.display();
     if let Some(facts) = &checked.network {
         let all = format!("{name}: all {} nodes can be run\n", checked.nodes);
