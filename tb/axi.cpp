@@ -13,7 +13,11 @@
 //   apart V           1: an access does not wait for the answers to those before it; else for all of them
 //   join              waits until all of these are done
 //   interrupt V       says so if interrupt_o is not V
+//   clear A D         from now on writes D to A at every clock at which it can; clear 0 0 ends that
+//   rises             says how often interrupt_o has gone to 1 since the last of these, and how often at the edge of such a write
+//   align P           waits for a clock whose number is P modulo 2
 //   clocks N, idle N  waits N clocks, or until no word has been on the port for N clocks
+//   within            waits until a word of a packet has been taken, and not its last
 //   reset N           resets the core for N clocks
 //   patience N        what waits for more clocks than these is stuck
 //
@@ -137,6 +141,16 @@ class Bench {
         else if (what == "patience") patience_ = numbers[0];
         else if (what == "interrupt") {
             if (top_.interrupt_o != numbers[0]) wrong("interrupt_o", "it is not what it must be");
+        } else if (what == "clear") {
+            clears_ = numbers[0] != 0;
+            clear_ = {0, static_cast<std::uint32_t>(numbers[0]), static_cast<std::uint32_t>(numbers[1]), 0xF};
+        } else if (what == "rises") {
+            std::printf("rises %llu %llu %llu\n", clock_, rises_, met_);
+            rises_ = met_ = 0;
+        } else if (what == "within") {
+            return wait([this] { return within_; });
+        } else if (what == "align") {
+            return wait([this, numbers] { return clock_ % 2 == numbers[0] % 2; });
         } else if (what == "join") return wait([this] { return settled(); });
         else if (what == "clocks") {
             const auto end = clock_ + numbers[0];
@@ -144,7 +158,7 @@ class Bench {
         } else if (what == "idle") {
             const auto clocks = numbers[0];
             busy_ = clock_;
-            return wait([this, clocks] { return settled() && held_ == 0 && clock_ - busy_ >= clocks; });
+            return wait([this, clocks] { return (clears_ || settled()) && held_ == 0 && clock_ - busy_ >= clocks; });
         } else if (what == "reset") return reset(numbers[0]);
         else return false;
         return true;
@@ -201,7 +215,8 @@ class Bench {
         write_ = {};
         read_ = {};
         wanting_ = offering_ = false;
-        held_ = 0;
+        held_ = rises_ = met_ = 0;
+        clears_ = within_ = false;
         resetting_ = true;
         answer_stays_b_ = answer_stays_r_ = false;
         for (unsigned long long count = 0; count < clocks; ++count) step();
@@ -232,6 +247,8 @@ class Bench {
         const bool last = top_.m_axis_packets_tlast;
         see_registers();
         see_store();
+        const bool was_raised = top_.interrupt_o;
+        const bool is_cleared = clears_ && top_.s_axi_awvalid && top_.s_axi_awready && top_.s_axi_wvalid && top_.s_axi_wready;
         top_.aclk = 1;
         top_.eval();
         dump();
@@ -240,6 +257,10 @@ class Bench {
             wrong("m_axis_packets", "a word that was not taken has not stayed");
         }
         if (top_.m_axis_packets_tvalid) busy_ = clock_;
+        if (!was_raised && top_.interrupt_o && !resetting_) {
+            ++rises_;
+            met_ += is_cleared;
+        }
         before_ = outputs();
     }
 
@@ -283,6 +304,7 @@ class Bench {
         if (resetting_ || !top_.m_axis_packets_tvalid) return false;
         if (top_.m_axis_packets_tkeep != 0xFF) wrong("m_axis_packets_tkeep", "it is not all ones");
         if (!top_.m_axis_packets_tready) return true;
+        within_ = !top_.m_axis_packets_tlast;
         std::printf("packet %llu %016llx %d\n", clock_, static_cast<unsigned long long>(top_.m_axis_packets_tdata),
                     static_cast<int>(top_.m_axis_packets_tlast));
         return false;
@@ -300,8 +322,17 @@ class Bench {
         own.pop_front();
     }
 
+    // A write of its own is offered at once, and its answer is taken at once.
+    void begin_clear() {
+        if (!clears_ || write_.busy || !writes_.empty()) return;
+        write_.busy = true;
+        write_.address_delay = write_.data_delay = 0;
+        write_.access = clear_;
+    }
+
     void drive_registers() {
         if (!resetting_) {
+            begin_clear();
             begin(write_, writes_, read_, reads_);
             begin(read_, reads_, write_, writes_);
         }
@@ -314,7 +345,7 @@ class Bench {
         top_.s_axi_araddr = (top_.s_axi_arvalid ? read_.access.address : random_.word()) & 0xFFF;
         top_.s_axi_awprot = random_.word() & 7;
         top_.s_axi_arprot = random_.word() & 7;
-        top_.s_axi_bready = random_.percent(50) && (top_.s_axi_bvalid || !write_.takes_late);
+        top_.s_axi_bready = clears_ || (random_.percent(50) && (top_.s_axi_bvalid || !write_.takes_late));
         top_.s_axi_rready = random_.percent(50) && (top_.s_axi_rvalid || !read_.takes_late);
     }
 
@@ -385,8 +416,10 @@ class Bench {
     VerilatedFstC waves_;
 #endif
     unsigned long long clock_ = 0, blocked_ = 0, busy_ = 0, held_ = 0, gaps_ = 0, stalls_ = 0, patience_ = 100000;
+    unsigned long long rises_ = 0, met_ = 0;
     std::array<QData, kOutputs> before_{};
-    bool resetting_ = false, apart_ = false;
+    bool resetting_ = false, apart_ = false, clears_ = false, within_ = false;
+    Access clear_{};
     bool wanting_ = false, offering_ = false, taken_ = false;
     unsigned flags_ = 0;
     Words pixels_ = Words(kVideoWords, 0);

@@ -9,6 +9,7 @@ use crate::recording::Recording;
 use crate::replay::{self, About};
 use crate::report::{CosimReport, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
+use crate::situations::Occurrences;
 use crate::stimulus::Stimulus;
 use foveate_design::{ConfigError, Design};
 use foveate_emit::{Prefix, SourceFile, verilog};
@@ -238,6 +239,7 @@ impl Job {
             frames: recording.frames(),
             clocks,
             comparisons: recording.comparisons(clocks)?,
+            situations: Occurrences::default(),
             mismatch,
             replay: None,
             waves: None,

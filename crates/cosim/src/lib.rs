@@ -33,6 +33,7 @@ mod replay;
 mod report;
 mod shipped;
 mod simulate;
+mod situations;
 mod stimulus;
 mod summary;
 #[cfg(test)]
@@ -63,6 +64,7 @@ pub use replay::REPLAY;
 pub use report::{CosimReport, Seconds};
 pub use shipped::{Losses, ShippedBench, VectorTally};
 pub use simulate::{Dut, Outcome, Run, Simulator};
+pub use situations::{Occurrence, Occurrences};
 pub use stimulus::Stimulus;
 pub use summary::{FORMAT_VERSION, Left, Summary, Verdict};
 pub use timed::{Agreement, Timed};

@@ -5,6 +5,7 @@ use crate::level::Level;
 use crate::mismatch::Mismatch;
 use crate::netlist::NetlistRecord;
 use crate::simulate::Simulator;
+use crate::situations::Occurrences;
 use serde::{Deserialize, Serialize};
 use std::fmt;
 use std::path::PathBuf;
@@ -41,6 +42,9 @@ pub struct CosimReport {
     pub clocks: u64,
     /// Values that were compared: every output of every region at each of these edges.
     pub comparisons: u64,
+    /// How often each situation occurred that the design can have; none where only frames were asked for.
+    #[serde(default)]
+    pub situations: Occurrences,
     /// The first mismatch.
     pub mismatch: Option<Mismatch>,
     /// The folder that replays it.

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Whether packets and registers say what the model says of the frames that came.
 
-use super::heard::{Heard, Parcel, Record};
-use super::traffic::{Answer, Fate, Sent, Session};
+use super::follower::Follower;
+use super::heard::{Heard, Parcel, Record, Rises};
+use super::thresholds::Missed;
+use super::traffic::{Answer, Fate, Raised, Sent, Session};
 use super::wrong::Wrong;
-use foveate_design::{Action, Camera, RasterDesign, RasterTiming, Reference};
+use crate::situations::{BusFacts, EVENTS};
+use foveate_design::{Action, Camera, RasterDesign, RasterTiming};
 use foveate_emit::Register;
-use foveate_model::{FunctionalCamera, FunctionalOutcome};
+use foveate_model::FunctionalOutcome;
 use foveate_packets::{
     Decision, End, Found, FrameInfo, Layout, Packet, Region, Row, Splitter, write,
 };
@@ -39,8 +42,8 @@ pub(super) struct Checker<'a> {
     /// The design, and what it is with other thresholds.
     cameras: &'a [Camera],
     registers: &'a [Register],
-    /// Whether a dropped region changes what is decided afterwards.
-    remembers: bool,
+    /// What would show that a threshold is not taken over.
+    missed: &'a [Missed<'a>],
     /// Clocks that a frame takes at least: its transfers.
     transfers: u64,
 }
@@ -50,19 +53,22 @@ impl<'a> Checker<'a> {
         design: RasterDesign<'_>,
         cameras: &'a [Camera],
         registers: &'a [Register],
+        missed: &'a [Missed<'a>],
     ) -> Self {
-        let remembers = match design.temporal().reference {
-            Reference::LastSent => true,
-            Reference::Previous => design.periphery().is_some(),
-        };
         let transfers = RasterTiming::of(design).taken();
         let layout = Layout::new(&design, false, TICK_RATE)
             .unwrap_or_else(|error| unreachable!("the sizes of a core on a bus fit: {error}"));
-        Self { layout, cameras, registers, remembers, transfers }
+        Self { layout, cameras, registers, missed, transfers }
     }
 
     /// Compares what was heard with what must come of the traffic.
-    pub(super) fn check(&self, sessions: &[Session], record: &Record) -> Result<Agreed, Wrong> {
+    /// What was seen is counted in `facts`.
+    pub(super) fn check(
+        &self,
+        sessions: &[Session],
+        record: &Record,
+        facts: &mut BusFacts,
+    ) -> Result<Agreed, Wrong> {
         let mut agreed = Agreed::default();
         let first_breach = record.breaches.first().map(Wrong::from);
         let end = record.clocks.unwrap_or_default();
@@ -71,7 +77,7 @@ impl<'a> Checker<'a> {
                 let missing = Wrong { clock: end, ..Wrong::presence("the run ended early", false) };
                 return Err(first_breach.unwrap_or(missing));
             };
-            let found = Receiver::new(self, session, heard.start).receive(heard, end);
+            let found = Receiver::new(self, session, heard.start, facts).receive(heard, end);
             let found = found.map_err(|wrong| match &first_breach {
                 Some(breach) if breach.clock <= wrong.clock => breach.clone(),
                 _ => wrong,
@@ -106,13 +112,19 @@ struct Open {
 struct Receiver<'a> {
     checker: &'a Checker<'a>,
     session: &'a Session,
-    cameras: Vec<FunctionalCamera>,
+    model: Follower<'a>,
+    /// The camera of the last frame, and the one of the frames before its thresholds were written.
+    camera: usize,
+    camera_before: usize,
+    /// Regions that were lost of the last frame.
+    lost: Vec<u32>,
+    facts: &'a mut BusFacts,
     open: Option<Open>,
     /// The frame that may come next.
     next: usize,
     is_first: bool,
-    /// A dropped region has changed what is decided.
-    is_loose: bool,
+    /// A frame was skipped since the last one.
+    has_skipped: bool,
     /// The first clock after the reset.
     start: u64,
     /// The next frame cannot have begun before.
@@ -124,15 +136,24 @@ struct Receiver<'a> {
 }
 
 impl<'a> Receiver<'a> {
-    fn new(checker: &'a Checker<'a>, session: &'a Session, start: u64) -> Self {
+    fn new(
+        checker: &'a Checker<'a>,
+        session: &'a Session,
+        start: u64,
+        facts: &'a mut BusFacts,
+    ) -> Self {
         Self {
             checker,
             session,
-            cameras: checker.cameras.iter().map(FunctionalCamera::new).collect(),
+            model: Follower::new(checker.cameras),
+            camera: 0,
+            camera_before: 0,
+            lost: Vec::new(),
+            facts,
             open: None,
             next: 0,
             is_first: true,
-            is_loose: false,
+            has_skipped: false,
             start,
             time: 0,
             skipped: 0,
@@ -154,12 +175,14 @@ impl<'a> Receiver<'a> {
         }
         self.pass_over(self.session.sent.len()).map_err(wrong)?;
         self.registers(heard)?;
+        self.raised(heard)?;
         Ok(self.agreed)
     }
 
     fn parcel(&mut self, parcel: &Parcel) -> Result<(), Wrong> {
         let is_cut = self.session.sent.iter().any(|sent| sent.fate == Fate::Cut);
         if !parcel.is_whole && is_cut {
+            self.facts.cut += 1;
             return Ok(());
         }
         let mut splitter = Splitter::default();
@@ -216,18 +239,7 @@ impl<'a> Receiver<'a> {
             return Err(Wrong::presence(at, false));
         }
         self.time(info.time, left)?;
-        self.is_loose &= !first;
-        let mut outcome = None;
-        for (camera, model) in self.cameras.iter_mut().enumerate() {
-            if first {
-                model.reset();
-            }
-            let stepped = model.step(&sent.frame).expect("frames are of the design");
-            if camera == sent.camera {
-                outcome = Some(stepped.clone());
-            }
-        }
-        let outcome = outcome.expect("there is a camera for all thresholds");
+        let outcome = self.step(sent, first);
         let regions = outcome.srs.len();
         self.open = Some(Open {
             number,
@@ -239,6 +251,43 @@ impl<'a> Receiver<'a> {
             came: vec![false; regions],
         });
         Ok(())
+    }
+
+    /// What a frame comes to.
+    fn step(&mut self, sent: &Sent, first: bool) -> FunctionalOutcome {
+        let lost = std::mem::take(&mut self.lost);
+        if first {
+            self.facts.restarted += u64::from(self.agreed.frames > 0);
+            self.model.reset();
+        } else {
+            lost.iter().for_each(|&region| self.model.lose(region));
+            self.facts.behind_loss += lost.len() as u64;
+        }
+        self.facts.behind_skipped += u64::from(std::mem::take(&mut self.has_skipped));
+        if sent.camera != self.camera {
+            (self.camera_before, self.camera) = (self.camera, sent.camera);
+        }
+        let missed = self.missed(sent);
+        let outcome = self.model.step(&sent.frame, sent.camera);
+        for (register, other) in missed {
+            let differs =
+                (0..outcome.srs.len()).any(|at| outcome.decision(at) != other.decision(at));
+            *self.facts.taken_over.entry(register).or_default() += u64::from(differs);
+        }
+        outcome
+    }
+
+    /// What the frame would come to if a threshold had not been taken over: for those that have not yet decided anything.
+    fn missed(&self, sent: &Sent) -> Vec<(String, FunctionalOutcome)> {
+        let is_open = |missed: &&Missed<'_>| {
+            self.facts.taken_over.get(&missed.register).copied().unwrap_or_default() == 0
+        };
+        let open = self.checker.missed.iter().filter(is_open);
+        let found = open.filter_map(|missed| {
+            let camera = missed.camera(self.camera, self.camera_before)?;
+            Some((missed.register.clone(), self.model.instead(&sent.frame, &camera)))
+        });
+        found.collect()
     }
 
     /// The time of a frame is when it began: after all words of the one before, and before the first word of its FRAME left.
@@ -265,8 +314,12 @@ impl<'a> Receiver<'a> {
             let sent = self.sent(number)?;
             self.is_first |= sent.first;
             match sent.fate {
-                Fate::Either | Fate::Skipped => self.skipped += 1,
-                Fate::LeftOut | Fate::Cut => {}
+                Fate::Either | Fate::Skipped => {
+                    self.skipped += 1;
+                    self.has_skipped = true;
+                }
+                Fate::LeftOut => self.facts.left_out += 1,
+                Fate::Cut => {}
                 Fate::Taken => {
                     let missing = Wrong::presence(format!("the packets of frame {number}"), true);
                     return Err(Wrong { frame: number as u64, ..missing });
@@ -276,20 +329,19 @@ impl<'a> Receiver<'a> {
         Ok(())
     }
 
-    fn opened(&mut self, number: u32) -> Result<(&mut Open, bool), Wrong> {
-        let is_loose = self.is_loose;
+    fn opened(&mut self, number: u32) -> Result<&mut Open, Wrong> {
         let Some(open) = &mut self.open else {
             return Err(Wrong::presence("a packet between END and FRAME", false));
         };
         if open.number != number {
             return Err(Wrong::number("the number of the frame", open.number, number));
         }
-        Ok((open, is_loose))
+        Ok(open)
     }
 
     fn row(&mut self, number: u32, row: &Row) -> Result<(), Wrong> {
         let columns = self.checker.layout.columns();
-        let (open, is_loose) = self.opened(number)?;
+        let open = self.opened(number)?;
         if row.row < open.next_row {
             return Err(Wrong::number("the row, at least", open.next_row, row.row));
         }
@@ -302,7 +354,7 @@ impl<'a> Receiver<'a> {
                     | u8::from(decision.summary) << 2
             });
             let expected = open.outcome.decision(at);
-            if !is_loose && decision != expected {
+            if decision != expected {
                 let what = "srs, trs and summary, from the lowest bit on";
                 return Err(Wrong::number(what, code(expected), code(decision)).of_region(region));
             }
@@ -320,18 +372,18 @@ impl<'a> Receiver<'a> {
         let columns = self.checker.layout.columns();
         let raw = self.checker.layout.info().raw;
         let camera = &self.checker.cameras[0];
-        let (open, is_loose) = self.opened(number)?;
+        let open = self.opened(number)?;
         let name = region.row * columns + region.column;
         let at = name as usize;
         let wrong = |wrong: Wrong| wrong.of_region(name);
         if std::mem::replace(&mut open.came[at], true) {
             return Err(wrong(Wrong::presence("its REGION a second time", false)));
         }
-        let known = open.decisions[at].or((!is_loose).then(|| open.outcome.decision(at)));
-        if known.is_some_and(|decision| !sends(decision)) {
+        let decision = open.outcome.decision(at);
+        if !sends(decision) {
             return Err(wrong(Wrong::presence("pixels of a region that sends none", false)));
         }
-        if known.is_some_and(|decision| decision.summary != region.flags.summary) {
+        if decision.summary != region.flags.summary {
             return Err(wrong(Wrong::presence("the flag `summary`", !region.flags.summary)));
         }
         if raw != region.flags.raw {
@@ -343,7 +395,14 @@ impl<'a> Receiver<'a> {
         };
         let differs = expected.iter().zip(&region.values).position(|(own, other)| own != other);
         match differs {
-            None => Ok(()),
+            None => {
+                let count = match region.flags.summary {
+                    true => &mut self.facts.means,
+                    false => &mut self.facts.pixels,
+                };
+                *count += 1;
+                Ok(())
+            }
             Some(place) => {
                 let what = format!("value {place} of its {}", expected.len());
                 Err(wrong(Wrong::number(what, expected[place], region.values[place])))
@@ -352,9 +411,9 @@ impl<'a> Receiver<'a> {
     }
 
     fn end(&mut self, number: u32, end: End) -> Result<(), Wrong> {
-        let (rows, remembers) = (self.checker.layout.rows(), self.checker.remembers);
+        let rows = self.checker.layout.rows();
         let Session { is_lossless, keeps_rows, .. } = *self.session;
-        let (open, is_loose) = self.opened(number)?;
+        let open = self.opened(number)?;
         let sent: u32 = open.came.iter().map(|&came| u32::from(came)).sum();
         if end.regions_sent != sent {
             return Err(Wrong::number("REGION packets that END counts", sent, end.regions_sent));
@@ -363,12 +422,10 @@ impl<'a> Receiver<'a> {
         if end.rows_dropped != lost_rows {
             return Err(Wrong::number("dropped rows that END counts", lost_rows, end.rows_dropped));
         }
-        let all = (0..open.came.len()).map(|at| match open.decisions[at] {
-            Some(decision) => Some(sends(decision)),
-            None => (!is_loose).then(|| sends(open.outcome.decision(at))),
-        });
-        let wanted: Option<u32> = all.map(|sends| sends.map(u32::from)).sum();
-        let dropped = wanted.map_or(end.regions_dropped, |wanted| wanted - sent);
+        let is_lost = |at: &usize| !open.came[*at] && sends(open.outcome.decision(*at));
+        let lost = (0..open.came.len()).filter(is_lost);
+        let lost: Vec<u32> = lost.map(|at| u32::try_from(at).unwrap_or(u32::MAX)).collect();
+        let dropped = u32::try_from(lost.len()).unwrap_or(u32::MAX);
         if end.regions_dropped != dropped {
             let what = "dropped regions that END counts";
             return Err(Wrong::number(what, dropped, end.regions_dropped));
@@ -380,7 +437,7 @@ impl<'a> Receiver<'a> {
             return Err(Wrong::number("dropped rows", 0, end.rows_dropped));
         }
         self.open = None;
-        self.is_loose |= remembers && end.regions_dropped > 0;
+        self.lost = lost;
         self.dropped += end.regions_dropped;
         self.dropped_rows += end.rows_dropped;
         self.agreed.frames += 1;
@@ -404,6 +461,37 @@ impl<'a> Receiver<'a> {
                 let what = format!("the register {name} at 'h{address:03x}");
                 return Err(wrong(clock, what, expected, value));
             }
+            self.agreed.comparisons += 1;
+            if name == "events" {
+                for event in EVENTS.into_iter().filter(|name| value & self.checker.event(name) != 0)
+                {
+                    *self.facts.read.entry(event).or_default() += 1;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Events that were cleared without end must have been seen all the same.
+    fn raised(&mut self, heard: &Heard) -> Result<(), Wrong> {
+        let mut counts = heard.rises.iter();
+        for &(event, raised) in &self.session.raised {
+            let port = "interrupt_o".to_owned();
+            let Some(&Rises { clock, count, met }) = counts.next() else {
+                return Err(Wrong { port, ..Wrong::presence(format!("a count of {event}"), true) });
+            };
+            let (least, most) = match raised {
+                Raised::Times(times) => (times, times),
+                Raised::Skipped => (self.skipped, self.skipped),
+                Raised::DroppedRows => (self.dropped_rows, self.dropped_rows),
+                Raised::DroppedRegions => (self.dropped.min(1), self.dropped),
+            };
+            let bound = if count < least.into() { least } else { most };
+            if !(u64::from(least)..=u64::from(most)).contains(&count) {
+                let at = format!("how often {event} is seen while it is cleared");
+                return Err(Wrong { clock, port, ..Wrong::number(at, bound, count) });
+            }
+            *self.facts.met.entry(event).or_default() += met;
             self.agreed.comparisons += 1;
         }
         Ok(())

@@ -30,6 +30,17 @@ pub(super) struct Heard {
     pub(super) parcels: Vec<Parcel>,
     /// Registers that were read: clock, address and value.
     pub(super) reads: Vec<(u64, u32, u32)>,
+    /// What was counted on `interrupt_o`.
+    pub(super) rises: Vec<Rises>,
+}
+
+/// How often `interrupt_o` has gone to 1, counted up to a clock.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Rises {
+    pub(super) clock: u64,
+    pub(super) count: u64,
+    /// Those at the edge at which a write that clears the event was taken.
+    pub(super) met: u64,
 }
 
 /// All that was heard.
@@ -70,6 +81,12 @@ impl Record {
                 self.sessions.last_mut()?.reads.push((clock, hex(address)?, hex(value)?));
                 Some(())
             }
+            "rises" => {
+                let (count, met) = rest.split_once(' ')?;
+                let (count, met) = (count.parse().ok()?, met.parse().ok()?);
+                self.sessions.last_mut()?.rises.push(Rises { clock, count, met });
+                Some(())
+            }
             "wrong" => {
                 let (port, what) = rest.split_once(' ')?;
                 let (port, what) = (port.to_owned(), what.to_owned());
@@ -105,7 +122,7 @@ mod tests {
     #[test]
     fn lines_become_packets_by_session() {
         let text = "reset 4\npacket 9 00000000000000fa 0\npacket 11 0000000000000001 1\npacket 12 2 0\nreset 20\n\
-                    read 25 1c 5f5e100\nwrong 30 s_axi_b nothing was written\nend 40 3\n";
+                    read 25 1c 5f5e100\nrises 27 4 1\nwrong 30 s_axi_b nothing was written\nend 40 3\n";
         let record = Record::read(text.as_bytes()).unwrap();
         let [first, second] = record.sessions.as_slice() else { panic!("{record:?}") };
         let bytes = [250, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 0].to_vec();
@@ -113,6 +130,7 @@ mod tests {
         assert_eq!((first.start, second.start), (4, 20));
         assert!(first.parcels.len() == 2 && !first.parcels[1].is_whole);
         assert_eq!(second.reads, [(25, 0x1c, 100_000_000)]);
+        assert_eq!(second.rises, [Rises { clock: 27, count: 4, met: 1 }]);
         assert_eq!((record.breaches.len(), record.clocks), (1, Some(40)));
         assert!(Record::read("hello\n".as_bytes()).is_err());
     }

@@ -5,7 +5,8 @@ use super::check::{Agreed, Checker};
 use super::heard::Record;
 use super::program::program;
 use super::replay::Replay;
-use super::scenes::{Scene, Stage, cameras, with_other_thresholds};
+use super::scenes::{Scene, Stage, cameras};
+use super::thresholds::{Missed, sweep, with_other_thresholds};
 use super::traffic::Traffic;
 use crate::error::CosimError;
 use crate::job::Progress;
@@ -14,6 +15,7 @@ use crate::mismatch::Mismatch;
 use crate::replay;
 use crate::report::{CosimReport, Seconds};
 use crate::simulate::{Simulator, UNKNOWN_START, WAVES_FILE};
+use crate::situations::{BusFacts, Occurrences};
 use foveate_design::{Design, RasterDesign};
 use foveate_emit::{AXI_TOP, Prefix, Register, SourceFile, on_bus, registers};
 use foveate_frame::Frame;
@@ -68,6 +70,7 @@ struct Built {
 struct Outcome {
     clocks: u64,
     agreed: Agreed,
+    facts: BusFacts,
     mismatch: Option<Mismatch>,
     /// The folder that replays it.
     replay: Option<PathBuf>,
@@ -131,8 +134,11 @@ impl BusJob {
         replay::remove(&self.output)?;
 
         let start = Instant::now();
-        let others = with_other_thresholds(&self.design);
+        let mut others = with_other_thresholds(&self.design);
+        others.extend(sweep(&self.design));
         let cameras = cameras(&self.design, &others);
+        let all: Vec<Design> = std::iter::once(&self.design).chain(&others).cloned().collect();
+        let missed = Missed::all_of(&all);
         let others: Vec<_> = others.iter().filter_map(Design::raster).map(registers).collect();
         let registers = registers(design);
         let scenes = self.scenes(design, &registers, &others);
@@ -148,10 +154,20 @@ impl BusJob {
         let build = start.elapsed();
 
         let start = Instant::now();
-        let checker = Checker::new(design, &cameras, &registers);
-        let Outcome { clocks, agreed, mismatch, replay } =
+        let checker = Checker::new(design, &cameras, &registers, &missed);
+        let Outcome { clocks, agreed, facts, mismatch, replay } =
             self.play_all(&built, &scenes, &checker, toolchain)?;
+        // Who asks for nothing but frames does not ask for situations.
+        let situations = match self.rounds {
+            0 => Occurrences::default(),
+            _ => {
+                let thresholds: Vec<String> =
+                    missed.iter().map(|missed| missed.register.clone()).collect();
+                facts.occurrences(design, &thresholds)
+            }
+        };
         Ok(CosimReport {
+            situations,
             name: self.name(),
             design: self.design.fingerprint(),
             level: Level::Full,
@@ -253,7 +269,7 @@ impl BusJob {
             if *name == FRAMES {
                 self.keep_packets(&played.record)?;
             }
-            match checker.check(traffic.sessions(), &played.record) {
+            match checker.check(traffic.sessions(), &played.record, &mut outcome.facts) {
                 Ok(more) => outcome.agreed += more,
                 Err(wrong) => {
                     let mismatch = wrong.mismatch(name);

@@ -7,13 +7,16 @@
 //! in order and once is.
 
 mod check;
+mod clears;
 mod damage;
 mod film;
+mod follower;
 mod heard;
 mod job;
 mod program;
 mod replay;
 mod scenes;
+mod thresholds;
 mod traffic;
 mod wrong;
 

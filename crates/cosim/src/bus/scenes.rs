@@ -6,7 +6,7 @@ use super::damage::Damage;
 use super::film::Film;
 use super::traffic::{Answer, Fate, Sent, Traffic};
 use crate::stimulus::Random;
-use foveate_design::{Camera, Decimal, Design, RasterDesign, Reference, Thresholds};
+use foveate_design::{Camera, Design, RasterDesign};
 use foveate_emit::{Kind, Register};
 use foveate_frame::Frame;
 
@@ -31,51 +31,10 @@ pub(super) type Scene<'a> = (&'static str, Traffic<'a>);
 pub(super) struct Stage<'a> {
     design: RasterDesign<'a>,
     registers: &'a [Register],
-    /// Registers of the same core with other thresholds, where it can have them and what it remembers does not
-    /// depend on them.
+    /// Registers of the same core with other thresholds, where it can have them.
     others: &'a [Vec<Register>],
     random: Random,
     film: Film,
-}
-
-/// The design with other thresholds, lower ones and one with the highest bit of a level, if what it remembers does not depend
-/// on them.
-pub(super) fn with_other_thresholds(design: &Design) -> Vec<Design> {
-    match (design.temporal().reference, design.periphery(), design.thresholds()) {
-        (Reference::Previous, None, Thresholds::Runtime) => {}
-        (
-            Reference::Previous | Reference::LastSent,
-            _,
-            Thresholds::Runtime | Thresholds::Constant,
-        ) => {
-            return Vec::new();
-        }
-    }
-    let level = design.temporal().level;
-    let lower = if level == 0 { 1 } else { level / 2 };
-    let highest = level | 1 << (design.pixel_bits() - 1);
-    [lower, highest].into_iter().filter_map(|level| with_level(design, level)).collect()
-}
-
-/// The design with that level of change, and other thresholds.
-fn with_level(design: &Design, level: u32) -> Option<Design> {
-    let mut config = design.config();
-    let temporal = &mut config.camera.temporal;
-    temporal.level = Some(level);
-    temporal.min_count = if temporal.min_count > 1 { 1 } else { 3 };
-    // Each register has another value, or nobody would see whether it is taken over. Of noise, some regions are relevant by
-    // each level and each minimum.
-    let most = (1_u32 << design.pixel_bits()) - 1;
-    for feature in &mut config.camera.spatial {
-        feature.level = feature.level.map(|level| match level {
-            0 => 1,
-            _ if level <= most / 2 => 2 * level,
-            _ => level / 2,
-        });
-        let min = feature.min_score.and_then(Decimal::as_whole);
-        feature.min_score = min.map(|min| Decimal::whole(if min > 1 { min / 2 } else { min + 1 }));
-    }
-    config.validate().ok()
 }
 
 impl<'a> Stage<'a> {
@@ -102,7 +61,17 @@ impl<'a> Stage<'a> {
             ("reset", self.resets()),
             ("reset of registers", self.resets_of_registers()),
             ("registers", self.register_file()),
+            ("events and their clears", self.clears()),
+            ("thresholds", self.every_threshold()),
         ]
+    }
+
+    pub(super) fn design(&self) -> RasterDesign<'a> {
+        self.design
+    }
+
+    pub(super) fn film(&mut self) -> &mut Film {
+        &mut self.film
     }
 
     /// Frames of the caller, none of which may be lost.
@@ -287,6 +256,22 @@ impl<'a> Stage<'a> {
         });
     }
 
+    /// Frames of noise; within each, other thresholds are written for the next.
+    fn every_threshold(&mut self) -> Traffic<'a> {
+        let mut traffic = self.waiting();
+        let middle = self.design.height() / 2;
+        for camera in 0..=self.others.len() {
+            let sent = Sent { camera, ..taken(self.film.noise()) };
+            let next = self.others.get(camera).map(Vec::as_slice).unwrap_or(self.registers);
+            let written: Vec<(u32, u32)> = next.iter().filter_map(threshold).collect();
+            traffic.frame_around(sent, middle, |traffic| {
+                written.iter().for_each(|&(address, value)| traffic.write(address, value));
+            });
+        }
+        self.end(&mut traffic, 0);
+        traffic
+    }
+
     /// Writes thresholds within a frame, which hold from the next one on: those of camera `to`, where there are two. Returns the
     /// number of the camera of the next frame.
     fn thresholds(
@@ -306,12 +291,14 @@ impl<'a> Stage<'a> {
         to
     }
 
-    /// Resets at any time: within a frame, while packets leave, and while a word waits for the sink.
+    /// Resets at any time: within a frame, while packets leave, while a word waits for the sink, and within a packet.
     fn resets(&mut self) -> Traffic<'a> {
         let mut traffic = self.waiting();
         let (side, height) = (self.design.region_size(), self.design.height());
         let decided = (side + side / 2).min(height - 1);
-        for hold in [0, u64::from(u32::MAX), 0] {
+        for (hold, is_within) in
+            [(0, false), (u64::from(u32::MAX), false), (u64::from(u32::MAX), true)]
+        {
             traffic.frame(taken(self.film.next()));
             traffic.drain();
             traffic.may_drop();
@@ -319,7 +306,11 @@ impl<'a> Stage<'a> {
             let lines = decided + self.random.up_to_u32(height - decided);
             let cut = Sent { fate: Fate::Cut, ..taken(self.film.noise()) };
             traffic.torn_frame(cut, lines.min(height));
-            traffic.clocks(self.random.up_to(40));
+            if is_within {
+                traffic.hold(0);
+                traffic.within_a_packet();
+            }
+            traffic.clocks(self.random.up_to(if is_within { 0 } else { 40 }));
             traffic.reset_for(1);
             self.wait_from_now_on(&mut traffic);
             traffic.frame(taken(self.film.next()));
@@ -526,11 +517,11 @@ impl<'a> Stage<'a> {
         found.expect("every core has this register")
     }
 
-    fn address(&self, name: &str) -> u32 {
+    pub(super) fn address(&self, name: &str) -> u32 {
         self.register(name).address
     }
 
-    fn control_bits(&self, names: &[&str]) -> u32 {
+    pub(super) fn control_bits(&self, names: &[&str]) -> u32 {
         bits(self.register("control"), names)
     }
 
@@ -538,13 +529,13 @@ impl<'a> Stage<'a> {
         bits(self.register("status"), names)
     }
 
-    fn event(&self, name: &str) -> u32 {
+    pub(super) fn event(&self, name: &str) -> u32 {
         bits(self.register("events"), &[name])
     }
 }
 
 /// A frame that must leave.
-fn taken(frame: Frame) -> Sent {
+pub(super) fn taken(frame: Frame) -> Sent {
     Sent { frame, fate: Fate::Taken, first: false, camera: 0 }
 }
 

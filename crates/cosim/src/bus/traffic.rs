@@ -48,12 +48,27 @@ pub(super) enum Answer {
     Events(u32),
 }
 
+/// How often an event must have raised `interrupt_o` while it was cleared without end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Raised {
+    /// So often.
+    Times(u32),
+    /// With every frame that was skipped.
+    Skipped,
+    /// With every row that was dropped.
+    DroppedRows,
+    /// At least once if a region was dropped, and at most with each: two that follow each other at once raise it once.
+    DroppedRegions,
+}
+
 /// What happens between two resets.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Session {
     pub(super) sent: Vec<Sent>,
     /// Registers that are read, in order.
     pub(super) answers: Vec<(u32, Answer)>,
+    /// Events that are cleared without end, in order, and how often each must be seen all the same.
+    pub(super) raised: Vec<(&'static str, Raised)>,
     /// Whether packets must leave without a dropped region or row.
     pub(super) is_lossless: bool,
     /// Whether no row may be dropped.
@@ -136,10 +151,15 @@ impl<'a> Traffic<'a> {
 
     /// Waits until all packets have left.
     pub(super) fn drain(&mut self) {
+        let clocks = self.drain_clocks();
+        self.line(&format!("idle {clocks:x}"));
+    }
+
+    /// Clocks behind which no packet follows that has not begun before.
+    pub(super) fn drain_clocks(&self) -> u64 {
         let (side, columns) =
             (u64::from(self.design.region_size()), u64::from(self.design.columns()));
-        let clocks = (2 * side + 8) * columns * side + 2000;
-        self.line(&format!("idle {clocks:x}"));
+        (2 * side + 8) * columns * side + 2000
     }
 
     /// Writes a register, and waits until that is done.
@@ -177,6 +197,29 @@ impl<'a> Traffic<'a> {
     /// `interrupt_o` must be this now.
     pub(super) fn interrupt(&mut self, is: bool) {
         self.line(if is { "interrupt 1" } else { "interrupt 0" });
+    }
+
+    /// Writes this to a register again and again from now on; what else is written waits.
+    pub(super) fn clear(&mut self, address: u32, value: u32) {
+        self.line(&format!("clear {address:x} {value:x}"));
+    }
+
+    /// Writes it no more, and counts how often the event was seen.
+    pub(super) fn count_raised(&mut self, event: &'static str, raised: Raised) {
+        self.line("clear 0 0");
+        self.line("join");
+        self.line("rises");
+        self.session().raised.push((event, raised));
+    }
+
+    /// Waits until a word of a packet has been taken, and not its last.
+    pub(super) fn within_a_packet(&mut self) {
+        self.line("within");
+    }
+
+    /// Waits for a clock of this parity.
+    pub(super) fn align(&mut self, parity: u32) {
+        self.line(&format!("align {}", parity % 2));
     }
 
     /// A frame that is expected, whatever its pixels are sent as.

@@ -2,8 +2,8 @@
 //! Reports as text, JSON and JUnit XML.
 
 use foveate_cosim::{
-    CosimReport, Left, Level, Mismatch, NotElaborated, NotSimulated, PortMismatch, Seconds,
-    Simulator, Summary, Verdict, junit_xml,
+    CosimReport, Left, Level, Mismatch, NotElaborated, NotSimulated, Occurrences, PortMismatch,
+    Seconds, Simulator, Summary, Verdict, junit_xml,
 };
 
 fn report(mismatch: Option<Mismatch>) -> CosimReport {
@@ -21,6 +21,7 @@ fn report(mismatch: Option<Mismatch>) -> CosimReport {
         frames: 69,
         clocks: 7800,
         comparisons: 171_600,
+        situations: Occurrences::default(),
         replay: mismatch.is_some().then(|| "replay".into()),
         mismatch,
         waves: None,

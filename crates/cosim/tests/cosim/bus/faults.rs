@@ -27,6 +27,10 @@ pub(crate) const MEANS: &[&str] = &[
     "hardware.pixels_per_clock=2",
 ];
 
+/// References that depend on what was sent, and with them on every threshold.
+pub(crate) const SENT: &[&str] =
+    &["frame={width=64,height=40}", "denoise.filter='none'", "temporal.reference='last-sent'"];
+
 /// Regions that come faster than their place is known.
 pub(crate) const SHORT: &[&str] = &[
     "frame={width=64,height=132}",
@@ -142,4 +146,16 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault(SMALL, "rcm_axi", "rst ? 64'd0 : time_q + 1'b1", "64'd0"),
     fault(SMALL, "rcm_axi", ".time_i(frame_time)", ".time_i(time_q)"),
     fault(MEANS, "rcm_axi", ".summary_level_i(summary_level)", ".summary_level_i(s_axis_video_tdata[9:0])"),
+
+    fault(SENT, "axi_registers", "        if (begin_i) edge_level_taken_q <= edge_level_q;\n", ""),
+    fault(SENT, "axi_registers", "        if (begin_i) edge_min_taken_q <= edge_min_q;\n", ""),
+    fault(SENT, "axi_registers", "        if (begin_i) temporal_level_taken_q <= temporal_level_q;\n", ""),
+    fault(SENT, "axi_registers", "        if (begin_i) temporal_min_taken_q <= temporal_min_q;\n", ""),
+    fault(MEANS, "axi_registers", "        if (begin_i) variance_min_taken_q <= variance_min_q;\n", ""),
+    fault(MEANS, "axi_registers", "        if (begin_i) summary_level_taken_q <= summary_level_q;\n", ""),
+    fault(SMALL, "axi_registers", "if (row_dropped_i || interrupt_test", "if (row_dropped_i && !(write_q && written == 10'd10) || interrupt_test"),
+    fault(SMALL, "axi_registers", "if (frame_done_i || interrupt_test", "if (frame_done_i && !(write_q && written == 10'd10) || interrupt_test"),
+    fault(SMALL, "axi_registers", "if (eol_early_i || interrupt_test", "if (eol_early_i && !(write_q && written == 10'd10) || interrupt_test"),
+    fault(SMALL, "axi_registers", "if (region_dropped_i || interrupt_test", "if (region_dropped_i && !(write_q && written == 10'd10) || interrupt_test"),
+    fault(SENT, "raster_valid", "if (lost_i) lost_bits_q", "if (1'b0) lost_bits_q"),
 ];

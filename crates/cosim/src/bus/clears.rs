@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Events that happen while they are cleared without end: `docs/axi.md` says that such an event stays 1.
+//!
+//! A write is taken at every other clock, so an event meets one in one of two attempts that are a clock apart.
+
+use super::film::largest;
+use super::scenes::{Stage, taken};
+use super::traffic::{Fate, Raised, Sent, Traffic};
+use crate::situations::{can_drop_regions, can_drop_rows};
+use foveate_frame::Frame;
+
+/// How often each event is tried: at both parities.
+const ATTEMPTS: u32 = 2;
+
+impl<'a> Stage<'a> {
+    /// Every event, each in a session of its own.
+    pub(super) fn clears(&mut self) -> Traffic<'a> {
+        let mut traffic = Traffic::new(self.design());
+        self.lines(&mut traffic, "eol_early", Self::short_line);
+        self.lines(&mut traffic, "eol_late", Self::long_line);
+        self.early_frames(&mut traffic);
+        self.late_words(&mut traffic);
+        self.skipped_frames(&mut traffic);
+        if can_drop_regions(self.design()) {
+            self.stopped_sinks(&mut traffic, "region_dropped", Raised::DroppedRegions);
+        }
+        if can_drop_rows(self.design()) {
+            self.stopped_sinks(&mut traffic, "row_dropped", Raised::DroppedRows);
+        }
+        self.ends(&mut traffic);
+        traffic
+    }
+
+    /// A core that was reset, whose only enabled event is cleared without end.
+    fn begin_clearing(&mut self, traffic: &mut Traffic<'a>, event: &str, waits: bool) {
+        let bit = self.event(event);
+        traffic.reset();
+        traffic.may_drop();
+        traffic.stalls(0);
+        traffic.gaps(0);
+        let control: &[&str] = if waits { &["enable", "wait"] } else { &["enable"] };
+        traffic.write(self.address("control"), self.control_bits(control));
+        traffic.write(self.address("interrupt_enable"), bit);
+        traffic.clear(self.address("events"), bit);
+    }
+
+    /// All packets leave, and the event was seen so often.
+    fn end_clearing(&mut self, traffic: &mut Traffic<'a>, event: &'static str, raised: Raised) {
+        traffic.drain();
+        traffic.count_raised(event, raised);
+        traffic.interrupt(false);
+    }
+
+    /// A frame of which every line is damaged.
+    fn lines(
+        &mut self,
+        traffic: &mut Traffic<'a>,
+        event: &'static str,
+        line: fn(&mut Traffic<'a>, &mut Frame, u32),
+    ) {
+        self.begin_clearing(traffic, event, true);
+        let height = self.design().height();
+        let mut frame = self.film().quiet();
+        for y in 0..height {
+            self.align(traffic, y);
+            line(traffic, &mut frame, y);
+        }
+        traffic.expect(taken(frame));
+        self.end_clearing(traffic, event, Raised::Times(height));
+    }
+
+    /// A line without its last transfer: it goes on with its last pixel.
+    fn short_line(traffic: &mut Traffic<'a>, frame: &mut Frame, y: u32) {
+        let row = frame.row(y).to_vec();
+        let words: Vec<&[u16]> = traffic.split(&row).collect();
+        let kept = &words[..words.len() - 1];
+        for (at, pixels) in kept.iter().enumerate() {
+            traffic.beat(at == 0 && y == 0, at == kept.len() - 1, pixels);
+        }
+        let mut line = kept.concat();
+        let last = line.last().copied().unwrap_or_default();
+        line.resize(row.len(), last);
+        frame.write(0, y, &line);
+    }
+
+    /// A line with a transfer more.
+    fn long_line(traffic: &mut Traffic<'a>, frame: &mut Frame, y: u32) {
+        let row = frame.row(y).to_vec();
+        let words: Vec<Vec<u16>> = traffic.split(&row).map(<[u16]>::to_vec).collect();
+        for (at, pixels) in words.iter().enumerate() {
+            traffic.beat(at == 0 && y == 0, false, pixels);
+        }
+        traffic.beat(false, true, &words[0]);
+    }
+
+    /// Frames that end in their second line, because the next begins.
+    fn early_frames(&mut self, traffic: &mut Traffic<'a>) {
+        self.begin_clearing(traffic, "sof_early", true);
+        let height = self.design().height();
+        for parity in 0..ATTEMPTS {
+            let mut frame = self.film().quiet();
+            let words = traffic.words();
+            let first = frame.row(0).to_vec();
+            for (at, pixels) in traffic.split(&first).enumerate() {
+                traffic.beat(at == 0, at == words - 1, pixels);
+            }
+            (1..height).for_each(|y| frame.write(0, y, &first));
+            traffic.expect(taken(frame));
+            self.align(traffic, parity);
+        }
+        traffic.frame(taken(self.film().quiet()));
+        self.end_clearing(traffic, "sof_early", Raised::Times(ATTEMPTS));
+    }
+
+    /// Transfers behind a frame.
+    fn late_words(&mut self, traffic: &mut Traffic<'a>) {
+        self.begin_clearing(traffic, "sof_late", true);
+        for parity in 0..ATTEMPTS {
+            traffic.frame(taken(self.film().quiet()));
+            traffic.drain();
+            self.align(traffic, parity);
+            self.nothing(traffic, false);
+        }
+        self.end_clearing(traffic, "sof_late", Raised::Times(ATTEMPTS));
+    }
+
+    /// Frames that come while packets wait: the first transfer of each is enough.
+    fn skipped_frames(&mut self, traffic: &mut Traffic<'a>) {
+        self.begin_clearing(traffic, "frame_skipped", false);
+        traffic.hold(2 * self.design().timing().clocks_per_frame() + 2000);
+        traffic.frame(taken(self.film().quiet()));
+        traffic.clocks(self.design().timing().clocks_per_frame() / 2 + 500);
+        for parity in 0..ATTEMPTS {
+            self.align(traffic, parity);
+            self.nothing(traffic, true);
+            let frame = self.film().quiet();
+            traffic.expect(Sent { fate: Fate::Skipped, ..taken(frame) });
+        }
+        self.end_clearing(traffic, "frame_skipped", Raised::Skipped);
+    }
+
+    /// A sink that takes nothing from the second line of a frame to the end of the next.
+    fn stopped_sinks(&mut self, traffic: &mut Traffic<'a>, event: &'static str, raised: Raised) {
+        self.begin_clearing(traffic, event, true);
+        let hold = 2 * self.design().timing().clocks_per_frame();
+        // The same frames, so that attempts differ by a clock alone.
+        let [first, second] = [self.film().noise(), self.film().noise()];
+        for parity in 0..ATTEMPTS {
+            self.align(traffic, parity);
+            traffic.frame_around(taken(first.clone()), 1, |traffic| traffic.hold(hold));
+            traffic.frame(taken(second.clone()));
+            traffic.drain();
+        }
+        self.end_clearing(traffic, event, raised);
+    }
+
+    /// The sink takes nothing from the last transfer of a frame on, until all waits; so END leaves so many clocks behind that.
+    fn ends(&mut self, traffic: &mut Traffic<'a>) {
+        self.begin_clearing(traffic, "frame_done", true);
+        // The same frame, so that the same packets wait.
+        let frame = self.film().quiet();
+        traffic.frame(taken(frame.clone()));
+        for parity in 0..ATTEMPTS {
+            traffic.drain();
+            traffic.frame(taken(frame.clone()));
+            traffic.hold(u64::from(u32::MAX));
+            traffic.clocks(traffic.drain_clocks());
+            self.align(traffic, parity);
+            traffic.hold(0);
+            traffic.drain();
+        }
+        self.end_clearing(traffic, "frame_done", Raised::Times(ATTEMPTS + 1));
+    }
+
+    /// Lets what came before take its course, and waits for a clock of this parity.
+    fn align(&self, traffic: &mut Traffic<'a>, parity: u32) {
+        traffic.clocks(u64::from(2 * self.design().region_size()) + 8);
+        traffic.align(parity);
+    }
+
+    /// A transfer of no frame, or the first of one.
+    fn nothing(&mut self, traffic: &mut Traffic<'a>, sof: bool) {
+        let (design, most) = (self.design(), largest(self.design().pixel_bits()));
+        let pixels = vec![most; design.pixels_per_clock() as usize];
+        traffic.beat(sof, false, &pixels);
+    }
+}

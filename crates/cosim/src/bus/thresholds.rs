@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Thresholds that are written while frames come: other values of each, and which of them decide.
+
+use foveate_design::{Camera, Combine, Config, Decimal, Design, FeatureKind, Thresholds};
+
+/// One threshold of a design.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ThresholdKey {
+    /// The level of a feature: its place among those of the camera.
+    Level(usize),
+    /// The minimum of a feature.
+    MinScore(usize),
+    TemporalLevel,
+    TemporalMinCount,
+    SummaryLevel,
+}
+
+impl ThresholdKey {
+    /// All that a design has.
+    pub(super) fn all_of(design: &Design) -> Vec<Self> {
+        let features = design.features().iter().enumerate();
+        let of_features = features.flat_map(|(place, feature)| {
+            let level = feature.level().map(|_| Self::Level(place));
+            level.into_iter().chain([Self::MinScore(place)])
+        });
+        let summary = design.periphery().map(|_| Self::SummaryLevel);
+        of_features.chain([Self::TemporalLevel, Self::TemporalMinCount]).chain(summary).collect()
+    }
+
+    /// The name of its register.
+    pub(super) fn register(self, design: &Design) -> String {
+        let feature = |place: usize| -> FeatureKind { design.features()[place].kind() };
+        match self {
+            Self::Level(place) => format!("{}_level", feature(place).name()),
+            Self::MinScore(place) => format!("{}_min", feature(place).name()),
+            Self::TemporalLevel => "temporal_level".to_owned(),
+            Self::TemporalMinCount => "temporal_min".to_owned(),
+            Self::SummaryLevel => "summary_level".to_owned(),
+        }
+    }
+
+    /// Takes this threshold over from another configuration.
+    fn copy(self, from: &Config, to: &mut Config) {
+        let (from, to) = (&from.camera, &mut to.camera);
+        match self {
+            Self::Level(place) => to.spatial[place].level = from.spatial[place].level,
+            Self::MinScore(place) => to.spatial[place].min_score = from.spatial[place].min_score,
+            Self::TemporalLevel => to.temporal.level = from.temporal.level,
+            Self::TemporalMinCount => to.temporal.min_count = from.temporal.min_count,
+            Self::SummaryLevel => to.periphery.level = from.periphery.level,
+        }
+    }
+}
+
+/// The design with other thresholds: lower levels, and one with the highest bit of a temporal level. None where thresholds are
+/// constants.
+pub(super) fn with_other_thresholds(design: &Design) -> Vec<Design> {
+    match design.thresholds() {
+        Thresholds::Constant => return Vec::new(),
+        Thresholds::Runtime => {}
+    }
+    let level = design.temporal().level;
+    let lower = if level == 0 { 1 } else { level / 2 };
+    let highest = level | 1 << (design.pixel_bits() - 1);
+    [lower, highest].into_iter().map(|level| with_level(design, level)).collect()
+}
+
+/// The design with that level of change, and other thresholds. Each register has another value, or nobody would see whether it
+/// is taken over; one that no other value fits stays.
+fn with_level(design: &Design, level: u32) -> Design {
+    let mut wanted = design.config();
+    let most = (1_u32 << design.pixel_bits()) - 1;
+    let other_level = |level: u32| match level {
+        0 => 1,
+        // Of noise, some regions are relevant by each level and each minimum.
+        _ if level <= most / 2 => 2 * level,
+        _ => level / 2,
+    };
+    let camera = &mut wanted.camera;
+    camera.temporal.level = Some(level);
+    camera.temporal.min_count = if camera.temporal.min_count > 1 { 1 } else { 3 };
+    camera.periphery.level = camera.periphery.level.map(other_level);
+    for feature in &mut camera.spatial {
+        feature.level = feature.level.map(other_level);
+        let min = feature.min_score.and_then(|min| u64::try_from(min.ceil_times(1)).ok());
+        feature.min_score = min.map(|min| Decimal::whole(if min > 1 { min / 2 } else { min + 1 }));
+    }
+    let keys = ThresholdKey::all_of(design);
+    keys.into_iter().fold(design.clone(), |design, key| {
+        let mut config = design.config();
+        key.copy(&wanted, &mut config);
+        config.validate().unwrap_or(design)
+    })
+}
+
+/// Thresholds of frames of noise, one frame each, so that every threshold decides once: it alone differs from those of the frame
+/// before, and everything depends on it.
+pub(super) fn sweep(design: &Design) -> Vec<Design> {
+    match design.thresholds() {
+        Thresholds::Constant => return Vec::new(),
+        Thresholds::Runtime => {}
+    }
+    let all_active = all_active(design);
+    let mut configs = vec![all_active.clone()];
+    for place in 0..design.features().len() {
+        configs.extend(sweep_of_feature(design, &all_active, place));
+    }
+    configs.push(all_active.clone());
+    configs.extend(sweep_of_time(design, &all_active));
+    if design.periphery().is_some() {
+        let mut irrelevant = all_active;
+        (0..design.features().len()).for_each(|place| never_votes(design, &mut irrelevant, place));
+        let mut restless = irrelevant.clone();
+        restless.camera.periphery.level = Some(0);
+        configs.extend([irrelevant, restless]);
+    }
+    configs.into_iter().filter_map(|config| config.validate().ok()).collect()
+}
+
+/// Every region is active, whatever it shows, and no mean differs by enough.
+fn all_active(design: &Design) -> Config {
+    let (mut config, most) = (design.config(), design.pixel_max());
+    config.camera.spatial.iter_mut().for_each(|one| one.min_score = Some(Decimal::whole(0)));
+    config.camera.temporal.min_count = 0;
+    config.camera.temporal.level = Some(most.saturating_sub(1));
+    config.camera.periphery.level = config.camera.periphery.level.map(|_| most.saturating_sub(1));
+    config
+}
+
+/// The feature of this place never votes: its level and its minimum are the largest.
+fn never_votes(design: &Design, config: &mut Config, place: usize) {
+    let most = config.camera.spatial[place].level.map(|_| largest_level(design, place));
+    let feature = &mut config.camera.spatial[place];
+    feature.level = most;
+    feature.min_score = Some(design.features()[place].largest_min_score());
+}
+
+/// The largest level that the feature of this place may have.
+fn largest_level(design: &Design, place: usize) -> u32 {
+    let is_valid = |level: &u32| {
+        let mut config = design.config();
+        config.camera.spatial[place].level = Some(*level);
+        config.validate().is_ok()
+    };
+    let (mut low, mut high) = (0, 1_u32 << design.features()[place].level_bits().min(31));
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if is_valid(&middle) { low = middle } else { high = middle }
+    }
+    low
+}
+
+/// The feature of this place alone decides what is relevant: nothing, all by its minimum, nothing, and all by its level.
+fn sweep_of_feature(design: &Design, all_active: &Config, place: usize) -> Vec<Config> {
+    let mut alone = all_active.clone();
+    match design.combine() {
+        Combine::All => {}
+        Combine::Any => {
+            let others = (0..design.features().len()).filter(|&other| other != place);
+            others.for_each(|other| never_votes(design, &mut alone, other));
+        }
+    }
+    never_votes(design, &mut alone, place);
+    let with_min = |config: &Config, min| {
+        let mut config = config.clone();
+        config.camera.spatial[place].min_score = Some(Decimal::whole(min));
+        config
+    };
+    let mut configs = vec![alone.clone(), with_min(&alone, 0)];
+    if design.features()[place].level().is_some() {
+        let strict = with_min(&alone, 1);
+        let mut lenient = strict.clone();
+        lenient.camera.spatial[place].level = Some(0);
+        configs.extend([strict, lenient]);
+    }
+    configs
+}
+
+/// What has changed alone decides: nothing by the minimum, and all by the level.
+fn sweep_of_time(design: &Design, all_active: &Config) -> [Config; 3] {
+    let with = |min_count, level| {
+        let mut config = all_active.clone();
+        config.camera.temporal.min_count = min_count;
+        config.camera.temporal.level = level;
+        config
+    };
+    let (pixels, most) = (design.region_pixels(), all_active.camera.temporal.level);
+    [with(pixels, most), with(pixels / 2, most), with(pixels / 2, Some(0))]
+}
+
+/// A threshold of which some designs have different values: what they would be if it had not been taken over.
+pub(super) struct Missed<'a> {
+    pub(super) register: String,
+    key: ThresholdKey,
+    designs: &'a [Design],
+}
+
+impl<'a> Missed<'a> {
+    pub(super) fn all_of(designs: &'a [Design]) -> Vec<Self> {
+        let differs = |key: &ThresholdKey| {
+            designs.iter().any(|design| {
+                let (own, mut mixed) = (design.config(), design.config());
+                key.copy(&designs[0].config(), &mut mixed);
+                own != mixed
+            })
+        };
+        let of = |key: ThresholdKey| Self { register: key.register(&designs[0]), key, designs };
+        ThresholdKey::all_of(&designs[0]).into_iter().filter(differs).map(of).collect()
+    }
+
+    /// The camera `now`, but for the threshold of the one `before`, if that is another.
+    pub(super) fn camera(&self, now: usize, before: usize) -> Option<Camera> {
+        let own = self.designs[now].config();
+        let mut mixed = own.clone();
+        self.key.copy(&self.designs[before].config(), &mut mixed);
+        let design = (mixed != own).then(|| mixed.validate().ok()).flatten()?;
+        Some(Camera::clone(&design))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The thresholds of which two designs have different values.
+    fn different(design: &Design, before: &Design) -> Vec<ThresholdKey> {
+        let differs = |key: &ThresholdKey| {
+            let mut mixed = design.config();
+            key.copy(&before.config(), &mut mixed);
+            mixed != design.config()
+        };
+        ThresholdKey::all_of(design).into_iter().filter(differs).collect()
+    }
+
+    #[test]
+    fn each_threshold_differs_alone_from_one_frame_to_the_next() {
+        let features = ["edge", "corner", "mad", "variance"];
+        let list = features.map(|name| format!("{{feature='{name}'}}")).join(",");
+        for (bits, combine, irrelevant) in
+            [(8, "any", "mean"), (8, "all", "zero"), (2, "any", "hold"), (16, "all", "mean")]
+        {
+            let toml = format!(
+                "spatial=[{list}]\nframe.pixel_bits={bits}\ndecision.combine='{combine}'\n\
+                 render.irrelevant='{irrelevant}'\nhardware.organization='raster'\n"
+            );
+            let design = Config::from_toml(&toml).unwrap().validate().unwrap();
+            let steps = sweep(&design);
+            let alone: Vec<_> = steps
+                .windows(2)
+                .map(|pair| different(&pair[1], &pair[0]))
+                .filter(|keys| keys.len() == 1)
+                .flatten()
+                .collect();
+            for key in ThresholdKey::all_of(&design) {
+                assert!(alone.contains(&key), "{toml}: {key:?} is not among {alone:?}");
+            }
+        }
+    }
+}

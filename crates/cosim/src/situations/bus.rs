@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Situations of a core on AXI.
+
+use super::occurrence::Occurrences;
+use foveate_design::{RasterDesign, RasterTiming};
+use std::collections::BTreeMap;
+
+/// The events of `docs/axi.md`, in the order of their bits.
+pub(crate) const EVENTS: [&str; 8] = [
+    "eol_early",
+    "eol_late",
+    "sof_early",
+    "sof_late",
+    "frame_skipped",
+    "region_dropped",
+    "row_dropped",
+    "frame_done",
+];
+
+/// What was seen on the buses of a core, over all its sessions.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(crate) struct BusFacts {
+    /// By event: how often `events` was read with its bit.
+    pub(crate) read: BTreeMap<&'static str, u64>,
+    /// By event: how often it rose at the edge at which a write that clears it was taken.
+    pub(crate) met: BTreeMap<&'static str, u64>,
+    /// By register of a threshold that differs from the one before: frames that would have been decided in another way by that
+    /// one.
+    pub(crate) taken_over: BTreeMap<String, u64>,
+    /// Packets with pixels, and with means.
+    pub(crate) pixels: u64,
+    pub(crate) means: u64,
+    /// Decisions that were compared behind a loss of their region in the frame before.
+    pub(crate) behind_loss: u64,
+    /// Frames that are first ones, and not first since reset.
+    pub(crate) restarted: u64,
+    /// Frames that came while the core was not enabled.
+    pub(crate) left_out: u64,
+    /// Packets of which a reset has cut the rest off.
+    pub(crate) cut: u64,
+    /// Frames whose decisions were compared behind a skipped one.
+    pub(crate) behind_skipped: u64,
+}
+
+/// One situation of a core on AXI.
+struct BusSituation {
+    name: &'static str,
+    is_possible: fn(RasterDesign<'_>) -> bool,
+    count: fn(&BusFacts) -> u64,
+}
+
+const fn always(_: RasterDesign<'_>) -> bool {
+    true
+}
+
+/// Those that are no list by event or by threshold.
+const SITUATIONS: &[BusSituation] = &[
+    BusSituation {
+        name: "pixels of a region leave",
+        is_possible: always,
+        count: |facts| facts.pixels,
+    },
+    BusSituation {
+        name: "means of a region leave",
+        is_possible: |design| design.periphery().is_some(),
+        count: |facts| facts.means,
+    },
+    BusSituation {
+        name: "a region is decided behind its loss",
+        is_possible: can_drop_regions,
+        count: |facts| facts.behind_loss,
+    },
+    BusSituation {
+        name: "a frame is decided behind a skipped one",
+        is_possible: always,
+        count: |facts| facts.behind_skipped,
+    },
+    BusSituation { name: "a restart", is_possible: always, count: |facts| facts.restarted },
+    BusSituation {
+        name: "a frame comes while the core is not enabled",
+        is_possible: always,
+        count: |facts| facts.left_out,
+    },
+    BusSituation {
+        name: "a reset comes within a packet",
+        is_possible: always,
+        count: |facts| facts.cut,
+    },
+];
+
+impl BusFacts {
+    /// How often each situation that the design can have occurred. `thresholds` are the registers of those that were written.
+    pub(crate) fn occurrences(
+        &self,
+        design: RasterDesign<'_>,
+        thresholds: &[String],
+    ) -> Occurrences {
+        let mut all = Occurrences::default();
+        for situation in SITUATIONS.iter().filter(|own| (own.is_possible)(design)) {
+            all.add(situation.name, (situation.count)(self));
+        }
+        let count = |of: &BTreeMap<&str, u64>, event| of.get(event).copied().unwrap_or_default();
+        for event in EVENTS.into_iter().filter(|event| can_happen(design, event)) {
+            all.add(&format!("{event} is read"), count(&self.read, event));
+            all.add(&format!("{event} and its clear at one clock"), count(&self.met, event));
+        }
+        for register in thresholds {
+            let count = self.taken_over.get(register).copied().unwrap_or_default();
+            all.add(&format!("{register} is written, kept and decides"), count);
+        }
+        all
+    }
+}
+
+fn can_happen(design: RasterDesign<'_>, event: &str) -> bool {
+    match event {
+        "region_dropped" => can_drop_regions(design),
+        "row_dropped" => can_drop_rows(design),
+        _ => true,
+    }
+}
+
+/// Whether a sink that stops loses regions: two frames may be under way, and the buffer holds less.
+pub(crate) fn can_drop_regions(design: RasterDesign<'_>) -> bool {
+    let kept = design.timing().departure().kept_rows;
+    kept.is_some() && 2 * design.rows() > RasterTiming::of(design).buffer_rows
+}
+
+/// Whether it drops rows: two of them wait, and two frames may be under way.
+pub(crate) fn can_drop_rows(design: RasterDesign<'_>) -> bool {
+    design.rows() > 1
+}

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Situations that a check must reach, as data: a name, a sentence, the designs that can have it, and how often it occurred, by
+//! what is seen on ports alone.
+//!
+//! A check that never meets the situation that it guards proves nothing, and nobody would see that: so every co-simulation and
+//! every shipped bench counts them. The lists know nothing of how stimuli are made.
+
+mod bus;
+mod occurrence;
+
+pub(crate) use bus::{BusFacts, EVENTS, can_drop_regions, can_drop_rows};
+pub use occurrence::{Occurrence, Occurrences};

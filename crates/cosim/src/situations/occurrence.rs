@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! How often situations occurred, in one run or in several.
+
+use serde::{Deserialize, Serialize};
+use std::fmt;
+
+/// A situation that a design can have, and how often it occurred.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Occurrence {
+    /// Its name, one of a list.
+    pub situation: String,
+    /// How often it occurred.
+    pub count: u64,
+}
+
+/// Every situation that was asked for.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Occurrences(pub Vec<Occurrence>);
+
+impl Occurrences {
+    /// Counts one more situation, or more of one.
+    pub(crate) fn add(&mut self, situation: &str, count: u64) {
+        match self.0.iter_mut().find(|own| own.situation == situation) {
+            Some(own) => own.count += count,
+            None => self.0.push(Occurrence { situation: situation.to_owned(), count }),
+        }
+    }
+
+    /// Those of several runs together: one run may reach what another cannot.
+    #[must_use]
+    pub fn of_all<'a>(runs: impl IntoIterator<Item = &'a Self>) -> Self {
+        let mut all = Self::default();
+        for Occurrence { situation, count } in runs.into_iter().flat_map(|run| &run.0) {
+            all.add(situation, *count);
+        }
+        all
+    }
+
+    /// Names of those that did not occur.
+    #[must_use]
+    pub fn missing(&self) -> Vec<&str> {
+        let missing = self.0.iter().filter(|own| own.count == 0);
+        missing.map(|own| own.situation.as_str()).collect()
+    }
+}
+
+impl fmt::Display for Occurrences {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let missing = self.missing();
+        write!(f, "{} of {} occurred", self.0.len() - missing.len(), self.0.len())?;
+        if !missing.is_empty() {
+            write!(f, "; missing: {}", missing.join(", "))?;
+        }
+        Ok(())
+    }
+}
