@@ -90,7 +90,7 @@ module packet_frames #(
             wire [PENDING_BITS-1:0] pending = pending_q[frame*PENDING_BITS+:PENDING_BITS];
             wire [REGION_BITS:0] dropped = dropped_q[frame*(REGION_BITS+1)+:REGION_BITS+1];
             wire [ROW_BITS:0] dropped_rows = dropped_rows_q[frame*(ROW_BITS+1)+:ROW_BITS+1];
-            wire clear = rst_i || forget_i || ended_i && frame_q == frame;
+            wire clear = rst_i || forget_i || (ended_i && frame_q == frame);
             always @(posedge clk_i) begin
                 pending_q[frame*PENDING_BITS+:PENDING_BITS] <=
                     rst_i || forget_i ? {PENDING_BITS{1'b0}} :
@@ -114,9 +114,10 @@ module packet_frames #(
     assign number_o = number_q;
     assign frames_o = count_q;
     assign frame_o = frame_q;
-    assign closed_o = decided_q[frame_q] && pending_q[frame_q*PENDING_BITS+:PENDING_BITS] == {PENDING_BITS{1'b0}};
-    assign dropped_o = dropped_q[frame_q*(REGION_BITS+1)+:REGION_BITS+1];
-    assign dropped_rows_o = dropped_rows_q[frame_q*(ROW_BITS+1)+:ROW_BITS+1];
+    wire [PENDING_BITS-1:0] pending_regions = frame_q ? pending_q[PENDING_BITS+:PENDING_BITS] : pending_q[0+:PENDING_BITS];
+    assign closed_o = decided_q[frame_q] && pending_regions == {PENDING_BITS{1'b0}};
+    assign dropped_o = frame_q ? dropped_q[REGION_BITS+1+:REGION_BITS+1] : dropped_q[0+:REGION_BITS+1];
+    assign dropped_rows_o = frame_q ? dropped_rows_q[ROW_BITS+1+:ROW_BITS+1] : dropped_rows_q[0+:ROW_BITS+1];
 
 endmodule
 

@@ -69,7 +69,7 @@ module packet_regions #(
     packet_place #(.COLUMNS(COLUMNS), .COLUMN_BITS(COLUMN_BITS), .REGION_BITS(REGION_BITS)) u_place (
         .clk_i(clk_i), .rst_i(rst_i), .start_i(take && first_i), .region_i(region_i), .busy_o(busy), .row_o(row), .column_o(column)
     );
-    wire unknown = busy || first_i && take;
+    wire unknown = busy || (first_i && take);
     assign whole_o = (ends || ending_q) && !unknown;
 
     reg frame_q, summary_q;
@@ -116,8 +116,9 @@ module packet_regions #(
             end else begin : g_some
                 // In which bits this value's number differs from that of the one that comes; a word has LANES at once.
                 localparam NUMBER = lane;
+                localparam WITHIN = LANES - 1;  // the bits in which the values of a word differ
                 wire [ROW_LOG-1:0] differs = value[ROW_LOG-1:0] ^ NUMBER[ROW_LOG-1:0];
-                assign chosen = summary ? differs == {ROW_LOG{1'b0}} : differs >> $clog2(LANES) == {ROW_LOG{1'b0}};
+                assign chosen = (summary ? differs : differs & ~WITHIN[ROW_LOG-1:0]) == {ROW_LOG{1'b0}};
             end
             raster_memory #(.WIDTH(WIDTH), .WORDS(1 << (PLACE_BITS + AT_BITS)), .ADDRESS_BITS(PLACE_BITS + AT_BITS)) u_values (
                 .clk_i(clk_i), .write_i(take && chosen), .write_address_i({kept_q[PLACE_BITS-1:0], write_at}),
@@ -138,7 +139,9 @@ module packet_regions #(
             localparam CHOICE_BITS = $clog2(ROW / PER_PART);
             reg [CHOICE_BITS-1:0] choice_q;
             always @(posedge clk_i) if (read_i) choice_q <= part_i[CHOICE_BITS-1:0];
-            assign part = found[choice_q*BITS+:BITS];
+            localparam PART_LOG = $clog2(BITS);
+            wire [CHOICE_BITS+PART_LOG-1:0] first_bit = {choice_q, {PART_LOG{1'b0}}};
+            assign part = found[first_bit+:BITS];
         end
         if (PIXELS * LANE % 64 == 0 && MEANS * LANE % 64 == 0) begin : g_full
             assign counts = {PER_PART{1'b1}};

@@ -37,6 +37,7 @@ module packet_rows #(
     endgenerate
 
     localparam EACH_BITS = $clog2(BITS / DECISION_BITS);  // log2 of the regions of a part
+    localparam DECISION_LOG = $clog2(DECISION_BITS);
     localparam PARTS = (COLUMNS * DECISION_BITS + BITS - 1) / BITS;
     localparam AT_BITS = PARTS > 1 ? $clog2(PARTS) : 1;
     localparam SENT = (COLUMNS * DECISION_BITS + 63) / 64 * (64 / BITS);  // parts of the packet
@@ -65,7 +66,7 @@ module packet_rows #(
     wire [WIDE-1:0] column = {{(WIDE - COLUMN_BITS) {1'b0}}, column_q};
     wire unused_column = column[WIDE-1];
     wire [EACH_BITS-1:0] in_part = column[EACH_BITS-1:0];
-    wire [BITS-1:0] part = (in_part == {EACH_BITS{1'b0}} ? {BITS{1'b0}} : part_q) | bits << in_part * DECISION_BITS;
+    wire [BITS-1:0] part = (in_part == {EACH_BITS{1'b0}} ? {BITS{1'b0}} : part_q) | bits << {in_part, {DECISION_LOG{1'b0}}};
 
     always @(posedge clk_i) begin
         if (decision_i) begin

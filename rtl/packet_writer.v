@@ -101,6 +101,8 @@ module packet_writer #(
     reg open_q;
     reg [REGION_BITS:0] sent_q;
     wire [IN_WORD_BITS-1:0] in_word = part_q[IN_WORD_BITS-1:0];
+    localparam BITS_LOG = $clog2(BITS);
+    wire [IN_WORD_BITS+BITS_LOG-1:0] in_bits = {in_word, {BITS_LOG{1'b0}}};  // the part's first bit of its word
     wire word_end = &in_word;
     wire row_fits = row_valid_i && row_frame_i == frame_i;
     wire region_fits = region_valid_i && region_frame_i == frame_i;
@@ -178,17 +180,17 @@ module packet_writer #(
     wire [2:0] word = part_q[IN_WORD_BITS+:3];
     reg [BITS-1:0] other;
     always @* begin
-        other = end_1[in_word*BITS+:BITS];
+        other = end_1[in_bits+:BITS];
         if (kind_q == FRAME)
             case (word)
-                3'd0: other = MAGIC[in_word*BITS+:BITS];
-                3'd1: other = FINGERPRINT[in_word*BITS+:BITS];
-                3'd2: other = time_i[in_word*BITS+:BITS];
-                3'd3: other = frame_4[in_word*BITS+:BITS];
-                default: other = FRAME_5[in_word*BITS+:BITS];
+                3'd0: other = MAGIC[in_bits+:BITS];
+                3'd1: other = FINGERPRINT[in_bits+:BITS];
+                3'd2: other = time_i[in_bits+:BITS];
+                3'd3: other = frame_4[in_bits+:BITS];
+                default: other = FRAME_5[in_bits+:BITS];
             endcase
-        if (phase_q == HEAD) other = head[in_word*BITS+:BITS];
-        if (phase_q == TAIL) other = tail[in_word*BITS+:BITS];
+        if (phase_q == HEAD) other = head[in_bits+:BITS];
+        if (phase_q == TAIL) other = tail[in_bits+:BITS];
     end
 
     // A clock later what was read is there, and a clock after that the part is chosen.

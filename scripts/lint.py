@@ -155,6 +155,28 @@ def raster_matrix():
             ]
 
 
+def axi_matrix():
+    """Cores on AXI: words of one pixel and more, lanes of 8 and 16 bits, parts of 16 and 32 bits, means, every store, thresholds of both kinds."""
+    for name, size, word, width, height, depth, features, more in [
+        ("edge", 8, 1, 64, 40, 8, EDGE, ["hardware.sync=true"]),
+        ("means", 5, 1, 83, 33, 10, EDGE, ["render={irrelevant='mean',payload='raw'}"]),
+        ("blocks", 8, 2, 64, 32, 16, FEATURES[4], ["render.irrelevant='mean'", "periphery.blocks=4", "temporal.reference='last-sent'"]),
+        ("wide", 4, 4, 64, 40, 8, FEATURES[4], ["hardware.thresholds='constant'", "hardware.store='external'"]),
+        ("second", 4, 4, 130, 40, 12, FEATURES[6], ["hardware.pipelining='deep'"]),
+        ("short", 6, 1, 48, 17, 1, CORNER, ["hardware.store='single-port'"]),
+    ]:
+        yield f"a_{name}_{size}x{size}_{depth}bit", [
+            f"spatial=[{features}]",
+            f"frame={{width={width},height={height},pixel_bits={depth}}}",
+            f"region.size={size}",
+            "temporal={level=0,min_count=1}",
+            *more,
+            "hardware.organization='raster'",
+            f"hardware.pixels_per_clock={word}",
+            "hardware.interface='axi'",
+        ]
+
+
 def run(command, cwd):
     done = subprocess.run(command, cwd=cwd, capture_output=True, text=True)
     return done.returncode, done.stdout + done.stderr
@@ -164,19 +186,19 @@ def lines_of(text, pattern):
     return [line for line in text.splitlines() if re.search(pattern, line)]
 
 
-def verilator(files, cwd):
-    code, text = run([VERILATOR, "--lint-only", "-Wall", "--top-module", "rcm", *files], cwd)
+def verilator(files, cwd, top):
+    code, text = run([VERILATOR, "--lint-only", "-Wall", "--top-module", top, *files], cwd)
     return code, lines_of(text, r"^%(Warning|Error)(?!: Exiting)"), text
 
 
-def iverilog(files, cwd):
+def iverilog(files, cwd, top):
     # Into a file: Icarus makes its output executable, and run as root it would take /dev/null from everybody else.
-    code, text = run(["iverilog", "-g2005", "-Wall", "-s", "rcm", "-o", "lint.vvp", *files], cwd)
+    code, text = run(["iverilog", "-g2005", "-Wall", "-s", top, "-o", "lint.vvp", *files], cwd)
     return code, [line for line in text.splitlines() if line.strip()], text
 
 
-def yosys(files, cwd):
-    script = f"read_verilog {' '.join(files)}; hierarchy -check -top rcm; proc; opt_clean; check -assert"
+def yosys(files, cwd, top):
+    script = f"read_verilog {' '.join(files)}; hierarchy -check -top {top}; proc; opt_clean; check -assert"
     code, text = run([YOSYS, "-p", script], cwd)
     return code, lines_of(text, r"^(Warning|ERROR)"), text
 
@@ -186,7 +208,7 @@ import sys
 from pyslang.driver import Driver
 driver = Driver()
 driver.addStandardArgs()
-words = "slang --std=1364-2005 -Weverything --color-diagnostics=false --top rcm " + " ".join(sys.argv[1:])
+words = "slang --std=1364-2005 -Weverything --color-diagnostics=false --top " + " ".join(sys.argv[1:])
 if not (driver.parseCommandLine(words) and driver.processOptions() and driver.parseAllSources()):
     sys.exit(1)
 compilation = driver.createCompilation()
@@ -196,11 +218,12 @@ sys.exit(0 if driver.reportDiagnostics(True) else 1)
 """
 
 
-def slang(files, cwd):
-    code, text = run([sys.executable, "-c", SLANG, *files], cwd)
+def slang(files, cwd, top):
+    code, text = run([sys.executable, "-c", SLANG, top, *files], cwd)
     return code, lines_of(text, r": (warning|error): "), text
 
 
+TOPS = ["rcm", "rcm_axi"]
 TOOLS = {"verilator": verilator, "iverilog": iverilog, "yosys": yosys, "slang": slang}
 
 
@@ -228,10 +251,16 @@ def check(name, settings):
     code, text = run(command, None)
     if code != 0:
         return [("foveate", text.strip())]
-    files = open(os.path.join(folder, "rcm.f")).read().split()
+    tops = [top for top in TOPS if os.path.exists(os.path.join(folder, f"{top}.f"))]
+    return [finding for top in tops for finding in check_top(folder, top)]
+
+
+def check_top(folder, top):
+    """The findings of all tools below a top of a core."""
+    files = open(os.path.join(folder, f"{top}.f")).read().split()
     findings = []
     for tool, lint in TOOLS.items():
-        code, lines, text = lint(files, folder)
+        code, lines, text = lint(files, folder, top)
         findings += [(tool, line) for line in lines]
         if code != 0 and not lines:
             findings.append((tool, f"exit code {code}: {text.strip()[-400:]}"))
@@ -242,7 +271,7 @@ def main():
     began = time.monotonic()
     os.makedirs(WORK, exist_ok=True)
     quick = "--quick" in sys.argv
-    matrices = (matrix(), summaries(), serial_matrix(), raster_matrix(), raster_summaries())
+    matrices = (matrix(), summaries(), serial_matrix(), raster_matrix(), raster_summaries(), axi_matrix())
     designs = [design for some in matrices for design in list(some)[:: 7 if quick else 1]]
     excuses = waivers()
     used, bad = collections.Counter(), 0

@@ -104,7 +104,7 @@ module {= module =} (
     assign {= output.0 =}_o = {= output.1 =};
 {%- endfor %}
 {%- if !has_window %}
-    assign interrupt_o = {% for event in events %}{% if !loop.first %} || {% endif %}events_{= event.name =}_q && interrupt_enable_{= event.name =}_q{% endfor %};
+    assign interrupt_o = {% for event in events %}{% if !loop.first %} || {% endif %}(events_{= event.name =}_q && interrupt_enable_{= event.name =}_q){% endfor %};
 {%- endif %}
 
 endmodule

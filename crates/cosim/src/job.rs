@@ -9,7 +9,6 @@ use crate::recording::Recording;
 use crate::replay::{self, About};
 use crate::report::{CosimReport, Seconds};
 use crate::simulate::{Dut, Outcome, Run, Simulator};
-use crate::situations::Occurrences;
 use crate::stimulus::Stimulus;
 use foveate_design::{ConfigError, Design};
 use foveate_emit::{Prefix, SourceFile, verilog};
@@ -239,7 +238,7 @@ impl Job {
             frames: recording.frames(),
             clocks,
             comparisons: recording.comparisons(clocks)?,
-            situations: Occurrences::default(),
+            situations: recording.situations().clone(),
             mismatch,
             replay: None,
             waves: None,

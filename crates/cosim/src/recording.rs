@@ -7,7 +7,9 @@
 use crate::error::CosimError;
 use crate::layout::Layout;
 use crate::packer::Packer;
-use foveate_design::Port;
+use crate::situations::{Occurrences, Watch};
+use foveate_design::{Design, Port};
+use foveate_emit::Top;
 use foveate_staging::ScratchFolder;
 use std::fs::File;
 use std::io::{BufReader, BufWriter, Read, Seek, SeekFrom, Write};
@@ -44,9 +46,16 @@ pub struct Recording {
     clocks: u64,
     frames: u64,
     spans: Vec<Span>,
+    situations: Occurrences,
 }
 
 impl Recording {
+    /// How often each situation occurred that the design can have.
+    #[must_use]
+    pub fn situations(&self) -> &Occurrences {
+        &self.situations
+    }
+
     /// The layout of an input record.
     #[must_use]
     pub fn inputs(&self) -> &Layout {
@@ -244,6 +253,7 @@ pub fn vectors_hex(recording: &Recording, limit: u64) -> Result<String, CosimErr
 #[derive(Debug)]
 pub struct Recorder {
     recording: Recording,
+    watch: Option<Watch>,
     input: BufWriter<File>,
     expected: BufWriter<File>,
 }
@@ -264,7 +274,9 @@ impl Recorder {
         Ok(Self {
             input: create(inputs_path(folder.path()))?,
             expected: create(expected_path(folder.path()))?,
+            watch: None,
             recording: Recording {
+                situations: Occurrences::default(),
                 folder,
                 has_bench_files: Mutex::new(false),
                 inputs: Layout::inputs(ports),
@@ -274,6 +286,11 @@ impl Recorder {
                 spans: Vec::new(),
             },
         })
+    }
+
+    /// Counts the situations of this module of a design from here on.
+    pub(crate) fn watch(&mut self, design: &Design, top: Top) {
+        self.watch = Some(Watch::new(design, top, self.inputs(), self.outputs()));
     }
 
     /// The layout of an input record.
@@ -307,6 +324,9 @@ impl Recorder {
     /// # Errors
     /// When the files cannot be written.
     pub fn push(&mut self, input: &[u8], expected: &[u8]) -> Result<(), CosimError> {
+        if let Some(watch) = &mut self.watch {
+            watch.see(input, expected, 1);
+        }
         let folder = self.recording.folder.path();
         self.input.write_all(input).map_err(CosimError::temporary("write", folder))?;
         self.expected.write_all(expected).map_err(CosimError::temporary("write", folder))?;
@@ -322,6 +342,9 @@ impl Recorder {
         let folder = self.recording.folder.path();
         self.input.flush().map_err(CosimError::temporary("write", folder))?;
         self.expected.flush().map_err(CosimError::temporary("write", folder))?;
+        if let Some(watch) = &self.watch {
+            self.recording.situations = watch.occurrences();
+        }
         Ok(self.recording)
     }
 }

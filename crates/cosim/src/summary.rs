@@ -4,6 +4,7 @@
 use crate::elaboration::NotElaborated;
 use crate::hierarchy::NotSimulated;
 use crate::report::CosimReport;
+use crate::situations::Occurrences;
 use serde::{Deserialize, Serialize};
 
 /// Version of [`Summary`] as JSON; changes when a field changes its meaning or goes.
@@ -28,6 +29,9 @@ pub struct Summary {
     /// For Verilog that was given: modules with parameter values that the design has and no run has elaborated.
     #[serde(default)]
     pub not_elaborated: Vec<NotElaborated>,
+    /// How often each situation occurred that the design can have, in all runs together.
+    #[serde(default)]
+    pub situations: Occurrences,
     /// Whether all of the Verilog had to be simulated. It is false if the user chose a level.
     pub whole: bool,
 }
@@ -48,7 +52,8 @@ pub enum Verdict {
     Passed,
     /// A run has a mismatch, or compared nothing.
     Mismatch,
-    /// There is no mismatch, but some modules that had to be simulated were not.
+    /// There is no mismatch, but some modules that had to be simulated were not, or a situation did not occur that the design
+    /// can have.
     Incomplete,
 }
 
@@ -65,7 +70,9 @@ impl Summary {
         let Left { modules: not_simulated, variants: not_elaborated } = left;
         let format_version = FORMAT_VERSION;
         let passed = false;
+        let situations = Occurrences::of_all(runs.iter().map(|run| &run.situations));
         let mut summary = Self {
+            situations,
             format_version,
             passed,
             design,
@@ -84,11 +91,17 @@ impl Summary {
     pub fn verdict(&self) -> Verdict {
         if self.runs.is_empty() || !self.runs.iter().all(CosimReport::passed) {
             Verdict::Mismatch
-        } else if self.whole && !(self.not_simulated.is_empty() && self.not_elaborated.is_empty()) {
+        } else if self.is_incomplete() {
             Verdict::Incomplete
         } else {
             Verdict::Passed
         }
+    }
+
+    /// Whether something that had to be simulated was not, or did not occur.
+    fn is_incomplete(&self) -> bool {
+        let has_left = !(self.not_simulated.is_empty() && self.not_elaborated.is_empty());
+        !self.situations.missing().is_empty() || (self.whole && has_left)
     }
 
     /// Every file with modules that were not simulated, and every module with parameter values that were not

@@ -73,6 +73,14 @@ fn check_places(args: &CosimArgs) -> Result<(), CliError> {
 
 /// What was not simulated, and what helps.
 fn incomplete(summary: &Summary) -> String {
+    let missing = summary.situations.missing();
+    if !missing.is_empty() {
+        return format!(
+            "no mismatch, but the vectors did not reach what they must: {}. More --rounds, another --seed or \
+             thresholds that can be met reach more.",
+            missing.join("; ")
+        );
+    }
     let mut text =
         format!("no mismatch, but not all of the Verilog was simulated: {}.", summary.left_out());
     if !summary.not_simulated.is_empty() {

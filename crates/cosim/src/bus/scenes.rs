@@ -242,6 +242,9 @@ impl<'a> Stage<'a> {
             traffic.frame(Sent { camera, ..taken(self.film.flickering()) });
         }
         self.end(&mut traffic, 0);
+        // Those that were left out have come, too.
+        traffic.read(self.address("frames"), Answer::Is(traffic.frames_that_came()));
+        traffic.join();
         traffic
     }
 

@@ -217,6 +217,12 @@ impl<'a> Traffic<'a> {
         self.line("within");
     }
 
+    /// Frames since the last reset, whatever became of them.
+    pub(super) fn frames_that_came(&self) -> u32 {
+        let sent = self.sessions.last().map_or(0, |session| session.sent.len());
+        u32::try_from(sent).unwrap_or(u32::MAX)
+    }
+
     /// Waits for a clock of this parity.
     pub(super) fn align(&mut self, parity: u32) {
         self.line(&format!("align {}", parity % 2));

@@ -153,7 +153,7 @@ impl Take {
         is_wide: bool,
         cancel: &AtomicBool,
     ) -> Result<Self, CosimError> {
-        let mut tape = Tape::new(part, ports);
+        let mut tape = Tape::new(part, top, ports);
         let is_played = is_short(part);
         if is_played {
             let script = Script::of(part, is_wide);

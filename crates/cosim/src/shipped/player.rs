@@ -3,7 +3,7 @@
 
 use super::damage::Delivery;
 use super::rig::Rig;
-use super::script::{Script, Shot};
+use super::script::{Ending, Script, Shot, ShotSequence, SinkMood};
 use super::tape::Tape;
 use crate::error::CosimError;
 use foveate_design::Design;
@@ -21,6 +21,13 @@ const MANY_BEATS: usize = 20_000;
 /// Clocks after a frame at which pixels are offered that an array at work must not take.
 const REFUSED: usize = 3;
 
+/// Clocks between two frames in which no window has flushed: the smallest has four pixels.
+const WITHIN_A_FLUSH: u64 = 2;
+/// Clocks that a word waits for a hesitant sink.
+const HESITATION: u32 = 2;
+/// Clocks after which nobody waits any more for something to leave.
+const MOST_WAITING: usize = 1 << 20;
+
 /// Plays scripts.
 pub(super) struct Player<'a> {
     rig: Rig<'a>,
@@ -28,8 +35,9 @@ pub(super) struct Player<'a> {
     cancel: &'a AtomicBool,
     /// What is at the pixel port while it shows nothing of use.
     garbage: Vec<u16>,
-    /// Whether the sink takes nothing.
-    stalls: bool,
+    sink: SinkMood,
+    /// Clocks that a word has waited for a hesitant sink.
+    waited: u32,
     /// Whether a frame waits for the sink, which must then not stall between frames.
     waits: bool,
 }
@@ -44,13 +52,21 @@ impl<'a> Player<'a> {
         let rig = Rig::new(part, top);
         let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
         let waits = part.timing().departure().kept_rows.is_none();
-        Self { garbage: vec![max; rig.width()], rig, tape, cancel, stalls: false, waits }
+        Self {
+            garbage: vec![max; rig.width()],
+            rig,
+            tape,
+            cancel,
+            sink: SinkMood::Willing,
+            waited: 0,
+            waits,
+        }
     }
 
     /// Plays all sequences. The first begins twice: a reset forgets what was under way.
     pub(super) fn play(&mut self, script: &Script) -> Result<(), CosimError> {
         for (number, sequence) in script.sequences.iter().enumerate() {
-            let Some(first) = sequence.first() else { continue };
+            let Some(first) = sequence.shots.first() else { continue };
             if number == 0 {
                 self.reset(first)?;
                 let beats = self.rig.beats(&first.frame);
@@ -68,7 +84,7 @@ impl<'a> Player<'a> {
     /// Frames that come damaged, and the whole ones behind them.
     fn damaged(&mut self, shots: &[Shot]) -> Result<(), CosimError> {
         let (Some(first), Some(last)) = (shots.first(), shots.last()) else { return Ok(()) };
-        self.stalls = false;
+        self.sink = SinkMood::Willing;
         self.reset(first)?;
         for (shot, delivery) in shots.iter().zip(Delivery::ALL) {
             let beats = self.rig.beats(&shot.frame);
@@ -88,27 +104,73 @@ impl<'a> Player<'a> {
         Ok(())
     }
 
-    fn sequence(&mut self, sequence: &[Shot]) -> Result<(), CosimError> {
+    fn sequence(&mut self, sequence: &ShotSequence) -> Result<(), CosimError> {
+        if sequence.ending == Ending::Leaving {
+            return self.until_leaving(&sequence.shots);
+        }
         let mut before: Option<&Shot> = None;
-        for (number, shot) in sequence.iter().enumerate() {
+        for (number, shot) in sequence.shots.iter().enumerate() {
             if let Some(before) = before {
                 // A decision is made with the thresholds of its own clock.
                 let is_new = before.thresholds != shot.thresholds;
-                self.settle(&before.thresholds, is_new || number % 2 == 0)?;
+                self.settle(&before.thresholds, is_new || number % 3 == 0)?;
+                // By turns a frame follows at once, and while windows flush.
+                if number % 3 == 2 {
+                    self.idle(WITHIN_A_FLUSH, &before.thresholds)?;
+                }
             }
             let beats = self.rig.beats(&shot.frame);
-            self.stalls = shot.stalls;
+            self.sink = shot.sink;
             self.stream(&beats, &shot.thresholds)?;
             before = Some(shot);
         }
-        match before {
-            Some(last) => self.drain(last),
-            None => Ok(()),
+        match (before, sequence.ending) {
+            (Some(last), Ending::Drained) => self.drain(last),
+            (Some(last), Ending::MeanLeaving) if self.rig.tells_means() => self.until(last, true),
+            (Some(last), Ending::MeanLeaving | Ending::Leaving) => self.drain(last),
+            (None, _) => Ok(()),
         }
+    }
+
+    /// Frames up to the first pixel that leaves.
+    fn until_leaving(&mut self, shots: &[Shot]) -> Result<(), CosimError> {
+        for shot in shots {
+            self.sink = shot.sink;
+            for (number, pixels) in self.rig.beats(&shot.frame).iter().enumerate() {
+                self.beat(pixels, number == 0, &shot.thresholds)?;
+                if self.rig.sends() {
+                    return Ok(());
+                }
+            }
+        }
+        shots.last().map_or(Ok(()), |last| self.until(last, false))
+    }
+
+    /// Goes on until a pixel leaves, or a mean; where that needs another frame, the same one comes again. Never for long.
+    fn until(&mut self, last: &Shot, is_mean: bool) -> Result<(), CosimError> {
+        let (beats, thresholds) = (self.rig.beats(&last.frame), &last.thresholds);
+        let frames = self.rig.frames_behind();
+        // A core that says when it is ready has sent everything then.
+        if frames > 0 {
+            self.settle(thresholds, true)?;
+        }
+        let mut left = (0..frames).flat_map(|_| beats.iter().enumerate());
+        for _ in 0..MOST_WAITING {
+            if if is_mean { self.rig.sends_mean() } else { self.rig.sends() } {
+                break;
+            }
+            match (left.next(), self.rig.quiet_clocks()) {
+                (Some((number, pixels)), _) => self.beat(pixels, number == 0, thresholds)?,
+                (None, 0 | 1) => self.idle(1, thresholds)?,
+                (None, quiet) => self.skip(quiet, thresholds)?,
+            }
+        }
+        Ok(())
     }
 
     fn stream(&mut self, beats: &[Vec<u16>], thresholds: &Thresholds) -> Result<(), CosimError> {
         let every = if beats.len() < MANY_BEATS { PAUSE_EVERY } else { PAUSE_EVERY_OF_MANY };
+        let every = every.min(beats.len());
         for (number, pixels) in beats.iter().enumerate() {
             if number % every == every - 1 {
                 self.idle(1, thresholds)?;
@@ -132,7 +194,9 @@ impl<'a> Player<'a> {
     /// Between two frames: what must be done is done, pixels that are offered meanwhile are refused; with
     /// `is_long` everything is decided before it goes on.
     fn settle(&mut self, thresholds: &Thresholds, is_long: bool) -> Result<(), CosimError> {
-        self.stalls &= !self.waits;
+        if self.waits && self.sink == SinkMood::Losing {
+            self.sink = SinkMood::Willing;
+        }
         let garbage = self.garbage.clone();
         for _ in 0..REFUSED {
             if !self.rig.is_ready() {
@@ -181,10 +245,24 @@ impl<'a> Player<'a> {
         if self.cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted.into());
         }
-        let forward_ready = !self.stalls || self.rig.takes_while_stalling();
+        let forward_ready = match self.sink {
+            SinkMood::Willing => true,
+            SinkMood::Losing => self.rig.takes_while_stalling(),
+            SinkMood::Hesitant => self.takes_at_last(),
+        };
         let applied = CoreInput { forward_ready, ..*applied };
         self.rig.clock(&applied, &mut self.tape.record);
         self.tape.push(1)
+    }
+
+    /// Whether a word has waited long enough.
+    fn takes_at_last(&mut self) -> bool {
+        self.waited = if self.rig.sends() { self.waited + 1 } else { 0 };
+        let takes = self.waited > HESITATION;
+        if takes {
+            self.waited = 0;
+        }
+        takes
     }
 
     fn skip(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {

@@ -5,7 +5,7 @@ use super::surroundings::{Outside, Stalling};
 use crate::codec::Codec;
 use crate::layout::Layout;
 use crate::stimulus::{FrameFeed, settling_clocks};
-use foveate_design::{Design, Hardware, PipelinedTiming, Port};
+use foveate_design::{Design, Hardware, PipelinedTiming, Port, PortRole};
 use foveate_emit::Top;
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, CycleModel, rcm, rpu};
@@ -21,6 +21,8 @@ pub(crate) struct Rig<'a> {
     outside: Option<Outside>,
     sink: Stalling,
     tail: Tail,
+    has_pixels: bool,
+    tells_means: bool,
 }
 
 /// What comes after a frame.
@@ -52,7 +54,11 @@ impl Tail {
 
 impl<'a> Rig<'a> {
     pub(crate) fn new(part: &'a Design, top: Top) -> Self {
+        let ports = top.ports(part);
+        let has = |role| ports.iter().any(|port| port.role == role);
         Self {
+            has_pixels: has(PortRole::ForwardValid),
+            tells_means: has(PortRole::ForwardSummary),
             core: match top {
                 Top::Rpu => rpu(part),
                 Top::Rcm => rcm(part),
@@ -109,6 +115,21 @@ impl<'a> Rig<'a> {
     /// Whether a pixel is taken.
     pub(crate) fn is_ready(&self) -> bool {
         self.core.is_ready()
+    }
+
+    /// Whether a pixel leaves, or a mean.
+    pub(crate) fn sends(&self) -> bool {
+        self.has_pixels && self.core.is_high(PortRole::ForwardValid)
+    }
+
+    /// Whether the ports tell means from pixels.
+    pub(crate) fn tells_means(&self) -> bool {
+        self.tells_means
+    }
+
+    /// Whether a mean leaves, where the ports tell.
+    pub(crate) fn sends_mean(&self) -> bool {
+        self.sends() && self.tells_means && self.core.is_high(PortRole::ForwardSummary)
     }
 
     /// Clocks after the last pixel of a frame until everything has been decided that does not wait for another

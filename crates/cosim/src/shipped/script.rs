@@ -7,7 +7,7 @@ use super::has_sink;
 use super::picture::{TEXTURES, TestPattern};
 use super::studio::{Look, Studio};
 use crate::stimulus::{Artist, Motif, Random};
-use foveate_design::{Combine, Design, Thresholds as Mode};
+use foveate_design::{Combine, Design, Neighborhood, Thresholds as Mode};
 use foveate_frame::Frame;
 use foveate_model::Thresholds;
 use std::ops::RangeInclusive;
@@ -34,10 +34,38 @@ const GROUND_LEVELS: u32 = 4;
 /// How often a picture is drawn anew before another is tried.
 const TRIALS: usize = 2;
 
+/// Where the reset that begins the next sequence finds the core.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Ending {
+    /// Everything has left.
+    Drained,
+    /// A pixel, or a mean, is leaving.
+    Leaving,
+    /// A mean is leaving, where the ports tell.
+    MeanLeaving,
+}
+
+/// What a sink does meanwhile, where there is one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum SinkMood {
+    /// It takes everything.
+    Willing,
+    /// It takes nothing for so long that regions are lost.
+    Losing,
+    /// It lets every word wait for some clocks.
+    Hesitant,
+}
+
+/// Frames behind a reset.
+pub(super) struct ShotSequence {
+    pub(super) shots: Vec<Shot>,
+    pub(super) ending: Ending,
+}
+
 /// Frames, each with its thresholds.
 pub(super) struct Script {
     /// Sequences; each begins with a reset.
-    pub(super) sequences: Vec<Vec<Shot>>,
+    pub(super) sequences: Vec<ShotSequence>,
     /// What comes damaged to hardware that finds its frames again; see [`super::damage`].
     pub(super) damaged: Vec<Shot>,
 }
@@ -46,8 +74,7 @@ pub(super) struct Script {
 pub(super) struct Shot {
     pub(super) frame: Frame,
     pub(super) thresholds: Thresholds,
-    /// Whether the sink takes nothing meanwhile, where there is one.
-    pub(super) stalls: bool,
+    pub(super) sink: SinkMood,
 }
 
 /// Thresholds under which there is something relevant, and those under which nothing is.
@@ -95,33 +122,74 @@ impl Script {
         let flat = TestPattern::Flat.draw(stage.side, stage.max, false, &mut random);
         let shot = |turn, thresholds, square: &dyn Fn(usize, &Actor) -> Vec<u16>| {
             let squares: Vec<_> = cast.iter().enumerate().map(|(i, a)| square(i, a)).collect();
-            Shot { frame: stage.frame(&squares, turn), thresholds, stalls: false }
+            Shot { frame: stage.frame(&squares, turn), thresholds, sink: SinkMood::Willing }
         };
         let mixed = |number: usize, actor: &Actor| match number % 3 {
             0 => actor.other.clone(),
             1 => actor.first.clone(),
             _ => flat.clone(),
         };
-        let mut sequences = vec![vec![
+        let sequences = vec![vec![
             shot(0, pair.usual, &|_, actor| actor.first.clone()),
             shot(0, pair.usual, &|_, actor| actor.first.clone()),
             shot(1, pair.usual, &mixed),
             shot(2, pair.blank, &|_, _| flat.clone()),
             shot(2, pair.usual, &|_, actor| actor.last.clone()),
         ]];
+        let mut with_means = Vec::new();
         if let Some(periphery) = part.periphery() {
-            // Means that are sent, stay twice, and are sent again as soon as the level lets them.
-            let plain = |more: u32| {
-                let level = u16::try_from(more).expect("a level is a pixel").min(stage.max);
-                vec![level; flat.len()]
-            };
             let level = periphery.level;
-            let steps = [0, 0, level, level + 1].map(plain);
-            let steps = steps.iter().map(|square| shot(2, pair.blank, &|_, _| square.clone()));
-            let first = shot(0, pair.usual, &|_, actor| actor.first.clone());
-            let last = shot(2, pair.usual, &|_, actor| actor.last.clone());
-            sequences.push([first].into_iter().chain(steps).chain([last]).collect());
+            // Levels of regions side by side differ, or a mean could stand for another; not where their pixels would be seen.
+            let apart = match part.neighborhood() {
+                Neighborhood::Isolated => 2 * level + 3,
+                Neighborhood::Shared => 0,
+            };
+            let plain = |number: usize, more: u32| {
+                let place = u32::try_from(number % 3).unwrap_or_default();
+                let level = u16::try_from(more + place * apart).unwrap_or(u16::MAX);
+                vec![level.min(stage.max); flat.len()]
+            };
+            let means = |more: u32| shot(2, pair.blank, &|number, _| plain(number, more));
+            let active = |turn| shot(turn, pair.usual, &|_, actor| actor.first.clone());
+            let last = || shot(2, pair.usual, &|_, actor| actor.last.clone());
+            let never = |of| Thresholds { temporal_min_count: most_changes(part), ..of };
+            // Means that are sent, stay twice, and are sent again as soon as the level lets them; the same again behind pixels,
+            // and behind a region that is held.
+            let mut shots = vec![active(0)];
+            shots.extend([0, 0, level, level + 1].map(means));
+            shots.extend([last(), means(level + 1)]);
+            if part.thresholds() == Mode::Runtime {
+                // With a second pass a decision is made with the thresholds of the next frame.
+                let held = shot(2, never(pair.usual), &|_, actor| actor.first.clone());
+                let behind = shot(2, never(pair.blank), &|number, _| plain(number, level + 1));
+                shots.extend([held, behind]);
+            }
+            with_means.push(ShotSequence { shots, ending: Ending::Drained });
+            // The same frame behind a reset; and every other region held beside means, which wait for the sink.
+            // Held ones drift as far as they may, up and down: what they are compared with is what was sent, and no later frame.
+            let drift = u16::try_from(pair.usual.temporal_level).unwrap_or(u16::MAX);
+            let up = |pixel: &u16| pixel.saturating_add(drift).min(stage.max);
+            let down = |pixel: &u16| pixel.saturating_sub(drift);
+            let beside = |more: u32, is_up: bool| Shot {
+                sink: SinkMood::Hesitant,
+                ..shot(2, pair.usual, &|number, actor| match (number % 2, is_up) {
+                    (0, true) => actor.first.iter().map(up).collect(),
+                    (0, false) => actor.first.iter().map(down).collect(),
+                    _ => plain(number, more),
+                })
+            };
+            let far = 2 * level + 2;
+            let shots = vec![
+                means(level + 1),
+                active(2),
+                beside(0, true),
+                beside(far, false),
+                beside(0, true),
+            ];
+            with_means.push(ShotSequence { shots, ending: Ending::MeanLeaving });
         }
+        let mut sequences: Vec<ShotSequence> = sequences.into_iter().map(drained).collect();
+        sequences.extend(with_means);
         // First, so that a reset follows.
         let pictures = [|actor: &Actor| actor.first.clone(), |actor: &Actor| actor.other.clone()];
         let stalled = (0..stalled_frames(part)).map(|number| {
@@ -129,13 +197,22 @@ impl Script {
                 || shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor));
             // More regions are lost than have something of their own to show: counters are to get far.
             let turn = u32::try_from(number).unwrap_or_default();
-            let wide = || Shot { frame: stage.wide(turn), thresholds: pair.usual, stalls: false };
-            Shot { stalls: true, ..if stage.has_ground() { wide() } else { usual() } }
+            let wide = || Shot {
+                frame: stage.wide(turn),
+                thresholds: pair.usual,
+                sink: SinkMood::Willing,
+            };
+            Shot { sink: SinkMood::Losing, ..if stage.has_ground() { wide() } else { usual() } }
         });
         let stalled: Vec<Shot> = stalled.collect();
         if !stalled.is_empty() {
             let last = shot(1, pair.usual, &|_, actor| actor.last.clone());
-            sequences.insert(0, stalled.into_iter().chain([last]).collect());
+            // Summaries are lost, and sent again.
+            let means =
+                || Shot { sink: SinkMood::Losing, ..shot(2, pair.blank, &|_, _| flat.clone()) };
+            let means = part.periphery().map(|_| [means(), means()]).into_iter().flatten();
+            let lossy = stalled.into_iter().chain(means).chain([last]).collect();
+            sequences.insert(0, drained(lossy));
         }
         let drawn = cast.len() * stage.side * stage.side;
         let is_small = drawn <= FEW_PIXELS && part.timing().clocks_per_frame() <= FEW_CLOCKS;
@@ -145,29 +222,65 @@ impl Script {
             let near = NEAR.iter().map(|&motif| {
                 artists.iter_mut().for_each(|artist| artist.draw_near_minimum(motif));
                 let squares: Vec<_> = artists.iter().map(|artist| artist.pixels.clone()).collect();
-                Shot { frame: stage.frame(&squares, 0), thresholds: pair.usual, stalls: false }
+                Shot {
+                    frame: stage.frame(&squares, 0),
+                    thresholds: pair.usual,
+                    sink: SinkMood::Willing,
+                }
             });
-            sequences.push(near.collect());
+            sequences.push(drained(near.collect()));
         }
         // Of a large frame the minima that are met, and not those that are missed by one.
         let minima: &[u32] = if is_small { &[0, 1] } else { &[0] };
         for &more in minima.iter().filter(|_| part.thresholds() == Mode::Runtime) {
             let exact = cast[0].exact(part, &pair.usual, more);
-            sequences.push(vec![
+            sequences.push(drained(vec![
                 shot(0, exact, &|_, actor| actor.first.clone()),
                 shot(0, exact, &|_, actor| actor.other.clone()),
-            ]);
+            ]));
         }
+        let wide = || -> Vec<Shot> {
+            let of = |turn| (stage.wide(turn), pair.usual);
+            let shots = (0..WIDE_FRAMES).map(of);
+            shots
+                .map(|(frame, thresholds)| Shot { frame, thresholds, sink: SinkMood::Willing })
+                .collect()
+        };
         if is_wide {
-            let shot =
-                |turn| Shot { frame: stage.wide(turn), thresholds: pair.usual, stalls: false };
-            sequences.push((0..WIDE_FRAMES).map(shot).collect());
+            sequences.push(drained(wide()));
         }
+        // A reset meets what leaves.
+        let leaving = match is_wide {
+            true => wide(),
+            false => vec![shot(1, pair.usual, &|_, actor| actor.first.clone())],
+        };
+        // Nothing has a reference, and yet no region has changed, where the minimum is above all counts.
+        let never = match part.thresholds() {
+            Mode::Runtime => Thresholds { temporal_min_count: most_changes(part), ..pair.usual },
+            Mode::Constant => pair.usual,
+        };
+        let again = [never, never, pair.usual];
+        let again = again.map(|of| Shot {
+            sink: SinkMood::Hesitant,
+            ..shot(1, of, &|_, actor| actor.first.clone())
+        });
+        sequences.insert(0, ShotSequence { shots: leaving, ending: Ending::Leaving });
+        sequences.insert(1, drained(again.into()));
         let damaged = (0..DAMAGED).map(|number| {
             shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor))
         });
         Self { damaged: damaged.collect(), sequences }
     }
+}
+
+/// Frames behind which everything leaves.
+fn drained(shots: Vec<Shot>) -> ShotSequence {
+    ShotSequence { shots, ending: Ending::Drained }
+}
+
+/// A minimum that no count reaches.
+fn most_changes(part: &Design) -> u32 {
+    u32::MAX >> (u32::BITS - part.count_bits())
 }
 
 /// Frames during which a sink must stall for regions of more than one frame to be lost; one where none is ever lost; none

@@ -3,6 +3,7 @@
 
 use super::has_sink;
 use crate::layout::Layout;
+use crate::situations::Occurrences;
 use foveate_design::{Combine, Design, PortRole, Thresholds};
 use foveate_emit::Top;
 
@@ -32,6 +33,8 @@ pub struct VectorTally {
     pub after_error: u64,
     /// How they were lost, and what of them left.
     pub losses: Losses,
+    /// How often each situation occurred that the design can have.
+    pub situations: Occurrences,
     /// Outputs that are never compared with anything but 0, though they can show something else.
     pub silent: Vec<String>,
 }
@@ -180,6 +183,9 @@ impl VectorTally {
             let Losses { whole, waiting, stepping, .. } = self.losses;
             need(whole > 0, "no region is lost as a whole".to_owned());
             need(waiting + stepping > 0, "no region is lost in the middle".to_owned());
+        }
+        for situation in self.situations.missing() {
+            need(false, format!("it does not occur that {situation}"));
         }
         let silent = self.silent.join(" and ");
         need(self.silent.is_empty(), format!("{silent} never differs from 0"));

@@ -5,7 +5,9 @@ use super::rig::Record;
 use super::tally::{Counter, VectorTally};
 use crate::error::CosimError;
 use crate::packer::Packer;
+use crate::situations::Watch;
 use foveate_design::{Design, Port, PortRole};
+use foveate_emit::Top;
 use std::path::Path;
 
 /// Takes clocks; what it makes of them stays in memory.
@@ -14,15 +16,17 @@ pub(super) struct Tape {
     pub(super) record: Record,
     packer: Packer<Vec<u8>>,
     counter: Counter,
+    watch: Watch,
     clocks: u64,
 }
 
 impl Tape {
-    pub(super) fn new(part: &Design, ports: &[Port]) -> Self {
+    pub(super) fn new(part: &Design, top: Top, ports: &[Port]) -> Self {
         let record = Record::of(ports);
         Self {
             packer: Packer::new(&record.inputs, &record.outputs, Vec::new()),
             counter: Counter::new(part, &record.outputs),
+            watch: Watch::new(part, top, &record.inputs, &record.outputs),
             record,
             clocks: 0,
         }
@@ -38,6 +42,7 @@ impl Tape {
     pub(super) fn push(&mut self, clocks: u64) -> Result<(), CosimError> {
         let Record { outputs, input, expected, .. } = &self.record;
         self.counter.see(outputs, expected);
+        self.watch.see(input, expected, clocks);
         self.clocks += clocks;
         let pushed = self.packer.push(input, expected, clocks);
         pushed.map_err(CosimError::io("write", Path::new("vectors")))
@@ -48,6 +53,8 @@ impl Tape {
         let bytes = self.packer.finish();
         let bytes = bytes.map_err(CosimError::io("write", Path::new("vectors")))?;
         let text = String::from_utf8_lossy(&bytes).into_owned();
-        Ok((self.counter.finish(&self.record.outputs), self.clocks, text))
+        let situations = self.watch.occurrences();
+        let tally = self.counter.finish(&self.record.outputs);
+        Ok((VectorTally { situations, ..tally }, self.clocks, text))
     }
 }

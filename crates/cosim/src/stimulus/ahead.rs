@@ -19,6 +19,9 @@ pub(super) enum ThresholdAim {
     Largest,
     /// The least that is not nothing: what is not flat is relevant, what changes has changed.
     Least,
+    /// The same where thresholds are ports, else those of the design; neither they nor the data are aimed at each other. So what is
+    /// flat is irrelevant, and what is not is relevant.
+    Unaimed,
     /// Levels of the design; by turns no score is enough and every one is, and never have enough pixels changed: a region is
     /// irrelevant, is held, and is irrelevant again.
     Held,

@@ -131,8 +131,8 @@ impl<'a> Driver<'a> {
         border: u8,
     ) -> Result<(), CosimError> {
         self.aim = match self.design.thresholds() {
-            Mode::Constant => ThresholdAim::Design,
-            Mode::Runtime => aim,
+            Mode::Constant if aim != ThresholdAim::Unaimed => ThresholdAim::Design,
+            Mode::Constant | Mode::Runtime => aim,
         };
         if let Some(sink) = &mut self.sink {
             sink.begin(stalls, turn);
@@ -267,6 +267,12 @@ impl<'a> Driver<'a> {
         match self.aim {
             ThresholdAim::Design => self.thresholds = self.configured,
             ThresholdAim::Least => self.thresholds = Aimer::least(),
+            ThresholdAim::Unaimed => {
+                self.thresholds = match self.design.thresholds() {
+                    Mode::Runtime => Aimer::least(),
+                    Mode::Constant => self.configured,
+                };
+            }
             ThresholdAim::Held => self.thresholds = self.aimer.held(turn),
             ThresholdAim::Drifting => self.thresholds = self.aimer.drifting(turn),
             ThresholdAim::Restless => {}
@@ -389,6 +395,7 @@ impl<'a> Driver<'a> {
         };
         if let Some(scout) = &mut self.scout
             && self.aim != ThresholdAim::Design
+            && self.aim != ThresholdAim::Unaimed
         {
             let lane = self.random.index(self.garbage.len() - 1);
             if scout.decides(&input) {
@@ -418,6 +425,7 @@ impl<'a> Driver<'a> {
             ThresholdAim::Exact
             | ThresholdAim::Largest
             | ThresholdAim::Least
+            | ThresholdAim::Unaimed
             | ThresholdAim::Held
             | ThresholdAim::Drifting => self.scout.is_none() && !self.is_under_way,
         }

@@ -103,6 +103,9 @@ impl Stimulus {
         let simulated = self.level.design(design)?;
         self.check_size(&simulated)?;
         let mut recorder = Recorder::new(&self.level.top().ports(&simulated))?;
+        if self.rounds > 0 {
+            recorder.watch(&simulated, self.level.top());
+        }
         let plan = (self.seed, self.extent(&simulated));
         Session::new((design, &simulated), self.level, plan, &mut recorder, cancel)
             .run(&self.frames, progress)?;

@@ -243,7 +243,10 @@ impl<'a> Session<'a> {
             End::Leaving(most) => {
                 let is_leaving =
                     |driver: &Driver<'_>| driver.core().is_high(PortRole::ForwardValid);
-                while !is_leaving(&self.driver) && self.driver.core().is_pending() {
+                // What is still in windows is not pending, but the core is not ready.
+                let is_under_way =
+                    |driver: &Driver<'_>| driver.core().is_pending() || !driver.core().is_ready();
+                while !is_leaving(&self.driver) && is_under_way(&self.driver) {
                     self.driver.busy(None)?;
                 }
                 let clocks = self.random.up_to(most);

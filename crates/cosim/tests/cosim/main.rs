@@ -24,6 +24,8 @@ mod same_results;
 mod serial_matrix;
 mod serial_stimulus;
 mod shipped;
+mod shipped_faults;
+mod situations;
 mod stimulus;
 mod sync;
 mod widths;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The benches that come with a core: what their vectors show, and that they fail when any output does.
 
-use foveate_cosim::ShippedBench;
+use foveate_cosim::{Occurrences, ShippedBench, VectorTally};
 use foveate_design::{Array, Config, Design, FeatureKind, Organization};
 use foveate_emit::{Prefix, SourceFile, Top, verilog};
 use foveate_toolchain::testing::{require_tools, takes_whole_lists};
@@ -16,7 +16,7 @@ fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
 }
 
-fn bench(design: &Design, top: Top) -> ShippedBench {
+pub(crate) fn bench(design: &Design, top: Top) -> ShippedBench {
     ShippedBench::new(design, top, &Prefix::default(), &AtomicBool::new(false)).unwrap()
 }
 
@@ -213,7 +213,12 @@ fn a_raster_core_with_an_external_store_shows_its_streams() {
         // What is decided is not changed by the underrun.
         let block = toml.replace("'external'", "'block'");
         let block = bench(&design(&format!("hardware.forward = false\n{block}")), Top::Rcm);
-        assert_eq!((&block.tally, block.clocks), (tally, alone.clocks));
+        // A core that keeps its references misses none.
+        let counted = |tally: &VectorTally| VectorTally {
+            situations: Occurrences::default(),
+            ..tally.clone()
+        };
+        assert_eq!((counted(&block.tally), block.clocks), (counted(tally), alone.clocks));
         let whole = bench(&design(&toml), Top::Rcm);
         for port in ["reference_ready_o", "store_pixel_o", "store_last_o", "underrun_o"] {
             assert!(!whole.tally.silent.iter().any(|silent| silent == port), "{port}");
@@ -387,14 +392,14 @@ fn tied(files: &mut [SourceFile], top: &str) -> Vec<String> {
 
 /// What plays a bench: Icarus is quick to build, Verilator quick to run.
 #[derive(Clone, Copy)]
-enum Player {
+pub(crate) enum Player {
     Icarus,
     Verilator,
 }
 
 impl Player {
     /// Builds the simulation of a folder.
-    fn build(self, dir: &Path, files: &[SourceFile], bench: &ShippedBench) {
+    pub(crate) fn build(self, dir: &Path, files: &[SourceFile], bench: &ShippedBench) {
         let toolchain = Toolchain::system();
         let top = format!("{}_replay", bench.top.module());
         let compile = match self {
@@ -416,7 +421,7 @@ impl Player {
     }
 
     /// Whether a run passes, and what it says.
-    fn play(self, dir: &Path, args: &[&str]) -> (bool, String) {
+    pub(crate) fn play(self, dir: &Path, args: &[&str]) -> (bool, String) {
         let mut command = match self {
             Self::Icarus => {
                 let mut vvp = Command::new("vvp");

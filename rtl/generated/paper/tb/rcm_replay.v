@@ -3,8 +3,8 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 17 frames of 2 x 2 regions, by parameters a part of the core's 28 x 28.
-// Decisions: 21 active, 24 held, 23 blank; 47 comparisons with an earlier frame.
+// The vectors show 22 frames of 2 x 2 regions, by parameters a part of the core's 28 x 28.
+// Decisions: 25 active, 40 held, 23 blank; 59 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has a bit for each value that differs from the line before: bit 0 for the first

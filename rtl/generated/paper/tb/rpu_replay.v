@@ -3,8 +3,8 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 17 frames of 1 x 1 regions.
-// Decisions: 4 active, 7 held, 6 blank; 11 comparisons with an earlier frame.
+// The vectors show 22 frames of 1 x 1 regions.
+// Decisions: 5 active, 11 held, 6 blank; 14 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has a bit for each value that differs from the line before: bit 0 for the first

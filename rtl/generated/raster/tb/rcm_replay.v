@@ -3,8 +3,8 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 20 frames of 8 x 6 regions.
-// Decisions: 446 active, 222 held, 292 blank; 583 comparisons with an earlier frame.
+// The vectors show 23 frames of 8 x 6 regions.
+// Decisions: 447 active, 366 held, 292 blank; 679 comparisons with an earlier frame.
 // The sink stalls until 75 regions are lost.
 // In all sequences 64 are lost as a whole, 11 in the middle:
 // 5 while the word that ends them waits, 6 as it comes to the ports; 10 after one word.

@@ -3,8 +3,8 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 7 frames of 8 x 6 regions.
-// Decisions: 122 active, 67 held, 147 blank; 161 comparisons with an earlier frame.
+// The vectors show 10 frames of 8 x 6 regions.
+// Decisions: 134 active, 211 held, 147 blank; 257 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has a bit for each value that differs from the line before: bit 0 for the first

@@ -3,8 +3,8 @@
 // and four-state: an X is a mismatch. An output that means something only with a valid bit is compared
 // where that bit is expected.
 //
-// The vectors show 7 frames of 4 x 1 regions.
-// Decisions: 13 active, 5 held, 10 blank; 15 comparisons with an earlier frame.
+// The vectors show 10 frames of 4 x 1 regions.
+// Decisions: 14 active, 17 held, 10 blank; 23 comparisons with an earlier frame.
 //
 //   +vectors=FILE  the vectors, by default vectors.hex: lines of hexadecimal numbers. The first number of
 //                  a line has a bit for each value that differs from the line before: bit 0 for the first

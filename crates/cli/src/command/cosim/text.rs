@@ -26,6 +26,11 @@ pub(super) fn of(told: &Told<'_>, width: usize) -> String {
             add(&mut text, &format!("waves in {}", waves.display()), "  ", width);
         }
     }
+    // Runs that a mismatch has ended have not reached the rest.
+    let all_agree = summary.runs.iter().all(CosimReport::passed);
+    if all_agree && !summary.situations.0.is_empty() {
+        add(&mut text, &format!("situations  {}", summary.situations), "", width);
+    }
     for name in &summary.not_run {
         add(&mut text, &format!("{name}: not run, because of the mismatch above"), "", width);
     }

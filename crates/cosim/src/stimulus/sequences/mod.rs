@@ -80,6 +80,26 @@ impl Sequence {
     }
 }
 
+/// Every region shows a summary, the same again behind a reset, pixels, and that summary again.
+const fn means_around_a_reset() -> [Sequence; 2] {
+    use Motif::{Noise, Same, Zero};
+    let aimed = Sequence::aimed;
+    [
+        Sequence {
+            mixed: false,
+            ..aimed(ThresholdAim::Unaimed, "means before a reset", &[Noise, Zero, Zero])
+        },
+        Sequence {
+            mixed: false,
+            ..aimed(
+                ThresholdAim::Unaimed,
+                "means behind a reset",
+                &[Zero, Noise, Zero, Same, Noise],
+            )
+        },
+    ]
+}
+
 /// Every sequence of a design, the most telling first.
 pub(super) fn sequences(design: &Design) -> Vec<Sequence> {
     match design.hardware() {

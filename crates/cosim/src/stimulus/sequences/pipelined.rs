@@ -4,7 +4,7 @@
 use super::super::ahead::ThresholdAim;
 use super::super::motif::Motif::*;
 use super::super::pace::settling_clocks;
-use super::{End, Sequence};
+use super::{End, Sequence, means_around_a_reset};
 use foveate_design::PipelinedDesign;
 
 /// Every sequence, the most telling first.
@@ -52,7 +52,9 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
             ),
             aimed(configured, "means kept", &[Flat, Step, Flat, MeanStep, Ramp, Same, MeanStep]),
             mixed("means of anything", &[Smooth, LightStep, Binary, MeanStep, Flicker, Noise]),
+            aimed(ThresholdAim::Held, "means held", &[Noise, Same, Same, MeanStep, Same, MeanStep]),
         ]);
+        list.extend(means_around_a_reset());
     }
     list
 }

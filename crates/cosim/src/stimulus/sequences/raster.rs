@@ -4,7 +4,7 @@
 use super::super::ahead::ThresholdAim;
 use super::super::memory::Lapse;
 use super::super::motif::Motif::*;
-use super::{End, Sequence};
+use super::{End, Sequence, means_around_a_reset};
 use foveate_design::{RasterDesign, RasterTiming};
 
 /// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
@@ -52,6 +52,13 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     ];
     if design.periphery().is_some() {
         sequences.extend(means());
+        // All of them send means, and one is on the ports; a reset must follow.
+        sequences.push(Sequence {
+            mixed: false,
+            end: End::Leaving(0),
+            ..aimed(ThresholdAim::Unaimed, "reset while means leave", &[Zero])
+        });
+        sequences.extend(means_around_a_reset());
     }
     if design.frames_are_kept_outside() {
         sequences.extend(failing(flushing));

@@ -3,7 +3,7 @@
 
 use super::super::ahead::ThresholdAim;
 use super::super::motif::Motif::*;
-use super::{End, Sequence};
+use super::{End, Sequence, means_around_a_reset};
 use foveate_design::{Phase, SerialDesign, SerialTiming};
 
 /// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
@@ -64,6 +64,12 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
                 ),
             ],
         );
+        list.push(aimed(
+            ThresholdAim::Held,
+            "means held",
+            &[Noise, Same, Same, MeanStep, Same, MeanStep],
+        ));
+        list.extend(means_around_a_reset());
     }
     list
 }

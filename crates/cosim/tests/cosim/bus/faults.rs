@@ -96,7 +96,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault(SMALL, "packet_frames", "            first_q     <= 1'b0;\n", ""),
     fault(SMALL, "packet_frames", "behind_o = announced_q && !deciding_q", "behind_o = 1'b0"),
     fault(SMALL, "packet_frames", "closed_o = decided_q[frame_q] && ", "closed_o = decided_q[frame_q] || "),
-    fault(SMALL, "packet_frames", "clear = rst_i || forget_i || ended_i", "clear = rst_i || forget_i || 1'b0"),
+    fault(SMALL, "packet_frames", "clear = rst_i || forget_i || (ended_i", "clear = rst_i || forget_i || (1'b0"),
     fault(SMALL, "packet_frames", "if (rst_i) count_q <= 32'd0;", ""),
     fault(SMALL, "packet_frames", "wire lost = lost_i && lost_frame_i == frame;", "wire lost = 1'b0;"),
 

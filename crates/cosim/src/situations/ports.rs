@@ -1,0 +1,335 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Situations of what has plain ports: an array, or its unit alone.
+
+use super::occurrence::Occurrences;
+use foveate_design::{
+    Combine, Design, FeatureKind, Filter, Hardware, Neighborhood, RasterTiming, Reference,
+    Thresholds,
+};
+use foveate_emit::Top;
+
+/// How often something was seen on the ports, since the first clock.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct PortFacts {
+    /// Decisions of regions that are active, held or irrelevant.
+    pub(super) active: u64,
+    pub(super) held: u64,
+    pub(super) irrelevant: u64,
+    /// Held regions whose count of the next frame is that of a reference.
+    pub(super) reference_kept: u64,
+    /// Regions that are active, then irrelevant, then active.
+    pub(super) reference_dropped: u64,
+    /// Regions all of whose pixels count, by a minimum above that.
+    pub(super) minimum_above: u64,
+    pub(super) reset_within: u64,
+    pub(super) reset_while_leaving: u64,
+    pub(super) back_to_back: u64,
+    pub(super) gap_within: u64,
+    pub(super) refused: u64,
+    pub(super) flush_cut: u64,
+    pub(super) flush_ended: u64,
+    pub(super) threshold_changed: u64,
+    pub(super) summary_sent: u64,
+    pub(super) summary_kept: u64,
+    pub(super) summary_renewed: u64,
+    pub(super) summary_active_summary: u64,
+    pub(super) summary_held_irrelevant: u64,
+    pub(super) summary_reset_summary: u64,
+    pub(super) mean_waits: u64,
+    pub(super) inner_mean_waits: u64,
+    pub(super) gap_before_means: u64,
+    pub(super) reset_at_mean: u64,
+    pub(super) mean_beside_reference: u64,
+    pub(super) pixel_waits: u64,
+    pub(super) lost_whole: u64,
+    pub(super) lost_within: u64,
+    pub(super) lost_decided: u64,
+    pub(super) lost_summary_again: u64,
+    pub(super) too_few: u64,
+    pub(super) too_many: u64,
+    pub(super) no_start: u64,
+    pub(super) whole_behind_error: u64,
+    pub(super) underrun: u64,
+}
+
+/// One situation: its name, which designs can have it at which module, and how often it occurred.
+struct PortSituation {
+    name: &'static str,
+    is_possible: fn(&Design, Top) -> bool,
+    count: fn(&PortFacts) -> u64,
+}
+
+const fn situation(
+    name: &'static str,
+    is_possible: fn(&Design, Top) -> bool,
+    count: fn(&PortFacts) -> u64,
+) -> PortSituation {
+    PortSituation { name, is_possible, count }
+}
+
+/// Every situation.
+const SITUATIONS: &[PortSituation] = &[
+    situation("a region is active", |_, _| true, |facts| facts.active),
+    situation("a region is held", |design, _| can_hold(design), |facts| facts.held),
+    situation(
+        "a region is irrelevant",
+        |design, _| can_be_irrelevant(design),
+        |facts| facts.irrelevant,
+    ),
+    situation(
+        "a held region is compared with its reference again",
+        |design, _| keeps_references(design) && can_hold(design),
+        |facts| facts.reference_kept,
+    ),
+    situation(
+        "a region is active, irrelevant and active again",
+        |design, _| drops_references(design),
+        |facts| facts.reference_dropped,
+    ),
+    situation(
+        "all pixels of a region count, and the minimum is above that",
+        |design, _| is_runtime(design) && largest_minimum(design) > design.region_pixels(),
+        |facts| facts.minimum_above,
+    ),
+    situation("a reset comes within a frame", |_, _| true, |facts| facts.reset_within),
+    situation(
+        "a reset comes while pixels leave",
+        |design, _| forwards(design),
+        |facts| facts.reset_while_leaving,
+    ),
+    situation("a frame follows at once", |_, _| true, |facts| facts.back_to_back),
+    situation("pixels pause within a frame", |_, _| true, |facts| facts.gap_within),
+    situation(
+        "a pixel is offered while none is taken",
+        |design, _| waits(design),
+        |facts| facts.refused,
+    ),
+    situation("a frame cuts a flush", |design, _| flushes(design), |facts| facts.flush_cut),
+    situation("a flush ends", |design, _| flushes(design), |facts| facts.flush_ended),
+    situation(
+        "a threshold changes between two frames",
+        |design, _| is_runtime(design),
+        |facts| facts.threshold_changed,
+    ),
+    situation("a summary is sent", |design, _| sends_means(design), |facts| facts.summary_sent),
+    situation(
+        "a summary stays on the screen",
+        |design, _| sends_means(design),
+        |facts| facts.summary_kept,
+    ),
+    situation(
+        "a summary is sent again while one is shown",
+        |design, _| sends_means(design),
+        |facts| facts.summary_renewed,
+    ),
+    situation(
+        "a summary, pixels, a summary",
+        |design, _| sends_means(design),
+        |facts| facts.summary_active_summary,
+    ),
+    situation(
+        "a region is held while its summary is shown, and is irrelevant again",
+        |design, _| sends_means(design) && is_runtime(design),
+        |facts| facts.summary_held_irrelevant,
+    ),
+    situation(
+        "a reset comes while a summary is shown, and the same frame follows",
+        |design, _| sends_means(design),
+        |facts| facts.summary_reset_summary,
+    ),
+    situation(
+        "pixels pause while means are on their way",
+        |design, _| sends_means(design) && is_pipelined(design),
+        |facts| facts.gap_before_means,
+    ),
+    situation(
+        "a mean waits for the sink",
+        |design, _| sends_means(design) && has_sink(design),
+        |facts| facts.mean_waits,
+    ),
+    situation(
+        "a mean waits for the sink before others of its region",
+        |design, _| sends_means(design) && has_sink(design) && has_blocks(design),
+        |facts| facts.inner_mean_waits,
+    ),
+    situation(
+        "a reset comes while a mean leaves",
+        |design, _| sends_means(design) && has_sink(design),
+        |facts| facts.reset_at_mean,
+    ),
+    situation(
+        "means leave beside a held region, which is compared with its reference again",
+        |design, _| {
+            sends_means(design)
+                && has_sink(design)
+                && can_hold(design)
+                && keeps_references(design)
+                && design.columns() > 1
+        },
+        |facts| facts.mean_beside_reference,
+    ),
+    situation(
+        "a pixel waits for the sink",
+        |design, _| has_sink(design),
+        |facts| facts.pixel_waits,
+    ),
+    situation(
+        "a region is lost as a whole",
+        |design, _| can_lose(design),
+        |facts| facts.lost_whole,
+    ),
+    situation(
+        "a region is lost in the middle",
+        |design, _| can_lose(design),
+        |facts| facts.lost_within,
+    ),
+    situation(
+        "a region is decided behind its loss",
+        |design, _| can_lose(design),
+        |facts| facts.lost_decided,
+    ),
+    situation(
+        "a summary is sent behind the loss of its region",
+        |design, _| can_lose(design) && sends_means(design),
+        |facts| facts.lost_summary_again,
+    ),
+    situation("a frame has too few pixels", syncs, |facts| facts.too_few),
+    situation("a frame has too many pixels", syncs, |facts| facts.too_many),
+    situation("a frame has no start", syncs, |facts| facts.no_start),
+    situation("a frame is decided behind a damaged one", syncs, |facts| facts.whole_behind_error),
+    situation(
+        "a reference is missing",
+        |design, _| is_stored_outside(design),
+        |facts| facts.underrun,
+    ),
+];
+
+impl PortFacts {
+    /// How often each situation occurred that `design` can have at this module.
+    pub(super) fn occurrences(&self, design: &Design, top: Top) -> Occurrences {
+        let mut all = Occurrences::default();
+        for situation in SITUATIONS.iter().filter(|own| (own.is_possible)(design, top)) {
+            all.add(situation.name, (situation.count)(self));
+        }
+        all
+    }
+}
+
+fn is_runtime(design: &Design) -> bool {
+    match design.thresholds() {
+        Thresholds::Runtime => true,
+        Thresholds::Constant => false,
+    }
+}
+
+/// Whether a region may be relevant without having changed.
+fn can_hold(design: &Design) -> bool {
+    is_runtime(design) || design.temporal().min_count > 0
+}
+
+/// The largest minimum of changed pixels that the port may have.
+fn largest_minimum(design: &Design) -> u32 {
+    u32::MAX >> (u32::BITS - design.count_bits())
+}
+
+/// Whether a region may have no vote.
+fn can_be_irrelevant(design: &Design) -> bool {
+    let mut votes = design.features().iter().map(|feature| feature.min_score() == 0);
+    let always = match design.combine() {
+        Combine::Any => votes.any(|vote| vote),
+        Combine::All => votes.all(|vote| vote),
+    };
+    is_runtime(design) || !always
+}
+
+fn sends_means(design: &Design) -> bool {
+    design.periphery().is_some() && can_be_irrelevant(design)
+}
+
+fn has_blocks(design: &Design) -> bool {
+    design.periphery().is_some_and(|periphery| periphery.blocks > 1)
+}
+
+fn keeps_references(design: &Design) -> bool {
+    match design.temporal().reference {
+        Reference::LastSent => true,
+        Reference::Previous => false,
+    }
+}
+
+/// Whether a region that is irrelevant loses its reference.
+fn drops_references(design: &Design) -> bool {
+    use foveate_design::Irrelevant::{Hold, Mean, Zero};
+    let blanks = match design.irrelevant() {
+        Zero | Mean => true,
+        Hold => false,
+    };
+    keeps_references(design) && blanks && can_be_irrelevant(design)
+}
+
+fn is_pipelined(design: &Design) -> bool {
+    match design.hardware() {
+        Hardware::Pipelined(_) => true,
+        Hardware::Serial(_) | Hardware::Raster(_) => false,
+    }
+}
+
+/// Whether it takes nothing at times.
+fn waits(design: &Design) -> bool {
+    !is_pipelined(design)
+}
+
+/// Windows that flush behind a frame.
+pub(super) fn flushed_windows(design: &Design) -> u64 {
+    let is_windowed = |kind| match kind {
+        FeatureKind::Edge | FeatureKind::Corner => true,
+        FeatureKind::Mad | FeatureKind::Variance => false,
+    };
+    let median = match design.filter() {
+        Filter::Median3x3 => 1,
+        Filter::None => 0,
+    };
+    let feature = design.features().iter().any(|feature| is_windowed(feature.kind()));
+    match design.neighborhood() {
+        Neighborhood::Isolated if is_pipelined(design) => median + u64::from(feature),
+        Neighborhood::Isolated | Neighborhood::Shared => 0,
+    }
+}
+
+fn flushes(design: &Design) -> bool {
+    flushed_windows(design) > 0
+}
+
+/// Whether pixels leave.
+fn forwards(design: &Design) -> bool {
+    match design.hardware() {
+        Hardware::Pipelined(_) | Hardware::Serial(_) => true,
+        Hardware::Raster(own) => RasterTiming::of(design.on(own)).forwards,
+    }
+}
+
+/// Whether somebody takes what leaves, and may stall.
+fn has_sink(design: &Design) -> bool {
+    match design.hardware() {
+        Hardware::Pipelined(_) | Hardware::Serial(_) => false,
+        Hardware::Raster(_) => forwards(design),
+    }
+}
+
+/// Whether a sink that stalls loses regions.
+fn can_lose(design: &Design) -> bool {
+    has_sink(design) && design.timing().departure().kept_rows.is_some()
+}
+
+fn is_stored_outside(design: &Design) -> bool {
+    match design.hardware() {
+        Hardware::Pipelined(_) | Hardware::Serial(_) => false,
+        Hardware::Raster(own) => design.on(own).frames_are_kept_outside(),
+    }
+}
+
+/// Whether the module finds its frames again.
+fn syncs(design: &Design, top: Top) -> bool {
+    use foveate_design::PortRole;
+    top.ports(design).iter().any(|port| port.role == PortRole::SyncError)
+}

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! What has become of every region, by its decisions and what was lost of it.
+
+use super::ports::PortFacts;
+use foveate_design::{Design, Irrelevant, Reference};
+
+/// A decision as the ports show it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Decided {
+    pub(super) srs: bool,
+    pub(super) trs: bool,
+    pub(super) summary: bool,
+    /// Pixels that have changed, where this can be seen.
+    pub(super) count: Option<u64>,
+}
+
+/// How a region was decided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+enum Verdict {
+    #[default]
+    Undecided,
+    Active,
+    Held,
+    Irrelevant,
+}
+
+/// One region since the last reset.
+#[derive(Clone, Copy, Debug, Default)]
+struct RegionTrace {
+    verdict: Verdict,
+    has_reference: bool,
+    /// The number of the frame whose summary the screen shows.
+    shown: Option<usize>,
+    /// It was held while a summary was shown.
+    held_shown: bool,
+    /// It was active after a summary.
+    active_after_summary: bool,
+    /// It was active, and irrelevant since.
+    active_then_irrelevant: bool,
+    /// It was lost, and not decided since.
+    lost: bool,
+    /// Means left beside it while it was held.
+    beside_means: bool,
+}
+
+/// Every region since the last reset.
+#[derive(Clone, Debug)]
+pub(super) struct RegionTraces {
+    regions: Vec<RegionTrace>,
+    columns: usize,
+    pixels: u64,
+    blanks: bool,
+    is_last_sent: bool,
+}
+
+impl RegionTraces {
+    pub(super) fn of(design: &Design, regions: u32) -> Self {
+        Self {
+            regions: vec![RegionTrace::default(); regions as usize],
+            columns: design.columns() as usize,
+            pixels: design.region_pixels().into(),
+            blanks: match design.irrelevant() {
+                Irrelevant::Zero | Irrelevant::Mean => true,
+                Irrelevant::Hold => false,
+            },
+            is_last_sent: match design.temporal().reference {
+                Reference::LastSent => true,
+                Reference::Previous => false,
+            },
+        }
+    }
+
+    /// Regions, and the frame whose summary the screen shows of each; then all is forgotten.
+    pub(super) fn reset(&mut self) -> Vec<(usize, usize)> {
+        let shown = |(region, trace): (usize, &RegionTrace)| Some((region, trace.shown?));
+        let all = self.regions.iter().enumerate().filter_map(shown).collect();
+        self.regions.fill(RegionTrace::default());
+        all
+    }
+
+    /// A region of this frame is decided.
+    pub(super) fn decide(
+        &mut self,
+        region: usize,
+        frame: usize,
+        decided: Decided,
+        facts: &mut PortFacts,
+    ) {
+        let (pixels, blanks) = (self.pixels, self.blanks);
+        let Some(trace) = self.regions.get_mut(region) else { return };
+        let is_compared = decided.count.is_some_and(|count| count < pixels);
+        facts.minimum_above += u64::from(decided.count == Some(pixels) && !decided.trs);
+        let was_held = trace.verdict == Verdict::Held;
+        facts.lost_decided += u64::from(trace.lost);
+        facts.reference_kept += u64::from(was_held && trace.has_reference && is_compared);
+        facts.mean_beside_reference += u64::from(trace.beside_means && was_held && is_compared);
+        trace.beside_means = false;
+        match (decided.srs, decided.trs) {
+            (true, true) => trace.activate(facts),
+            (true, false) => {
+                facts.held += 1;
+                trace.verdict = Verdict::Held;
+                trace.held_shown |= trace.shown.is_some();
+            }
+            (false, _) => {
+                facts.irrelevant += 1;
+                trace.active_then_irrelevant |= trace.verdict == Verdict::Active;
+                trace.verdict = Verdict::Irrelevant;
+                trace.has_reference &= !blanks;
+                trace.summarize(decided.summary, frame, facts);
+            }
+        }
+        trace.lost = false;
+    }
+
+    /// A region of the last frame was lost.
+    pub(super) fn lose(&mut self, region: usize) {
+        if let Some(trace) = self.regions.get_mut(region) {
+            trace.lost = true;
+            trace.shown = None;
+            trace.has_reference &= !self.is_last_sent;
+        }
+    }
+
+    /// Means of a region leave: its left neighbour is held, with a reference of an earlier frame.
+    pub(super) fn leave_means(&mut self, region: usize) {
+        if !region.is_multiple_of(self.columns)
+            && let Some(left) = self.regions.get_mut(region - 1)
+            && left.verdict == Verdict::Held
+            && left.has_reference
+        {
+            left.beside_means = true;
+        }
+    }
+}
+
+impl RegionTrace {
+    fn activate(&mut self, facts: &mut PortFacts) {
+        facts.active += 1;
+        facts.reference_dropped += u64::from(self.active_then_irrelevant);
+        self.active_after_summary |= self.shown.is_some();
+        self.verdict = Verdict::Active;
+        self.has_reference = true;
+        (self.active_then_irrelevant, self.held_shown, self.shown) = (false, false, None);
+    }
+
+    fn summarize(&mut self, is_sent: bool, frame: usize, facts: &mut PortFacts) {
+        facts.summary_held_irrelevant += u64::from(self.held_shown && self.shown.is_some());
+        self.held_shown = false;
+        facts.summary_kept += u64::from(!is_sent && self.shown.is_some());
+        if is_sent {
+            facts.summary_sent += 1;
+            facts.summary_renewed += u64::from(self.shown.is_some());
+            facts.summary_active_summary += u64::from(self.active_after_summary);
+            facts.lost_summary_again += u64::from(self.lost);
+            (self.active_after_summary, self.shown) = (false, Some(frame));
+        }
+    }
+}

@@ -1,0 +1,397 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//! Looks at the ports of an array or unit, clock by clock, and counts what was seen.
+
+use super::occurrence::Occurrences;
+use super::ports::{PortFacts, flushed_windows};
+use super::regions::{Decided, RegionTraces};
+use crate::field::Field;
+use crate::layout::Layout;
+use foveate_design::{Array, Design, PortRole};
+use foveate_emit::Top;
+
+/// Whether a role is a threshold.
+fn is_threshold(role: PortRole) -> bool {
+    matches!(
+        role,
+        PortRole::Level(_)
+            | PortRole::MinScore(_)
+            | PortRole::TemporalLevel
+            | PortRole::TemporalMinCount
+            | PortRole::SummaryLevel
+    )
+}
+
+/// The ports that are looked at.
+#[derive(Clone, Debug)]
+struct Ports {
+    inputs: Vec<Field>,
+    outputs: Vec<Field>,
+}
+
+/// One clock: what is applied, and what is there after its edge.
+#[derive(Clone, Copy)]
+struct Clock<'a> {
+    ports: &'a Ports,
+    input: &'a [u8],
+    output: &'a [u8],
+}
+
+impl Clock<'_> {
+    fn field(&self, role: PortRole) -> Option<(&Field, &[u8])> {
+        let find = |fields: &'_ [Field]| fields.iter().position(|field| field.port.role == role);
+        match find(&self.ports.outputs) {
+            Some(at) => Some((&self.ports.outputs[at], self.output)),
+            None => find(&self.ports.inputs).map(|at| (&self.ports.inputs[at], self.input)),
+        }
+    }
+
+    fn value(&self, role: PortRole) -> u64 {
+        self.field(role).map_or(0, |(field, record)| field.get(record, 0))
+    }
+
+    fn is_high(&self, role: PortRole) -> bool {
+        self.field(role).is_some_and(|(field, record)| field.slice(record).iter().any(|&b| b != 0))
+    }
+
+    fn bit(&self, role: PortRole, lane: u32) -> bool {
+        self.field(role).is_some_and(|(field, record)| field.get(record, lane) == 1)
+    }
+}
+
+/// A frame that comes in, and those before it since the last reset.
+#[derive(Clone, Debug, Default)]
+struct Intake {
+    /// Beats of the frame under way; all of a frame between two.
+    beats: u64,
+    /// A hash of its pixels so far, and those of whole frames.
+    hash: u64,
+    hashes: Vec<u64>,
+    /// Clocks since the last beat.
+    idle: u64,
+    /// The core was not ready since the last beat.
+    was_closed: bool,
+    /// A frame has begun since the last reset, and nothing was wrong with the count since.
+    is_in_step: bool,
+    thresholds: Vec<u8>,
+}
+
+/// Counts situations.
+#[derive(Clone, Debug)]
+pub(crate) struct Watch {
+    design: Design,
+    top: Top,
+    ports: Ports,
+    facts: PortFacts,
+    regions: RegionTraces,
+    per_frame: u64,
+    /// Clocks in which the first window flushes, and all of them.
+    flush: u64,
+    flushes: u64,
+    intake: Intake,
+    /// Decisions of regions since the last reset, of all lanes together.
+    decided: u64,
+    /// The count of each region that a serial array has shown.
+    counts: Vec<Option<u64>>,
+    /// What the outputs showed after the edge before.
+    was_ready: bool,
+    left: bool,
+    left_mean: bool,
+    had_underrun: bool,
+    /// A summary is sent with the last decisions.
+    means_are_due: bool,
+    /// Regions with the hash of the frame whose summary was shown at the last reset.
+    shown_at_reset: Vec<(usize, u64)>,
+    /// Of those, the ones whose summary was sent again in the first frame.
+    sent_again: Vec<u64>,
+    has_error: bool,
+    decided_since_error: u64,
+    lost: u64,
+    aborted: Option<(u64, u64)>,
+}
+
+impl Watch {
+    /// Of what is simulated: `design` is that of the level.
+    pub(crate) fn new(design: &Design, top: Top, inputs: &Layout, outputs: &Layout) -> Self {
+        let regions = match (top, design.unit().array) {
+            (Top::Rpu, Array::Copies) => 1,
+            (Top::Rpu, Array::Whole) | (Top::Rcm, Array::Copies | Array::Whole) => design.regions(),
+        };
+        let pick = |layout: &Layout| {
+            let fields = layout.fields().iter();
+            fields.filter(|field| is_watched(field.port.role)).cloned().collect::<Vec<_>>()
+        };
+        Self {
+            ports: Ports { inputs: pick(inputs), outputs: pick(outputs) },
+            facts: PortFacts::default(),
+            regions: RegionTraces::of(design, regions),
+            per_frame: design.timing().pixels_per_frame(),
+            flush: u64::from(design.region_size()) + 1,
+            flushes: (u64::from(design.region_size()) + 1) * flushed_windows(design),
+            intake: Intake::default(),
+            decided: 0,
+            counts: vec![None; regions as usize],
+            was_ready: false,
+            left: false,
+            left_mean: false,
+            had_underrun: false,
+            means_are_due: false,
+            shown_at_reset: Vec::new(),
+            sent_again: Vec::new(),
+            has_error: false,
+            decided_since_error: 0,
+            lost: 0,
+            aborted: None,
+            design: design.clone(),
+            top,
+        }
+    }
+
+    /// How often each situation occurred that the design can have.
+    pub(crate) fn occurrences(&self) -> Occurrences {
+        let mut facts = self.facts.clone();
+        facts.lost_whole = self.lost.saturating_sub(facts.lost_within);
+        facts.occurrences(&self.design, self.top)
+    }
+
+    /// So many clocks with the same inputs and outputs.
+    pub(crate) fn see(&mut self, input: &[u8], output: &[u8], clocks: u64) {
+        let ports = std::mem::replace(&mut self.ports, Ports { inputs: vec![], outputs: vec![] });
+        let clock = Clock { ports: &ports, input, output };
+        if clock.is_high(PortRole::Reset) {
+            self.reset();
+        } else {
+            self.take(&clock, clocks);
+            self.stall(&clock);
+            self.lose(&clock);
+            self.decide(&clock);
+        }
+        self.after(&clock);
+        self.ports = ports;
+    }
+
+    fn reset(&mut self) {
+        let (facts, intake) = (&mut self.facts, &mut self.intake);
+        facts.reset_within +=
+            u64::from(intake.is_in_step && (1..self.per_frame).contains(&intake.beats));
+        facts.reset_while_leaving += u64::from(self.left);
+        facts.reset_at_mean += u64::from(self.left_mean);
+        let shown = self.regions.reset();
+        // Several clocks of reset are one.
+        if intake.is_in_step {
+            let hash = |(region, frame): (usize, usize)| Some((region, *intake.hashes.get(frame)?));
+            self.shown_at_reset = shown.into_iter().filter_map(hash).collect();
+        }
+        *intake = Intake::default();
+        self.counts.fill(None);
+        (self.decided, self.means_are_due) = (0, false);
+        (self.has_error, self.decided_since_error) = (false, 0);
+        self.sent_again.clear();
+        self.aborted = None;
+    }
+
+    /// What the core takes, or not.
+    fn take(&mut self, clock: &Clock<'_>, clocks: u64) {
+        let has_ready = clock.field(PortRole::Ready).is_some();
+        let is_open = !has_ready || self.was_ready;
+        let valid = clock.is_high(PortRole::Valid);
+        self.facts.refused += u64::from(valid && !is_open);
+        self.intake.was_closed |= !is_open;
+        let is_within = (1..self.per_frame).contains(&self.intake.beats);
+        if !(valid && is_open) {
+            self.facts.gap_within += u64::from(is_open && is_within && self.intake.is_in_step);
+            self.facts.gap_before_means += u64::from(is_open && is_within && self.means_are_due);
+            self.intake.idle += if is_open { clocks } else { 0 };
+            return;
+        }
+        let syncs = clock.field(PortRole::StartOfFrame).is_some();
+        let sof = clock.is_high(PortRole::StartOfFrame);
+        if syncs && sof && is_within {
+            self.facts.too_few += u64::from(self.intake.is_in_step);
+            // What comes up to the next start is dropped, and the frame is completed by itself.
+            self.intake.is_in_step = false;
+        } else if syncs && !sof && !is_within {
+            let was_in_step = self.intake.is_in_step;
+            self.facts.too_many += u64::from(was_in_step && self.intake.beats == self.per_frame);
+            self.facts.no_start += u64::from(self.intake.beats == 0 || !was_in_step);
+        } else if !syncs || sof || is_within {
+            self.beat(clock, is_within);
+        }
+        (self.intake.idle, self.intake.was_closed) = (0, false);
+    }
+
+    fn beat(&mut self, clock: &Clock<'_>, is_within: bool) {
+        if !is_within {
+            self.begin_frame(clock);
+        }
+        let intake = &mut self.intake;
+        intake.beats += 1;
+        if let Some((field, record)) = clock.field(PortRole::Pixel) {
+            for &byte in field.slice(record) {
+                intake.hash = (intake.hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            }
+        }
+        if intake.beats == self.per_frame {
+            let is_first = intake.hashes.is_empty();
+            intake.hashes.push(intake.hash);
+            if is_first {
+                let hash = intake.hash;
+                let same = self.sent_again.iter().filter(|&&shown| shown == hash).count();
+                self.facts.summary_reset_summary += same as u64;
+                self.shown_at_reset.retain(|&(_, shown)| shown == hash);
+            }
+        }
+    }
+
+    fn begin_frame(&mut self, clock: &Clock<'_>) {
+        let Self { facts, intake, flush, flushes, .. } = self;
+        if intake.beats == self.per_frame && intake.is_in_step {
+            facts.back_to_back += u64::from(intake.idle == 0);
+            facts.flush_cut += u64::from((1..*flush).contains(&intake.idle));
+            facts.flush_ended += u64::from(intake.idle > *flushes);
+        }
+        let fields = clock.ports.inputs.iter().filter(|field| is_threshold(field.port.role));
+        let thresholds: Vec<u8> =
+            fields.flat_map(|field| field.slice(clock.input).iter().copied()).collect();
+        let has_changed = intake.is_in_step && thresholds != intake.thresholds;
+        facts.threshold_changed += u64::from(has_changed);
+        (intake.beats, intake.hash, intake.is_in_step) = (0, 0xcbf2_9ce4_8422_2325, true);
+        intake.thresholds = thresholds;
+    }
+
+    /// What waits for the sink.
+    fn stall(&mut self, clock: &Clock<'_>) {
+        if clock.field(PortRole::ForwardReady).is_none() {
+            return;
+        }
+        let waits = self.left && !clock.is_high(PortRole::ForwardReady);
+        self.facts.mean_waits += u64::from(waits && self.left_mean);
+        self.facts.pixel_waits += u64::from(waits && !self.left_mean);
+        let is_inner = waits
+            && self.left_mean
+            && clock.is_high(PortRole::ForwardSummary)
+            && !clock.is_high(PortRole::ForwardLast);
+        self.facts.inner_mean_waits += u64::from(is_inner);
+        if clock.is_high(PortRole::ForwardValid) && clock.is_high(PortRole::ForwardSummary) {
+            self.regions.leave_means(index(clock.value(PortRole::ForwardRegion)));
+        }
+    }
+
+    fn lose(&mut self, clock: &Clock<'_>) {
+        if clock.is_high(PortRole::LostValid) {
+            self.lost += 1;
+            self.regions.lose(index(clock.value(PortRole::LostRegion)));
+        }
+        let is_aborted =
+            clock.is_high(PortRole::ForwardValid) && clock.is_high(PortRole::ForwardAbort);
+        let of = (clock.value(PortRole::ForwardRegion), clock.value(PortRole::ForwardFrame));
+        let aborted = is_aborted.then_some(of);
+        self.facts.lost_within += u64::from(aborted.is_some() && aborted != self.aborted);
+        self.aborted = aborted;
+    }
+
+    fn decide(&mut self, clock: &Clock<'_>) {
+        if clock.is_high(PortRole::SyncError) {
+            self.has_error = true;
+        }
+        if clock.is_high(PortRole::ScoreValid) && clock.value(PortRole::ScoreIndex) == 0 {
+            let region = index(clock.value(PortRole::Region));
+            if let Some(count) = self.counts.get_mut(region) {
+                *count = Some(clock.value(PortRole::AnyScore));
+            }
+        }
+        if !clock.is_high(PortRole::DecisionValid) {
+            return;
+        }
+        let lanes = clock.field(PortRole::Srs).map_or(0, |(field, _)| field.port.lanes);
+        let first = if lanes == 1 { index(clock.value(PortRole::Region)) } else { 0 };
+        self.means_are_due = clock.is_high(PortRole::Summary);
+        for lane in 0..lanes {
+            self.decide_region(clock, lane, first + lane as usize);
+        }
+    }
+
+    fn decide_region(&mut self, clock: &Clock<'_>, lane: u32, region: usize) {
+        let regions = self.counts.len() as u64;
+        let frame = index(self.decided / regions.max(1));
+        self.decided += 1;
+        if self.has_error {
+            self.decided_since_error += 1;
+            // The first is the damaged one.
+            self.facts.whole_behind_error += u64::from(self.decided_since_error == 2 * regions);
+        }
+        let counted = clock.field(PortRole::TemporalCount);
+        let count = match counted {
+            Some((field, record)) => Some(field.get(record, lane)),
+            None => self.counts.get(region).copied().flatten(),
+        };
+        let bit = |role| clock.bit(role, lane);
+        let summary = bit(PortRole::Summary);
+        if summary && frame == 0 {
+            let again = self.shown_at_reset.iter().filter(|&&(shown, _)| shown == region);
+            let again: Vec<u64> = again.map(|&(_, hash)| hash).collect();
+            // The first frame has come whole, or will.
+            match self.intake.hashes.first() {
+                Some(hash) => {
+                    let same = again.iter().filter(|&own| own == hash).count();
+                    self.facts.summary_reset_summary += same as u64;
+                }
+                None => self.sent_again.extend(again),
+            }
+        }
+        let decided = Decided { srs: bit(PortRole::Srs), trs: bit(PortRole::Trs), summary, count };
+        self.regions.decide(region, frame, decided, &mut self.facts);
+    }
+
+    /// What is there for the next clock.
+    fn after(&mut self, clock: &Clock<'_>) {
+        self.was_ready = clock.is_high(PortRole::Ready);
+        self.left = clock.is_high(PortRole::ForwardValid);
+        self.left_mean = self.left && clock.is_high(PortRole::ForwardSummary);
+        let underrun = clock.is_high(PortRole::Underrun);
+        self.facts.underrun += u64::from(underrun && !self.had_underrun);
+        self.had_underrun = underrun;
+    }
+}
+
+/// Whether something is concluded from a port of this role.
+fn is_watched(role: PortRole) -> bool {
+    use PortRole::{
+        AnyScore, DecisionValid, ForwardAbort, ForwardFrame, ForwardLast, ForwardReady,
+        ForwardRegion, ForwardSummary, ForwardValid, LostRegion, LostValid, Pixel, Ready, Region,
+        Reset, ScoreIndex, ScoreValid, Srs, StartOfFrame, Summary, SyncError, TemporalCount, Trs,
+        Underrun, Valid,
+    };
+    let others = [
+        AnyScore,
+        DecisionValid,
+        ForwardAbort,
+        ForwardFrame,
+        ForwardLast,
+        ForwardReady,
+        ForwardRegion,
+        ForwardSummary,
+        ForwardValid,
+        LostRegion,
+        LostValid,
+        Pixel,
+        Ready,
+        Region,
+        Reset,
+        ScoreIndex,
+        ScoreValid,
+        Srs,
+        StartOfFrame,
+        Summary,
+        SyncError,
+        TemporalCount,
+        Trs,
+        Underrun,
+        Valid,
+    ];
+    is_threshold(role) || others.contains(&role)
+}
+
+/// A number that is small, as an index.
+fn index(number: u64) -> usize {
+    usize::try_from(number).unwrap_or(usize::MAX)
+}
