@@ -152,11 +152,11 @@ impl<'a> Driver<'a> {
         self.idle(pause)
     }
 
-    /// Any sides at the frame's border, where these are an input.
-    pub(super) fn any_border(&self, random: &mut Random) -> u8 {
+    /// Sides at the frame's border, where these are an input: all sixteen sets of them by turns.
+    pub(super) fn border(&self, turn: usize) -> u8 {
         let mut inputs = self.recorder.inputs().fields().iter();
         match inputs.any(|field| field.port.role == PortRole::Border) {
-            true => u8::try_from(random.up_to(15)).expect("four bits"),
+            true => u8::try_from(7 * turn % 16).expect("four bits"),
             false => 0,
         }
     }
@@ -247,6 +247,17 @@ impl<'a> Driver<'a> {
     pub(super) fn push_out(&mut self, beats: &[Vec<u16>], gaps: Gaps) -> Result<(), CosimError> {
         for (place, pixels) in beats.iter().enumerate() {
             self.beat(Some(pixels), place == 0, gaps)?;
+        }
+        Ok(())
+    }
+
+    /// The same up to the first pixel that leaves.
+    pub(super) fn push_until_leaving(&mut self, beats: &[Vec<u16>]) -> Result<(), CosimError> {
+        for (place, pixels) in beats.iter().enumerate() {
+            if self.core.is_high(PortRole::ForwardValid) {
+                break;
+            }
+            self.beat(Some(pixels), place == 0, Gaps::None)?;
         }
         Ok(())
     }

@@ -99,6 +99,17 @@ impl Stimulus {
         cancel: &AtomicBool,
         progress: &mut dyn FnMut(u64, u64),
     ) -> Result<Recording, CosimError> {
+        self.record_without(design, |_| false, cancel, progress)
+    }
+
+    /// The same without the directed sequences of some names: what such a recording lacks must be missed.
+    fn record_without(
+        &self,
+        design: &Design,
+        is_left_out: fn(&str) -> bool,
+        cancel: &AtomicBool,
+        progress: &mut dyn FnMut(u64, u64),
+    ) -> Result<Recording, CosimError> {
         self.check(design)?;
         let simulated = self.level.design(design)?;
         self.check_size(&simulated)?;
@@ -106,7 +117,7 @@ impl Stimulus {
         if self.rounds > 0 {
             recorder.watch(&simulated, self.level.top());
         }
-        let plan = (self.seed, self.extent(&simulated));
+        let plan = (self.seed, self.extent(&simulated), is_left_out);
         Session::new((design, &simulated), self.level, plan, &mut recorder, cancel)
             .run(&self.frames, progress)?;
         recorder.finish()
@@ -151,5 +162,45 @@ impl Stimulus {
             }
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use foveate_design::Config;
+
+    /// What is missing in a recording without sequences.
+    fn missing(toml: &str, is_left_out: fn(&str) -> bool) -> Vec<String> {
+        let toml = format!("frame={{width=32,height=24}}\n{toml}");
+        let design = Config::from_toml(&toml).unwrap().validate().unwrap();
+        let stimulus = Stimulus { level: Level::Full, rounds: 1, ..Stimulus::default() };
+        let cancel = AtomicBool::new(false);
+        let found = stimulus.record_without(&design, is_left_out, &cancel, &mut |_, _| {});
+        let found = found.unwrap();
+        found.situations().missing().into_iter().map(str::to_owned).collect()
+    }
+
+    #[test]
+    fn a_sequence_that_is_deleted_is_missed() {
+        let means = "render.irrelevant='mean'\n";
+        let pipelined = means.to_owned();
+        let serial = format!("{means}hardware={{organization='serial',fold=2}}\n");
+        let raster = format!("{means}hardware.organization='raster'\n");
+        let again = "a reset comes while a summary is shown, and the same frame follows";
+        let held = "a region is held while its summary is shown, and is irrelevant again";
+        for toml in [&pipelined, &serial, &raster] {
+            let none = missing(toml, |_| false);
+            assert!(none.is_empty(), "{toml}: {none:?}");
+            let around =
+                missing(toml, |name| name.contains("a reset") && name.starts_with("means"));
+            assert!(around.iter().any(|name| name == again), "{toml}: {around:?}");
+            let all = missing(toml, |name| name.contains("means"));
+            assert!(all.iter().any(|name| name == again), "{toml}: {all:?}");
+        }
+        let alone = missing(&raster, |name| name != "extremes");
+        for name in [held, "a region is lost in the middle", "a mean waits for the sink"] {
+            assert!(alone.iter().any(|missing| missing == name), "{name}: {alone:?}");
+        }
     }
 }

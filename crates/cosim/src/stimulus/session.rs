@@ -33,13 +33,14 @@ pub(super) struct Session<'a> {
     gallery: Gallery,
     pace: Pace,
     extent: Extent,
+    is_left_out: fn(&str) -> bool,
 }
 
 impl<'a> Session<'a> {
     pub(super) fn new(
         (whole, design): (&'a Design, &'a Design),
         level: Level,
-        (seed, extent): (u64, Extent),
+        (seed, extent, is_left_out): (u64, Extent, fn(&str) -> bool),
         recorder: &'a mut Recorder,
         cancel: &'a AtomicBool,
     ) -> Self {
@@ -48,7 +49,18 @@ impl<'a> Session<'a> {
         let driver = Driver::new(design, level, is_brief, recorder, random.fork(), cancel);
         let feed = FrameFeed::at(level, design);
         let gallery = Gallery::new(&feed, &mut random);
-        Self { whole, design, level, feed, driver, random, gallery, pace: Pace::of(design), extent }
+        Self {
+            whole,
+            design,
+            level,
+            feed,
+            driver,
+            random,
+            gallery,
+            pace: Pace::of(design),
+            extent,
+            is_left_out,
+        }
     }
 
     pub(super) fn run(
@@ -58,7 +70,9 @@ impl<'a> Session<'a> {
     ) -> Result<(), CosimError> {
         let parts = Part::all_of(self.whole, self.design, self.level, frames.len());
         let given = |session: &mut Self, number, part: Part| session.given(number, &part, frames);
-        let directed = &directed(&sequences(self.design), self.driver.finds_frames());
+        let mut sequences = sequences(self.design);
+        sequences.retain(|sequence| !(self.is_left_out)(sequence.name));
+        let directed = &directed(&sequences, self.driver.finds_frames());
         let turns = Turns { extent: self.extent, directed, given: parts };
         let play = |session: &mut Self, sequence: &Directed<Sequence>, round, number| match sequence
         {
@@ -80,7 +94,7 @@ impl<'a> Session<'a> {
             End::Losing => Gaps::None,
             _ => Gaps::ALL[(round + number) % Gaps::ALL.len()],
         };
-        let border = self.driver.any_border(&mut self.random);
+        let border = self.driver.border(round + number);
         let sink = (sequence.stalls, round + number / Gaps::ALL.len());
         self.driver.name(sequence.name, 0, None);
         self.driver.begin(sequence.aim, sink, sequence.lapse, border)?;
@@ -243,6 +257,15 @@ impl<'a> Session<'a> {
             End::Leaving(most) => {
                 let is_leaving =
                     |driver: &Driver<'_>| driver.core().is_high(PortRole::ForwardValid);
+                // Where pixels wait for further frames, the last comes again.
+                for _ in 0..self.pace.frames_behind {
+                    if is_leaving(&self.driver) {
+                        break;
+                    }
+                    self.driver.idle(self.pace.settle.unwrap_or(0))?;
+                    let beats = self.feed(&self.gallery.frame()?);
+                    self.driver.push_until_leaving(&beats)?;
+                }
                 // What is still in windows is not pending, but the core is not ready.
                 let is_under_way =
                     |driver: &Driver<'_>| driver.core().is_pending() || !driver.core().is_ready();

@@ -156,3 +156,19 @@ fn nothing_compared_is_no_pass() {
     assert!(report(None).passed() && !nothing.passed());
     assert_eq!(nothing.to_string(), "rcm 3x1 verilator: nothing was compared");
 }
+
+#[test]
+fn a_situation_that_did_not_occur_is_no_pass() {
+    let counted = |count| {
+        let json = format!("[{{\"situation\":\"a mean waits for the sink\",\"count\":{count}}}]");
+        let situations: Occurrences = serde_json::from_str(&json).unwrap();
+        CosimReport { situations, ..report(None) }
+    };
+    let verdict = |runs| {
+        Summary::new("design".to_owned(), runs, Vec::new(), Left::default(), false).verdict()
+    };
+    assert_eq!(verdict(vec![counted(0)]), Verdict::Incomplete);
+    assert_eq!(verdict(vec![counted(3)]), Verdict::Passed);
+    // One run may reach what another cannot.
+    assert_eq!(verdict(vec![counted(0), counted(1)]), Verdict::Passed);
+}

@@ -27,6 +27,7 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
         mixed("halves", &[HalfMean, TwoPoint, HalfMean, TwoPoint]),
         aimed(ThresholdAim::Restless, "restless", &[Noise, Smooth, Binary, Ramp]),
         mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Flat, Same, Noise]),
+        cut(End::Leaving(0), aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise])),
         mixed("corners", &[HotCorner, Ring, HotCorner, Ring]),
         cut(loading, aimed(configured, "reset in a frame, full", &[Max, Max])),
         mixed("flicker", &[Smooth, Flicker, Flicker, Same]),
