@@ -109,7 +109,8 @@ impl<'a> Session<'a> {
             let drawn = self.gallery.frame()?;
             let until = match sequence.end {
                 End::Loading(_) if frame == last => {
-                    Until::Beat(self.random.index(self.beats() - 1))
+                    // At least one beat, so that the reset comes within the frame.
+                    Until::Beat(self.random.index(self.beats() - 1).max(1))
                 }
                 End::Losing if frame == last => Until::Loss,
                 _ => Until::End,

@@ -27,7 +27,6 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
         mixed("halves", &[HalfMean, TwoPoint, HalfMean, TwoPoint]),
         aimed(ThresholdAim::Restless, "restless", &[Noise, Smooth, Binary, Ramp]),
         mixed("blanked", &[Noise, Same, Zero, Zero, Noise, Flat, Same, Noise]),
-        cut(End::Leaving(0), aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise])),
         mixed("corners", &[HotCorner, Ring, HotCorner, Ring]),
         cut(loading, aimed(configured, "reset in a frame, full", &[Max, Max])),
         mixed("flicker", &[Smooth, Flicker, Flicker, Same]),
@@ -57,5 +56,8 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
         ]);
         list.extend(means_around_a_reset());
     }
+    let leaving = aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise]);
+    // The reset is that of the next sequence. The last two belong together.
+    list.insert(list.len() - 2, cut(End::Leaving(0), leaving));
     list
 }

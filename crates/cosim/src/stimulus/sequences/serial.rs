@@ -71,5 +71,11 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
         ));
         list.extend(means_around_a_reset());
     }
+    let leaving = Sequence {
+        end: End::Leaving(0),
+        ..aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise])
+    };
+    // The reset is that of the next sequence. The last two belong together.
+    list.insert(list.len() - 2, leaving);
     list
 }
