@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Chunks as areas: rows of the same columns, which share the inputs of their windows.
+//! Combines chunks into areas: runs of the same columns in consecutive rows, which share the inputs
+//! of their windows.
 
 use super::chunks::{CHUNK, Chunk};
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Positions of an area at most, unless a row has more: inputs and outputs stay in the nearest cache.
+/// The largest number of positions of an area, unless a single row has more. With so many, inputs
+/// and outputs stay in the nearest cache.
 const MANY: usize = 3072;
 
-/// The same columns of some rows.
+/// The same columns of consecutive rows.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Area {
     pub(crate) rows: Range<usize>,
     pub(crate) columns: Range<usize>,
 }
 
-/// The positions of chunks in rows of `width`, each once.
+/// Returns the positions of chunks as areas, each position once. Rows have `width` positions.
 pub(crate) fn areas(chunks: &[Chunk], width: usize) -> Vec<Area> {
     let mut found: Vec<Area> = Vec::new();
-    // The last area of these columns.
+    // The last area of each range of columns.
     let mut latest = HashMap::<Range<usize>, usize>::new();
     for (y, columns) in runs(chunks, width) {
         let last = latest.get(&columns).map(|&last| &mut found[last].rows);
@@ -33,7 +35,7 @@ pub(crate) fn areas(chunks: &[Chunk], width: usize) -> Vec<Area> {
     found
 }
 
-/// The rows of positions that chunks are.
+/// Returns the runs of positions that chunks cover, each with its row.
 fn runs(chunks: &[Chunk], width: usize) -> impl Iterator<Item = (usize, Range<usize>)> {
     let mut rest = chunks.iter().peekable();
     std::iter::from_fn(move || {

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How many channels and positions the inner loop takes at once: as many sums as fit into the registers.
+//! The number of channels and positions in a pass of the inner loop: as many as have sums that fit
+//! into the registers.
 
 use foveate_lanes::Level;
 use std::ops::Range;
 
-/// The sizes of the inner loop's blocks.
+/// The block sizes of the inner loop.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Blocking {
-    /// Positions of a panel: two registers of them.
+    /// The positions of a panel: as many values as two registers hold.
     pub(crate) lanes: usize,
-    /// Channels that a block may have, with the time that it takes: that of so many tenths of a channel in the best block, as measured.
+    /// The possible numbers of channels of a block, each with its measured time. The unit is a
+    /// tenth of the time that a channel takes in the best block.
     sizes: &'static [(usize, usize)],
 }
 
@@ -27,9 +29,10 @@ impl Blocking {
         }
     }
 
-    /// The fastest blocks for so many channels. The last may have more channels than are left.
+    /// Returns the blocks that are fastest for so many channels. The last block may have more
+    /// channels than are left.
     pub(crate) fn blocks(self, channels: usize) -> Vec<Range<usize>> {
-        // The time for each number of channels, and the block that it begins with.
+        // The smallest time for each number of channels, with the size of the first block.
         let mut best = vec![(0, 0)];
         for left in 1..=channels {
             let time =

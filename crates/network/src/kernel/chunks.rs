@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The positions of a mask in the pieces in which they are computed.
+//! The positions of a mask in the chunks in which they are computed.
 
 use crate::mask::Mask;
 use std::ops::Range;
 
-/// Neighboring positions of a row that are computed at once.
+/// The number of neighboring positions of a row that are computed at once.
 pub(crate) const CHUNK: usize = 8;
 
-/// The first of [`CHUNK`] neighboring positions, as far as the row has them.
+/// The first of [`CHUNK`] neighboring positions. In a narrower row the chunk is the row.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Chunk {
     pub(crate) x: usize,
@@ -15,7 +15,7 @@ pub(crate) struct Chunk {
 }
 
 impl Chunk {
-    /// Its positions in memory, where rows have `width`.
+    /// The memory indices of its positions, if rows have `width` positions.
     #[inline(always)]
     pub(super) fn places(self, width: usize) -> Range<usize> {
         let start = self.y * width + self.x;
@@ -23,11 +23,12 @@ impl Chunk {
     }
 }
 
-/// From how many sixteenths of all chunks on it is faster to compute all of them, whose inputs are neighbors: measured by the example `break_even`.
+/// The share of all chunks, in sixteenths, from which computing all chunks is faster, because their
+/// inputs are neighbors. It was measured with the example `break_even`.
 const BREAK_EVEN: usize = 15;
 
-/// The positions of a mask as chunks. A chunk may hold positions that are not in the mask, and two chunks may share some. If nearly all chunks are
-/// wanted, all are there.
+/// Returns the positions of a mask as chunks. A chunk may hold positions that are not in the mask,
+/// and two chunks may share positions. If nearly all chunks are needed, all are returned.
 pub(crate) fn chunks(at: &Mask) -> Vec<Chunk> {
     let mut found = Vec::new();
     for y in 0..at.height() {
@@ -40,7 +41,8 @@ pub(crate) fn chunks(at: &Mask) -> Vec<Chunk> {
     found
 }
 
-/// The same of positions that are all in one row, as they are in memory: no chunk ends with a row of the picture.
+/// Returns the positions of a mask as chunks of a single row, in the order of memory. A chunk may
+/// go on in the next row of the frame.
 pub(crate) fn chunks_in_a_row(at: &Mask) -> Vec<Chunk> {
     let places = at.height() * at.width();
     let mut found = Vec::new();
@@ -53,7 +55,7 @@ pub(crate) fn chunks_in_a_row(at: &Mask) -> Vec<Chunk> {
     found
 }
 
-/// Cuts the runs of positions of row `y`, which has `width`.
+/// Cuts the runs of positions of row `y`, which has `width` positions, into chunks.
 fn cut(
     runs: impl IntoIterator<Item = Range<usize>>,
     y: usize,
@@ -79,7 +81,7 @@ mod tests {
     #[test]
     fn nearly_all_chunks_become_all() {
         let without = |holes: usize| Mask::from_fn(32, 70, |x, y| x / 8 != 3 || y >= holes);
-        // 32 rows of 9 chunks: 288, of which 18 are a sixteenth.
+        // There are 288 chunks, 9 in each of 32 rows; a sixteenth is 18.
         assert_eq!(chunks(&without(0)).len(), 288);
         assert_eq!(chunks(&without(18)), chunks(&Mask::full(32, 70)));
         assert_eq!(chunks(&without(19)).len(), 288 - 19);

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution of each channel by itself. Every output is summed tap by tap from its bias on; padding adds products of 0.
+//! Depthwise convolution of floating-point values. Every output is summed tap by tap from its bias;
+//! padding adds products of 0.
 //!
-//! The inputs of an area are copied into a plane with its padding, or into one for each of the inputs between two outputs of a stride. There
-//! the inputs of a tap lie as the outputs do, so many values further on, and tiles need not end with a row: in small pictures, too, all lanes
-//! of a tile are used.
+//! The inputs of an area are copied, with their padding, into planes: one for each phase of the
+//! stride along either axis. In a plane the inputs of a tap lie as the outputs do, at a constant
+//! offset. Tiles therefore need not end with a row, so that all lanes of a tile are used in narrow
+//! inputs, too.
 
 use super::areas::Area;
 use super::gather::{Picture, Strand, copy};
 use crate::mask::Window;
 use foveate_lanes::{Level, PanelTask};
 
-/// One channel.
+/// The convolution of one channel.
 pub(crate) struct Depthwise<'a, F> {
     pub(crate) picture: Picture<'a>,
-    /// Row by row.
+    /// The weights of the kernel in row-major order.
     pub(crate) weights: &'a [f32],
     pub(crate) bias: f32,
     pub(crate) layouts: &'a [Layout],
@@ -24,13 +26,13 @@ pub(crate) struct Depthwise<'a, F> {
 }
 
 impl<F: Fn(f32) -> f32> Depthwise<'_, F> {
-    /// Computes the outputs of the layouts.
+    /// Computes the outputs of all areas.
     pub(crate) fn convolve(self, level: Level, planes: &mut Planes) {
         level.run_panels(Tiles(self, planes));
     }
 }
 
-/// The work in tiles of two panels of outputs: those of four registers.
+/// The convolution in tiles of two panels of outputs, which are four registers.
 struct Tiles<'a, F>(Depthwise<'a, F>, &'a mut Planes);
 
 impl<F: Fn(f32) -> f32> PanelTask for Tiles<'_, F> {
@@ -57,7 +59,8 @@ impl<F: Fn(f32) -> f32> PanelTask for Tiles<'_, F> {
     }
 }
 
-/// Inputs and outputs of an area. Threads keep one each, so that its memory is used again.
+/// The buffers for the inputs and outputs of an area. Each thread keeps one, so that its memory is
+/// reused.
 #[derive(Default)]
 pub(crate) struct Planes {
     inputs: Vec<f32>,
@@ -65,7 +68,7 @@ pub(crate) struct Planes {
 }
 
 impl Planes {
-    /// Makes room for whole tiles.
+    /// Enlarges the buffers so that the area fits in whole tiles.
     fn fit(&mut self, layout: &Layout, tile: usize) {
         let room = layout.inputs + tile;
         if self.inputs.len() < room {
@@ -75,16 +78,18 @@ impl Planes {
     }
 }
 
-/// Where the inputs of an area lie, and how its outputs.
+/// The arrangement of the inputs and outputs of an area in memory.
 pub(crate) struct Layout {
     area: Area,
-    /// Rows of a plane of inputs, and values of a row of inputs or outputs. What lies behind the outputs of a row means nothing.
+    /// The rows of a plane of inputs, and the length of a row of inputs or outputs in values. The
+    /// values behind the outputs of a row are not used.
     height: usize,
     pitch: usize,
-    /// Values of the inputs, and from the first output to the last.
+    /// The number of values of all input planes, and the number of values from the first output to
+    /// the last.
     inputs: usize,
     places: usize,
-    /// Where the inputs of each tap begin.
+    /// The offset of the inputs of each tap.
     taps: Vec<usize>,
 }
 
@@ -107,14 +112,14 @@ impl Layout {
         layout
     }
 
-    /// Where an input is, which counts from the first of the area.
+    /// The offset of an input by its row and column, which count from the first input of the area.
     #[inline(always)]
     fn place(&self, [row, column]: [usize; 2], [rows, columns]: [Window; 2]) -> usize {
         let plane = row % rows.stride * planes(columns) + column % columns.stride;
         (plane * self.height + row / rows.stride) * self.pitch + column / columns.stride
     }
 
-    /// Copies the inputs.
+    /// Copies the inputs of the area into the planes.
     #[inline(always)]
     fn gather(&self, picture: &Picture<'_>, to: &mut [f32]) {
         let windows @ [rows, columns] = [picture.rows, picture.columns];
@@ -134,7 +139,8 @@ impl Layout {
     }
 }
 
-/// The sums of the outputs of a tile. Two parts of it stay in registers where one of twice the length does not.
+/// Returns the sums of the outputs of a tile. The compiler keeps two halves in registers, but not
+/// one array of twice the length.
 #[inline(always)]
 fn tile<const LANES: usize, const FUSED: bool>(
     inputs: &[f32],
@@ -155,12 +161,12 @@ fn tile<const LANES: usize, const FUSED: bool>(
     sums
 }
 
-/// Inputs of a plane along an axis beyond one for each output.
+/// The number of inputs of a plane along an axis beyond one per output.
 fn more(window: Window) -> usize {
     (window.span() - 1) / window.stride
 }
 
-/// Planes along an axis: one for each of the inputs between two outputs that an output sees.
+/// The number of planes along an axis: one for each phase of the stride that a window sees.
 fn planes(window: Window) -> usize {
     window.stride.min(window.span())
 }

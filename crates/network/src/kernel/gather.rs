@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Gathers what neighboring positions see, row of the window by row: neighbors share most of their inputs.
+//! Gathers the inputs of neighboring positions, one row of the window at a time. Neighbors share
+//! most of their inputs.
 
 use super::chunks::{CHUNK, Chunk};
 use crate::mask::Window;
 use std::ops::Range;
 
-/// What a convolution sees: the channels of its group, and the windows.
+/// The input of a convolution: the channels of one group, with the windows.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Picture<'a, T = f32> {
-    /// Channel by channel, row by row.
+    /// The values, channel by channel in row-major order.
     pub(crate) values: &'a [T],
     pub(crate) height: usize,
     pub(crate) width: usize,
@@ -17,15 +18,15 @@ pub(crate) struct Picture<'a, T = f32> {
     pub(crate) padding: T,
 }
 
-/// Which inputs of a row of the window are kept: strands of inputs that are a stride apart, so that the inputs of a tap are neighbors for
-/// positions that are.
+/// The inputs of a row of the window that are kept, as strands. A strand holds inputs that are a
+/// stride apart, so that neighboring positions have neighboring inputs of a tap.
 #[derive(Clone, Debug)]
 struct Layout {
-    /// Where each strand begins, in columns from the window's first.
+    /// The first column of each strand, from the first column of the window.
     strands: Vec<usize>,
-    /// Inputs of a strand beyond one for each position.
+    /// The number of inputs of a strand beyond one per position.
     more: usize,
-    /// The strand of each tap, and how many inputs of it come before.
+    /// The strand of each tap, and the offset of its first input in the strand.
     taps: Vec<(usize, usize)>,
 }
 
@@ -38,7 +39,7 @@ impl Layout {
             let taps = (0..kernel).map(tap).map(|column| (column % stride, column / stride));
             Self { strands: (0..strands).collect(), more, taps: taps.collect() }
         } else {
-            // Taps far from each other share no inputs.
+            // Taps that are far from each other share no inputs, so each has a strand of its own.
             let taps = (0..kernel).map(|tap| (tap, 0)).collect();
             Self { strands: (0..kernel).map(tap).collect(), more: 0, taps }
         }
@@ -49,30 +50,30 @@ impl Layout {
 #[derive(Clone, Debug)]
 struct Stretch {
     first: Chunk,
-    /// Where its inputs begin in each strand, and how many there are.
+    /// The offset of the stretch's inputs in each strand, and their number.
     place: usize,
     length: usize,
 }
 
-/// The gathered inputs of some chunks.
+/// The gathered inputs of several chunks.
 #[derive(Clone, Debug)]
 pub(super) struct Gathered<T = f32> {
     layout: Layout,
     stretches: Vec<Stretch>,
-    /// Values of a strand of all stretches.
+    /// The number of values of a strand over all stretches.
     strand: usize,
-    /// Where the inputs of each chunk begin, for a tap that begins at 0.
+    /// The offset of the inputs of each chunk, for a tap at offset 0.
     pub(super) places: Vec<usize>,
-    /// Where the inputs of each tap of each row of the window begin.
+    /// The offset of the inputs of each tap, for each row of the window.
     pub(super) taps: Vec<usize>,
-    /// Values of a row of the window.
+    /// The number of values of a row of the window.
     pub(super) pitch: usize,
-    /// The rows.
+    /// The gathered values of all rows of the window.
     pub(super) rows: Vec<T>,
 }
 
 impl<T: Copy + Default> Gathered<T> {
-    /// Room for so many chunks and rows of the window.
+    /// Allocates the buffers for `chunks` chunks and `rows` rows of the window.
     pub(super) fn new(columns: Window, chunks: usize, rows: usize) -> Self {
         let layout = Layout::new(columns);
         let room = layout.strands.len() * (CHUNK + layout.more) * chunks;
@@ -87,7 +88,8 @@ impl<T: Copy + Default> Gathered<T> {
         }
     }
 
-    /// Chooses the chunks. One that is missing has the inputs of the first.
+    /// Selects the chunks. If there are fewer than there is room for, the missing ones use the
+    /// inputs of the first.
     pub(super) fn choose(&mut self, chunks: &[Chunk]) {
         let Layout { strands, more, taps } = &self.layout;
         self.stretches.clear();
@@ -108,7 +110,7 @@ impl<T: Copy + Default> Gathered<T> {
             *place = end - more - CHUNK;
             next = Some(Chunk { x: chunk.x + CHUNK, y: chunk.y });
         }
-        // Mostly there are as many inputs as before.
+        // The offsets are computed anew only if the number of inputs has changed, which is rare.
         if self.strand != end {
             (self.strand, self.pitch) = (end, end * strands.len());
             for (row, own) in self.taps.chunks_mut(taps.len()).enumerate() {
@@ -132,7 +134,8 @@ impl<T: Copy + Default> Gathered<T> {
 }
 
 impl<T: Copy> Picture<'_, T> {
-    /// Gathers the inputs of a strand for some rows of the window, each `pitch` values from the one before.
+    /// Gathers the inputs of a strand for some rows of the window. Rows are `pitch` values apart in
+    /// `to`.
     #[inline(always)]
     fn gather(
         &self,
@@ -161,15 +164,16 @@ impl<T: Copy> Picture<'_, T> {
 
 /// Inputs of a row that are a stride apart.
 pub(super) struct Strand {
-    /// Those that exist.
+    /// The inputs that exist, by their number in the strand.
     inside: Range<usize>,
-    /// The column of the first of them.
+    /// The column of the first existing input.
     column: usize,
     stride: usize,
 }
 
 impl Strand {
-    /// So many inputs from column `first` on, which counts from the first one of the padding.
+    /// Returns a strand of `length` inputs from column `first`, which counts from the first column
+    /// of the padding.
     #[inline(always)]
     pub(super) fn new(columns: Window, first: usize, length: usize, width: usize) -> Self {
         let Window { stride, before, .. } = columns;
@@ -180,7 +184,8 @@ impl Strand {
         Self { inside, column, stride }
     }
 
-    /// Copies them from a row, which may not exist.
+    /// Copies the inputs from a row. Where the row or an input does not exist, it writes the
+    /// padding.
     #[inline(always)]
     pub(super) fn gather<T: Copy>(&self, row: Option<&[T]>, padding: T, to: &mut [T]) {
         if row.is_none() || self.inside.len() < to.len() {
@@ -192,13 +197,13 @@ impl Strand {
     }
 }
 
-/// Every so many inputs.
+/// Copies inputs that are `stride` apart.
 #[inline(always)]
 fn take<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
     match stride {
         1 => copy(&from[..to.len()], to),
         2 => {
-            // Blocks of a known size become vector instructions.
+            // Loops over blocks of a known size become vector instructions.
             let (whole, rest) = to.as_chunks_mut::<CHUNK>();
             let (wide, _) = from.as_chunks::<{ 2 * CHUNK }>();
             let done = whole.len().min(wide.len());
@@ -212,7 +217,8 @@ fn take<T: Copy>(from: &[T], stride: usize, to: &mut [T]) {
     }
 }
 
-/// Copies with two accesses that may overlap as long as that is enough: most stretches are short.
+/// Copies values. Short runs are copied with two accesses that may overlap, because most stretches
+/// are short.
 #[inline(always)]
 pub(super) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     match to.len() {
@@ -228,7 +234,7 @@ pub(super) fn copy<T: Copy>(from: &[T], to: &mut [T]) {
     }
 }
 
-/// Copies the first `N` values and the last.
+/// Copies the first `N` values and the last `N` values.
 #[inline(always)]
 fn copy_ends<T: Copy, const N: usize>(from: &[T], to: &mut [T]) {
     let ends = (from.first_chunk::<N>(), from.last_chunk::<N>());

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Convolution of 8-bit values with exact sums, in the loops of the floating-point convolution.
 //!
-//! The product of two differences of 8-bit values is at most 255 x 255, so a sum of [`EXACT`] of them is below 2^24. A 32-bit floating-point
-//! value holds every integer up to there: the fastest loops that there are make exact sums of so many products, in any order. These are added
-//! as 32-bit integers.
+//! The product of two differences of 8-bit values is at most 255 x 255, so a sum of [`EXACT`] of
+//! them is below 2^24. A 32-bit floating-point value holds every integer up to 2^24. The
+//! floating-point loops, which are the fastest, therefore make exact sums of so many products in
+//! any order. These sums are then added as 32-bit integers.
 
 use super::blocking::Blocking;
 use super::chunks::{CHUNK, Chunk};
@@ -14,18 +15,19 @@ use crate::values::{Byte, Number};
 use foveate_lanes::{Level, PanelTask, Task};
 use std::ops::Range;
 
-/// Products whose sum is exact. A row of the window must not have more.
+/// The number of products whose sum is exact. A row of the window must not have more.
 pub(crate) const EXACT: usize = 256;
-/// Panels that share a pass over the weights.
+/// The number of panels that share a pass over the weights.
 const GROUP: usize = 3;
-/// Channels of the largest block.
+/// The number of channels of the largest block.
 const LARGEST: usize = 12;
 
-/// The weights of a group of channels. Those without sign are kept with 128 less, as are their zero points.
+/// The packed weights of a group of channels. Unsigned weights and their zero points are stored
+/// less 128.
 #[derive(Clone, Debug)]
 pub(crate) struct ByteWeights {
     packed: Weights<i8>,
-    /// A zero point per channel.
+    /// One zero point per channel.
     zeros: Vec<f32>,
 }
 
@@ -41,7 +43,8 @@ impl ByteWeights {
         &self.packed
     }
 
-    /// The weights of a block for some inputs, without their zero points.
+    /// Writes the weights of a block for some inputs to `to` as floating-point values, less their
+    /// zero points.
     #[inline(always)]
     fn widen<'a>(
         &self,
@@ -64,8 +67,9 @@ impl ByteWeights {
     }
 }
 
-/// Computes the channels of `outputs` at the chunks, which they hold. The picture's padding is its zero point. `finish` makes an output
-/// of a channel and its sum.
+/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. The padding
+/// of `picture` is the zero point of the input. `finish` makes an output from its channel and its
+/// sum.
 pub(crate) fn convolve_bytes<X: Byte, Y: Number>(
     level: Level,
     picture: &Picture<'_, X>,
@@ -122,7 +126,7 @@ pub(crate) fn convolve_bytes<X: Byte, Y: Number>(
     }
 }
 
-/// Gathers rows of the window, and takes the zero point of the inputs away.
+/// Gathers rows of the window, and subtracts the zero point of the inputs.
 struct Gather<'a, X> {
     picture: &'a Picture<'a, X>,
     rows: Range<usize>,
@@ -144,17 +148,18 @@ impl<X: Byte> Task for Gather<'_, X> {
     }
 }
 
-/// Adds the products of some inputs to the sums of all panels, of which each has `stride` channels. It takes most of the time, and knows
-/// neither the kind of the inputs nor that of the outputs: it is compiled once.
+/// Adds the products of some inputs to the sums of all panels, each of which has `stride` channels.
+/// This takes most of the time. The task is compiled once, because it depends neither on the type
+/// of the inputs nor on that of the outputs.
 struct Multiply<'a> {
     weights: &'a ByteWeights,
     blocks: &'a [Range<usize>],
     inputs: Range<usize>,
     wide: &'a Gathered,
     panels: usize,
-    /// Room for the weights of a block.
+    /// Room for the widened weights of a block.
     products: &'a mut [f32],
-    /// A panel for each channel.
+    /// The sums: in each panel a row of lanes per channel.
     sums: &'a mut [i32],
     stride: usize,
 }
@@ -184,14 +189,14 @@ impl PanelTask for Multiply<'_> {
     }
 }
 
-/// One channel of a convolution of each channel by itself, at the chunks.
+/// The depthwise convolution of one channel at the chunks.
 pub(crate) struct DepthwiseBytes<'a, X> {
-    /// Its padding is its zero point.
+    /// The input, whose padding is its zero point.
     pub(crate) picture: Picture<'a, X>,
-    /// Row by row, with the zero point.
+    /// The weights of the kernel in row-major order, with their zero point.
     pub(crate) weights: (&'a [i8], i8),
     pub(crate) chunks: &'a [Chunk],
-    /// As many.
+    /// The sums, one array for each chunk.
     pub(crate) sums: &'a mut [[i32; CHUNK]],
 }
 

@@ -6,10 +6,12 @@ use super::gather::Gathered;
 
 /// Adds the products of one weight per channel and one input per position, input by input.
 ///
-/// The inputs of each [`CHUNK`] are at its place in a row; if `IS_ROW`, the chunks follow each other, and so do the places.
+/// The inputs of each [`CHUNK`] begin at its offset in `places`. `IS_ROW` says that the chunks
+/// follow each other, and so do their offsets.
 ///
-/// `FUSED` rounds once per multiplication and addition; every processor with AVX2 has an instruction for it. How many channels there are
-/// matters for speed alone: loops over 4, 6 or 12 of them become vector instructions, those over 8 or 16 do not.
+/// `FUSED` says that a multiplication and an addition are rounded once; every processor with AVX2
+/// has an instruction for this. The number of channels matters only for speed: loops over 4, 6 or
+/// 12 channels become vector instructions, loops over 8 or 16 do not.
 #[inline(always)]
 pub(super) fn multiply<
     const CHANNELS: usize,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The inner loops of convolutions. Every output is summed in one fixed order, whoever computes it and whatever is computed beside it, so
-//! that a part of a tensor has the same bits as in the whole.
+//! The inner loops of convolutions. Every output is summed in one fixed order, whichever thread
+//! computes it and whichever outputs are computed with it, so that a part of a tensor has the same
+//! bits as in a complete computation.
 
 mod areas;
 mod blocking;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution at any set of positions: their inputs are gathered into panels, which are multiplied with the weights.
+//! Convolution at any set of positions: the inputs are gathered into panels, which are multiplied
+//! with the weights.
 
 use super::blocking::Blocking;
 use super::chunks::{CHUNK, Chunk};
@@ -9,29 +10,31 @@ use super::weights::Weights;
 use foveate_lanes::{Level, PanelTask};
 use std::ops::Range;
 
-/// Inputs that are multiplied before the next are gathered: those of a panel stay in the nearest cache.
+/// The number of inputs of an output that are gathered and multiplied before the next ones are
+/// gathered. The inputs of a panel then stay in the nearest cache.
 const DEPTH: usize = 288;
-/// Panels that share a pass over the weights.
+/// The number of panels that share a pass over the weights.
 const GROUP: usize = 6;
 
-/// Positions that are computed for so many chunks: whole panels.
+/// The number of positions that are computed for so many chunks: panels are computed as a whole.
 pub(crate) fn scheduled(chunks: usize, blocking: Blocking) -> usize {
     (chunks * CHUNK).next_multiple_of(blocking.lanes)
 }
 
 /// Neighboring positions of some channels of the outputs.
 pub(crate) struct Outputs<'a, T = f32> {
-    /// These positions of each channel.
+    /// The values of these positions, by channel.
     pub(crate) planes: Vec<&'a mut [T]>,
-    /// The first of these positions.
+    /// The memory index of the first of these positions.
     pub(crate) first: usize,
     /// The blocks of these channels.
     pub(crate) blocks: &'a [Range<usize>],
-    /// Positions of a row.
+    /// The positions of a row.
     pub(crate) width: usize,
 }
 
-/// Computes the channels of `outputs` at the chunks, which they hold. `finish` is applied to every output.
+/// Computes the channels of `outputs` at the chunks, whose positions `outputs` holds. `finish` is
+/// applied to every output.
 pub(crate) fn convolve(
     level: Level,
     picture: &Picture<'_>,
@@ -63,7 +66,7 @@ impl<F: Fn(f32) -> f32> PanelTask for Work<'_, F> {
         let all = weights.depth() / taps;
         let at_once = all.min((DEPTH / taps).max(1));
         let mut gathered = Gathered::new(picture.columns, GROUP * LANES / CHUNK, at_once);
-        // Sums that are complete at once need no room of their own.
+        // If one gather covers all products, a sum needs room only within its block.
         let is_once = at_once == all;
         let largest = blocks.iter().map(Range::len).max().unwrap_or_default();
         let stride = if is_once { largest } else { channels };
@@ -94,7 +97,7 @@ impl<F: Fn(f32) -> f32> PanelTask for Work<'_, F> {
     }
 }
 
-/// Every sum begins with the bias of its channel.
+/// Starts every sum with the bias of its channel.
 #[inline(always)]
 fn begin<const LANES: usize>(sums: &mut [[f32; LANES]], weights: &Weights, first: usize) {
     for (sums, channel) in sums.iter_mut().zip(first..) {
@@ -102,7 +105,8 @@ fn begin<const LANES: usize>(sums: &mut [[f32; LANES]], weights: &Weights, first
     }
 }
 
-/// Makes outputs of sums: of all lanes, in vector instructions, though not each may have a position.
+/// Turns sums into outputs. All lanes are computed, with vector instructions, though some lanes may
+/// have no position.
 #[inline(always)]
 fn end<const LANES: usize>(sums: &mut [[f32; LANES]], finish: impl Fn(f32) -> f32) {
     for sum in sums.as_flattened_mut() {
@@ -126,7 +130,7 @@ pub(super) fn add_block<const LANES: usize, const FUSED: bool>(
     }
 }
 
-/// Adds the products of a block of so many channels.
+/// Adds the products of a block of `CHANNELS` channels.
 #[inline(always)]
 fn add<const LANES: usize, const CHANNELS: usize, const FUSED: bool>(
     weights: &[f32],

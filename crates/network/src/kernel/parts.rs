@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A convolution as parts, one for each thread, which gathers the inputs that it needs.
+//! Splits a convolution into one part per thread, each of which gathers the inputs that it needs.
 
 use super::chunks::{CHUNK, Chunk};
 use super::panels::Outputs;
 use std::ops::Range;
 
-/// Positions that make it worth to share them: with fewer, threads share the channels, so that each has weights of its own.
+/// The positions per thread from which threads share the positions. With fewer, threads share the
+/// channels, so that each thread reads only its own weights.
 const MANY: usize = 1024;
 
-/// The chunks and outputs of every part. `values` are the channels of all blocks one after the other, each of so many rows and columns.
+/// Returns the chunks and outputs of every part. `values` holds the channels of all blocks one
+/// after the other, each of `size` rows and columns.
 pub(crate) fn parts<'a, T>(
     blocks: &'a [Range<usize>],
     chunks: &'a [Chunk],
@@ -23,7 +25,8 @@ pub(crate) fn parts<'a, T>(
     }
 }
 
-/// Cuts chunks where they share no position into at most so many parts of about the same length.
+/// Cuts chunks into at most `parts` parts of about the same length, at places where neighboring
+/// chunks share no position.
 fn cut(chunks: &[Chunk], parts: usize, width: usize) -> Vec<&[Chunk]> {
     let mut rest = chunks;
     let mut found = Vec::new();
@@ -86,7 +89,8 @@ mod tests {
     use crate::mask::Mask;
     use foveate_lanes::Level;
 
-    /// Every chunk is in one part, whose planes hold its positions: each writes its number over them, and nobody else does.
+    /// Each chunk is in exactly one part, whose planes hold its positions. Each part adds 1 at the
+    /// first position of its chunks, and no other part may write there.
     #[test]
     fn parts_are_all_chunks_and_share_no_position() {
         let form = Form::features(vec![1, 13, 40, 70]);

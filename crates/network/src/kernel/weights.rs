@@ -4,13 +4,14 @@
 use super::blocking::Blocking;
 use std::ops::Range;
 
-/// The weights of a group of output channels, block by block. A block holds one weight per channel for the first input, then for the second,
-/// and so on. Channels that only fill the last block have weights of 0.
+/// The weights of a group of output channels, block by block. A block holds one weight per channel
+/// for the first input, then for the second, and so on. Channels that only fill the last block have
+/// weights of 0.
 #[derive(Clone, Debug)]
 pub(crate) struct Weights<T = f32> {
     blocking: Blocking,
     blocks: Vec<Range<usize>>,
-    /// Products of an output.
+    /// The number of products of an output.
     depth: usize,
     packed: Vec<T>,
     bias: Vec<T>,
@@ -42,7 +43,7 @@ impl<T: Copy + Default> Weights<T> {
         self.depth
     }
 
-    /// The channels of all blocks.
+    /// The ranges of channels of all blocks.
     pub(crate) fn blocks(&self) -> &[Range<usize>] {
         &self.blocks
     }
@@ -53,7 +54,7 @@ impl<T: Copy + Default> Weights<T> {
         &self.packed[start + inputs.start * block.len()..start + inputs.end * block.len()]
     }
 
-    /// What the sum of a channel begins with.
+    /// The bias of a channel, or 0 if there is none.
     pub(super) fn bias(&self, channel: usize) -> T {
         self.bias.get(channel).copied().unwrap_or_default()
     }
