@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Functions of one value.
+//! Activation functions of one value.
 
 use super::{Job, Operator, only};
 use crate::form::Form;
 use foveate_lanes::{Level, Task};
 
-/// A function of one value, by the definition of ONNX.
+/// An activation function of one value, as ONNX defines it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Activation {
     Identity,
@@ -40,7 +40,7 @@ pub(crate) enum Activation {
         alpha: f32,
     },
     Gelu,
-    /// With a hyperbolic tangent instead of the error function.
+    /// The GELU with a hyperbolic tangent in place of the error function.
     TanhGelu,
     Mish,
     Tanh,
@@ -66,7 +66,7 @@ impl Activation {
     pub(crate) fn of(self, x: f32) -> f32 {
         match self {
             Self::Identity => x,
-            // Not `max`, which would make 0 of NaN.
+            // `max` is not used, because it would turn NaN into 0.
             Self::Relu => {
                 if x < 0.0 {
                     0.0
@@ -107,7 +107,7 @@ impl Activation {
             Self::Swish { alpha } => x * sigmoid(alpha * x),
             Self::Gelu => 0.5 * x * (1.0 + erf(x * std::f32::consts::FRAC_1_SQRT_2)),
             Self::TanhGelu => {
-                // The square root of 2 / pi.
+                // The constant is the square root of 2 / pi.
                 0.5 * x * (1.0 + (0.797_884_6 * (x + 0.044_715 * x * x * x)).tanh())
             }
             Self::Mish => x * softplus(x).tanh(),
@@ -123,7 +123,7 @@ impl Activation {
             Self::Reciprocal => 1.0 / x,
             Self::Floor => x.floor(),
             Self::Ceil => x.ceil(),
-            // To the even one of two that are as near.
+            // Halves are rounded to the even integer, as ONNX defines it.
             Self::Round => x.round_ties_even(),
             Self::Sign if x == 0.0 => 0.0,
             Self::Sign => 1.0f32.copysign(x),
@@ -148,12 +148,13 @@ fn sigmoid(x: f32) -> f32 {
     1.0 / (1.0 + exp(-x))
 }
 
-/// The exponential function to 2e-7 of its value, without branches, so that loops of it become vector instructions; between e^-87 and e^88 where
-/// it is smaller or larger. It is 2^n e^r, where n is the nearest integer and |r| <= ln(2) / 2. The polynomial and the two parts of ln(2) are
-/// those of `expf` in Moshier's Cephes library.
+/// Returns the exponential function with a relative error of at most 2e-7, limited to the range
+/// from e^-87 to e^88. It has no branches, so that loops of it become vector instructions. It is
+/// computed as 2^n e^r, where n is the nearest integer to x / ln(2), and |r| <= ln(2) / 2. The
+/// polynomial and the two parts of ln(2) are those of `expf` in Moshier's Cephes library.
 #[inline(always)]
 fn exp(x: f32) -> f32 {
-    // Added to a small number, this leaves its nearest integer in the last bits.
+    // Added to a small number, this constant leaves the nearest integer in the last bits.
     const ROUND: f32 = 12_582_912.0;
     let x = if x < -87.0 { -87.0 } else { x };
     let x = if x > 88.0 { 88.0 } else { x };
@@ -166,7 +167,8 @@ fn exp(x: f32) -> f32 {
     (sum * r * r + r + 1.0) * power
 }
 
-/// The error function, to 1.5e-7: Abramowitz and Stegun, Handbook of Mathematical Functions, 7.1.26.
+/// Returns the error function with an error of at most 1.5e-7: Abramowitz and Stegun, Handbook of
+/// Mathematical Functions, 7.1.26.
 fn erf(x: f32) -> f32 {
     let t = 1.0 / (1.0 + 0.327_591_1 * f64::from(x.abs()));
     let series = [1.061_405_429, -1.453_152_027, 1.421_413_741, -0.284_496_736, 0.254_829_592];
@@ -177,7 +179,7 @@ fn erf(x: f32) -> f32 {
     value.copysign(x)
 }
 
-/// An activation as a node of its own.
+/// An activation as a separate node.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pointwise(pub(crate) Activation);
 
@@ -188,7 +190,7 @@ impl Operator for Pointwise {
 
     fn compute(&self, job: Job<'_>) {
         match self.0 {
-            // A function that is known here needs no choice in the loop.
+            // A function that is known at compile time needs no choice in the loop.
             Activation::Sigmoid => apply(job, sigmoid),
             Activation::Swish { alpha } => apply(job, |x| Activation::Swish { alpha }.of(x)),
             Activation::HardSwish => apply(job, |x| Activation::HardSwish.of(x)),
@@ -204,7 +206,7 @@ fn apply(job: Job<'_>, of: impl Fn(f32) -> f32 + Sync) {
     job.fill(|run, to| level.run(Each { from: &from[run], to, of: &of }));
 }
 
-/// A function of some values, in vector lanes.
+/// A function of some values, applied in vector lanes.
 struct Each<'a, F> {
     from: &'a [f32],
     to: &'a mut [f32],

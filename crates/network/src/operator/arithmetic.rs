@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Two tensors, element by element, each repeated along the axes in which it has one element.
+//! Element-wise operations on two tensors with broadcasting: an axis with one element is repeated.
 
 use super::places::aligned;
 use super::{Activation, Job, Operator};
@@ -19,7 +19,8 @@ pub(crate) enum Arithmetic {
     Pow,
     Min,
     Max,
-    /// The first, times the second where it is negative: `PRelu`.
+    /// The first operand where it is not negative, and its product with the second where it is:
+    /// `PRelu`.
     Slope,
 }
 
@@ -57,18 +58,19 @@ impl Arithmetic {
     }
 }
 
-/// The operation on two inputs of the frame, or on one and a constant.
+/// An element-wise operation on two tensors that depend on the frame, or on one such tensor and a
+/// constant.
 #[derive(Clone, Debug)]
 pub(crate) struct Binary {
     pub(crate) kind: Arithmetic,
-    /// A constant operand, and whether it is the first.
+    /// The constant operand, with true if it is the first operand.
     pub(crate) constant: Option<(Tensor, bool)>,
-    /// What is applied to every output.
+    /// The activation that is applied to every output.
     pub(crate) finish: Activation,
 }
 
 impl Binary {
-    /// Both operands in order, of which one may be the constant.
+    /// Returns both operands in order, one of which may be the constant.
     fn operands<'a, T>(
         &'a self,
         inputs: &[&'a T],
@@ -105,7 +107,7 @@ impl Operator for Binary {
     }
 
     fn compute(&self, job: Job<'_>) {
-        // What is known here needs no choice in the loop.
+        // An operation that is known at compile time needs no choice in the loop.
         match (self.kind, self.finish) {
             (Arithmetic::Add, Activation::Identity) => self.lines(job, |a: f32, b| a + b),
             (Arithmetic::Add, Activation::Relu) => {
@@ -120,7 +122,7 @@ impl Operator for Binary {
 }
 
 impl Binary {
-    /// Computes every line of the output.
+    /// Computes the output, line by line along the last axis.
     pub(super) fn lines<T: Number, Y: Number>(&self, job: Job<'_>, of: impl Fn(T, T) -> Y + Sync) {
         let (inputs, form) = (job.inputs, job.form);
         let [a, b] =
@@ -145,7 +147,7 @@ impl Binary {
     }
 }
 
-/// A line of values; an operand of one value is repeated.
+/// Computes a line of values. An operand of one value is repeated.
 #[inline(always)]
 fn line<T: Copy, Y: Copy>(a: &[T], b: &[T], to: &mut [Y], of: impl Fn(T, T) -> Y) {
     match (a.len() == to.len(), b.len() == to.len()) {
@@ -158,7 +160,8 @@ fn line<T: Copy, Y: Copy>(a: &[T], b: &[T], to: &mut [Y], of: impl Fn(T, T) -> Y
     }
 }
 
-/// The form of a result of this shape of inputs that are repeated. Positions are those of the input that has the most axes of them, none repeated.
+/// Returns the form of a broadcast result with this shape. Its positions are those of the input
+/// that has the most axes of positions and repeats none of them.
 pub(super) fn together(inputs: &[&Form], shape: Vec<usize>) -> Form {
     let new = |form: &Form| shape.len() - form.shape().len();
     let axes = |form: &Form| form.axes().start + new(form)..form.axes().end + new(form);
@@ -172,7 +175,7 @@ pub(super) fn together(inputs: &[&Form], shape: Vec<usize>) -> Form {
     }
 }
 
-/// The positions of such a result that depend on changed ones of the inputs.
+/// Returns the positions of a broadcast result that depend on changed positions of the inputs.
 pub(super) fn repeated(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
     let mut seen = Mask::empty(output.height(), output.width());
     for &(form, mask) in inputs {
@@ -182,7 +185,7 @@ pub(super) fn repeated(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
     seen
 }
 
-/// The shape of both together.
+/// Returns the shape of both operands after broadcasting, or `None` if they do not fit together.
 pub(crate) fn broadcast(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
     let axes = a.len().max(b.len());
     let size = |shape: &[usize], axis: usize| {
@@ -196,7 +199,8 @@ pub(crate) fn broadcast(a: &[usize], b: &[usize]) -> Option<Vec<usize>> {
     (0..axes).map(together).collect()
 }
 
-/// The values of an operand for a line of the output, or the one value that is repeated there.
+/// Returns the values of an operand for a line of the output, or the single value that is repeated
+/// along the line.
 fn values_of<'a, T: Number>(
     operand: &'a Tensor,
     steps: &[usize],

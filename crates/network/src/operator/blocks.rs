@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Squares of neighboring places that become channels, and channels that become such squares.
+//! Rearranges channels into blocks of neighboring positions (`DepthToSpace`) and back
+//! (`SpaceToDepth`).
 
 use super::{Job, Operator, features, moved, only};
 use crate::element::{Encoding, typed};
 use crate::form::Form;
 use crate::mask::{Mask, Window};
 
-/// Which of the channels of an input become those of one square.
+/// The order of the channels that hold one block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Order {
-    /// The square first, then the channel: `DCR` of ONNX.
+    /// The index in the block varies slowest: mode `DCR` of ONNX.
     SquareFirst,
-    /// The channel first, then the square: `CRD`.
+    /// The channel varies slowest: mode `CRD` of ONNX.
     ChannelFirst,
 }
 
-/// Channels become squares of so many places.
+/// Moves channels into blocks of `side` x `side` positions.
 #[derive(Clone, Debug)]
 pub(crate) struct DepthToSpace {
     pub(crate) side: usize,
@@ -65,7 +66,7 @@ impl Operator for DepthToSpace {
     }
 }
 
-/// Squares of so many places become channels.
+/// Moves blocks of `side` x `side` positions into channels.
 #[derive(Clone, Debug)]
 pub(crate) struct SpaceToDepth {
     pub(crate) side: usize,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tensors one behind the other, along an axis.
+//! Concatenation of tensors along an axis.
 
 use super::arithmetic::repeated;
 use super::places::aligned;
@@ -11,7 +11,7 @@ use crate::values::Number;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Concat {
-    /// Negative from the last axis on.
+    /// The axis; a negative number counts from the end.
     pub(crate) axis: i64,
 }
 
@@ -32,7 +32,8 @@ impl Operator for Concat {
             }
             shape[axis] += form.shape()[axis];
         }
-        // Positions are those of all inputs that have some.
+        // The positions of the output are the axes that are positions in all inputs that have
+        // positions.
         let positions = inputs.iter().map(|form| form.axes()).filter(|axes| !axes.is_empty());
         let common = positions.reduce(|a, b| a.start.max(b.start)..a.end.min(b.end));
         Ok(match common.filter(|axes| !axes.is_empty()) {
@@ -75,7 +76,8 @@ impl Operator for Concat {
 }
 
 impl Concat {
-    /// Makes the values of every input, by its number, those of the output where they stand.
+    /// Copies the values of every input to their place in the output. `copy` takes the number of
+    /// the input.
     pub(super) fn join<T: Number, Y: Number>(
         &self,
         job: Job<'_>,
@@ -85,7 +87,7 @@ impl Concat {
         let axis = form.axis(self.axis).expect("the form has it");
         let behind = |form: &Form| form.shape()[axis..].iter().product::<usize>();
         let whole = behind(form);
-        // Where each input ends in a line of the output.
+        // The end of each input in a line of the output.
         let ends: Vec<usize> = inputs
             .iter()
             .scan(0, |end, input| {

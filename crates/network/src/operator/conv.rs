@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution, with groups, strides, dilation and any padding.
+//! Convolution with groups, strides, dilation and padding.
 
 use super::{Activation, Geometry, Job, Operator, Products, values_of};
 use crate::form::Form;
@@ -29,7 +29,8 @@ enum Kernels {
 }
 
 impl Conv {
-    /// A convolution of `weights`, channel by channel.
+    /// Returns a convolution with `weights` in the order
+    /// `[channels, inputs per group, rows, columns]`.
     pub(crate) fn new(
         geometry: Geometry,
         weights: &[f32],
@@ -62,7 +63,7 @@ impl Operator for Conv {
         if chunks.is_empty() {
             return;
         }
-        // An activation that is known here needs no choice in the loop.
+        // An activation that is known at compile time needs no choice in the loop.
         match self.finish {
             Activation::Identity => self.convolve(job, &chunks, |x| x),
             Activation::Relu => self.convolve(job, &chunks, |x| Activation::Relu.of(x)),
@@ -101,7 +102,7 @@ impl Operator for Conv {
 }
 
 impl Conv {
-    /// The chunks of positions.
+    /// The chunks of the positions that are computed.
     fn chunks(&self, at: &Mask) -> Vec<Chunk> {
         if self.geometry.is_pointwise() { chunks_in_a_row(at) } else { chunks(at) }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A tensor of constants, where an operator takes one beside what depends on the picture.
+//! A constant tensor in the place of an input that depends on the frame.
 
 use super::{Job, Operator, Products, values_of};
 use crate::element::{Encoding, typed};

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Windows and channels of a convolution, whatever its values are.
+//! The windows and channels of a convolution, independent of the type of its values.
 
 use super::{Products, features, only};
 use crate::form::Form;
 use crate::mask::Window;
 
-/// What a convolution sees, and what it makes.
+/// The windows, groups and channels of a convolution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Geometry {
     pub(crate) rows: Window,
     pub(crate) columns: Window,
     pub(crate) groups: usize,
-    /// Channels of the output.
+    /// The channels of the output.
     pub(crate) channels: usize,
-    /// Channels of the input.
+    /// The channels of the input.
     pub(crate) inputs: usize,
 }
 
 impl Geometry {
-    /// That of a convolution with weights of the shape `[channels, inputs per group, rows, columns]`.
+    /// Returns the geometry of a convolution with weights of the shape
+    /// `[channels, inputs per group, rows, columns]`.
     pub(crate) fn new(
         shape: &[usize],
         [rows, columns]: [Window; 2],
@@ -39,7 +40,7 @@ impl Geometry {
         Ok(Self { rows, columns, groups, channels, inputs: inputs * groups })
     }
 
-    /// Refuses a bias that is not of all channels.
+    /// Fails if a bias does not have one value per channel.
     pub(crate) fn check_bias<T>(&self, bias: Option<&[T]>) -> Result<(), String> {
         match bias {
             Some(bias) if bias.len() != self.channels => {
@@ -49,27 +50,28 @@ impl Geometry {
         }
     }
 
-    /// Products of an output.
+    /// The number of products of an output.
     pub(crate) fn depth(&self) -> usize {
         self.inputs / self.groups * self.rows.kernel * self.columns.kernel
     }
 
-    /// Whether each channel is seen by itself.
+    /// Returns true if every channel of the output depends on one channel of the input, its own.
     pub(crate) fn is_depthwise(&self) -> bool {
         self.inputs == self.groups && self.channels == self.groups
     }
 
-    /// Whether each output sees the inputs of its own position alone.
+    /// Returns true if every output sees only the inputs of its own position.
     pub(crate) fn is_pointwise(&self) -> bool {
         [self.rows, self.columns] == [Window::SAME; 2]
     }
 
-    /// Rows and columns of an input or output, as they are computed: for single positions it does not matter where a row ends.
+    /// Returns the rows and columns of an input or output for the computation. A pointwise
+    /// convolution is computed as one row, because it does not matter where a row ends.
     pub(crate) fn size(&self, form: &Form) -> [usize; 2] {
         if self.is_pointwise() { [1, form.places()] } else { [form.height(), form.width()] }
     }
 
-    /// The form of the output.
+    /// Returns the form of the output.
     pub(crate) fn form(&self, inputs: &[&Form]) -> Result<Form, String> {
         let [channels, height, width] = features(only(inputs)?)?;
         if channels != self.inputs {
@@ -84,7 +86,7 @@ impl Geometry {
     }
 }
 
-/// Outputs of a window along an axis of so many inputs.
+/// Returns the number of outputs along an axis of `inputs` inputs.
 pub(super) fn outputs(window: Window, inputs: usize) -> Result<usize, String> {
     let padded = inputs + window.before + window.after;
     let room = padded.checked_sub(window.span());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution of 8-bit values: exact sums, kept or brought back to 8 bits.
+//! Convolution of 8-bit values. Its sums are exact, and are either kept or requantized to 8 bits.
 
 use super::sums::{Outcome, Sums};
 use super::{Geometry, Job, Operator, Products, of_bytes, values_of};
@@ -13,11 +13,12 @@ use crate::threads;
 use crate::values::Byte;
 use foveate_lanes::Level;
 
-/// Weights of 8 bits, a row per channel. Those without sign are kept with 128 less, as are their zero points.
+/// Weights of 8 bits, with one row per channel. Unsigned weights and their zero points are stored
+/// less 128.
 #[derive(Clone, Debug)]
 pub(crate) struct Rows {
     pub(crate) values: Vec<i8>,
-    /// A zero point per channel.
+    /// One zero point per channel.
     pub(crate) zeros: Vec<i8>,
 }
 
@@ -33,7 +34,7 @@ pub(crate) struct IntegerConv {
     level: Level,
     kernels: Kernels,
     weights: u64,
-    /// What stands for 0 in the input, and is its padding.
+    /// The zero point of the input, which is also its padding.
     zero: i32,
     sums: Sums,
 }

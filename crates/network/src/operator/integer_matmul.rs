@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The product of the last axis of 8-bit values with a constant matrix of such: fully connected layers.
+//! The product of the last axis of 8-bit values with a constant matrix of 8-bit values, as in fully
+//! connected layers.
 
 use super::integer_conv::Rows;
 use super::linear::along_last;
@@ -13,10 +14,10 @@ use crate::values::Byte;
 
 #[derive(Clone, Debug)]
 pub(crate) struct IntegerMatMul {
-    /// A row per output.
+    /// The weights, with one row per output.
     pub(crate) rows: Rows,
     pub(crate) inputs: usize,
-    /// What stands for 0 in the input.
+    /// The zero point of the input.
     pub(crate) zero: i32,
     pub(crate) sums: Sums,
 }
@@ -67,7 +68,7 @@ impl Operator for IntegerMatMul {
     }
 }
 
-/// The sum of all products.
+/// Returns the dot product of a row of weights with the inputs, both less their zero points.
 fn dot<X: Byte>(weights: &[i8], weights_zero: i8, inputs: &[X], zero: i32) -> i32 {
     let product = |(&weight, &input): (&i8, &X)| {
         let input: i32 = input.into();

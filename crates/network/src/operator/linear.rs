@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Products with a matrix: fully connected layers.
+//! Products with a constant matrix, as in fully connected layers.
 
 use super::{Job, Operator, Products, only, values_of};
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::threads;
 
-/// Partial sums of a dot product, added at the end in one order.
+/// The number of partial sums of a dot product. They are added at the end, in a fixed order.
 const PARTS: usize = 16;
 
-/// The sum of all products, always in the same order.
+/// Returns the dot product of two rows, always summed in the same order.
 fn dot(a: &[f32], b: &[f32]) -> f32 {
     let mut parts = [0.0f32; PARTS];
     let ((a, a_rest), (b, b_rest)) = (a.as_chunks::<PARTS>(), b.as_chunks::<PARTS>());
@@ -22,7 +22,7 @@ fn dot(a: &[f32], b: &[f32]) -> f32 {
     parts.iter().sum::<f32>() + rest
 }
 
-/// The form of the product of the last axis with a matrix.
+/// Returns the form of the product of the last axis with a matrix of `own` x `outputs` values.
 pub(super) fn along_last(inputs: &[&Form], own: usize, outputs: usize) -> Result<Form, String> {
     let form = only(inputs)?;
     let mut shape = form.shape().to_vec();
@@ -30,7 +30,7 @@ pub(super) fn along_last(inputs: &[&Form], own: usize, outputs: usize) -> Result
         Some(last) if *last == own => *last = outputs,
         _ => return Err(format!("its matrix takes {own} values, not {}", form.describe())),
     }
-    // Rows that are positions stay what they are.
+    // Positions before the last axis remain positions.
     let last = shape.len() - 1;
     Ok(if form.has_positions() && form.axes().end <= last {
         Form::at(shape, form.axes())
@@ -39,26 +39,27 @@ pub(super) fn along_last(inputs: &[&Form], own: usize, outputs: usize) -> Result
     })
 }
 
-/// The product of the last axis with a constant matrix.
+/// The product of the last axis with a constant matrix, plus a bias.
 #[derive(Clone, Debug)]
 pub(crate) struct Linear {
-    /// A row per output.
+    /// The weights, with one row per output.
     weights: Vec<f32>,
-    /// One per output, or none.
+    /// The bias: one value per output, or empty.
     bias: Vec<f32>,
     inputs: usize,
-    /// Whether the input must have two axes.
+    /// True if the input must have two axes.
     is_flat: bool,
 }
 
 impl Linear {
-    /// With a constant of `inputs` x `outputs` values.
+    /// Returns the product with a constant of `inputs` x `outputs` values, without a bias.
     pub(crate) fn matrix(shape: &[usize], weights: &[f32]) -> Result<Self, String> {
         let linear = Self::new(shape, weights, None, false, 1.0, 1.0)?;
         Ok(Self { bias: Vec::new(), is_flat: false, ..linear })
     }
 
-    /// `alpha * (weights of inputs x outputs, or of outputs x inputs if `transposed`) * input + beta * bias`.
+    /// Returns `alpha * weights * input + beta * bias`. The weights are `inputs` x `outputs`
+    /// values, or `outputs` x `inputs` if `transposed`.
     pub(crate) fn new(
         shape: &[usize],
         weights: &[f32],

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The operators of a network: what each makes of its inputs, where, and how a change spreads through it.
+//! The operators of a network: the form and encoding of their outputs, their computation, and the
+//! spread of changes through them.
 
 mod activation;
 mod arithmetic;
@@ -71,43 +72,46 @@ use std::sync::Arc;
 /// The sums of products of an operator, as accelerators map them onto their arrays.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Products {
-    /// None: pooling, activation, addition and the like.
+    /// The operator has no sums of products: pooling, activation, addition and the like.
     None,
-    /// None, and nothing is computed: the same values with another shape.
+    /// The operator computes nothing, because its output has the values of its input in another
+    /// shape, or is constant.
     Renamed,
-    /// A convolution over rows and columns.
+    /// The operator is a convolution over rows and columns.
     Convolution {
-        /// Along the rows.
+        /// The windows along the rows.
         rows: Window,
-        /// Along the columns.
+        /// The windows along the columns.
         columns: Window,
-        /// Groups of channels.
+        /// The number of groups of channels.
         groups: usize,
     },
-    /// A transposed convolution: at each position every channel is a sum over at most so many inputs.
+    /// The operator is a transposed convolution: every channel of a position is a sum over at most
+    /// `inputs` inputs.
     Transposed {
-        /// Inputs of each sum.
+        /// The number of inputs of each sum.
         inputs: usize,
     },
-    /// Every output is a sum over so many inputs.
+    /// The operator is a matrix product: every output is a sum over `inputs` inputs.
     Matrix {
-        /// Inputs of each sum.
+        /// The number of inputs of each sum.
         inputs: usize,
     },
 }
 
-/// One operator with its attributes and weights.
+/// An operator with its attributes and weights.
 pub(crate) trait Operator: Debug + Send + Sync {
-    /// The form of the output.
+    /// Returns the form of the output for inputs of these forms.
     ///
     /// # Errors
-    /// In words, when the operator does not take such inputs.
+    /// Fails, with a message, if the operator does not take such inputs.
     fn form(&self, inputs: &[&Form]) -> Result<Form, String>;
 
-    /// How the output is stored, and what it stands for. By default an operator takes and makes floating-point values.
+    /// Returns the encoding of the output for inputs of these encodings. By default an operator
+    /// takes and makes floating-point values.
     ///
     /// # Errors
-    /// In words, when the operator does not take such values.
+    /// Fails, with a message, if the operator does not take such values.
     fn encoding(&self, inputs: &[Encoding]) -> Result<Encoding, String> {
         match inputs.iter().find(|input| input.element != Element::F32) {
             None => Ok(Encoding::FLOAT),
@@ -115,8 +119,9 @@ pub(crate) trait Operator: Debug + Send + Sync {
         }
     }
 
-    /// The positions of the output that depend on a changed position of an input. By default each depends on what its window sees, or on its
-    /// own position.
+    /// Returns the positions of the output that depend on a changed position of an input. By
+    /// default an output depends on the inputs of its window, or on the input at its own position
+    /// if the operator has no windows.
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         match self.windows() {
             Some([rows, columns]) => {
@@ -126,15 +131,17 @@ pub(crate) trait Operator: Debug + Send + Sync {
         }
     }
 
-    /// Computes the output, at least at the positions of the job. What it writes elsewhere is what a whole computation would write there.
+    /// Computes the output at least at the positions of the job. At other positions it may write
+    /// only the values that a complete computation would write there.
     fn compute(&self, job: Job<'_>);
 
-    /// What kind of sums of products it computes.
+    /// Returns the kind of sums of products that the operator computes.
     fn products(&self) -> Products {
         Products::None
     }
 
-    /// The windows through which outputs see the only input; nothing where they see what lies at their own place, or everything.
+    /// Returns the windows, along rows and columns, through which outputs see the only input. An
+    /// operator without windows sees the input at the position of the output, or all inputs.
     fn windows(&self) -> Option<[Window; 2]> {
         match self.products() {
             Products::Convolution { rows, columns, .. } => Some([rows, columns]),
@@ -142,7 +149,7 @@ pub(crate) trait Operator: Debug + Send + Sync {
         }
     }
 
-    /// The positions of an input that the outputs at some positions see.
+    /// Returns the positions of an input that the outputs at the positions `at` see.
     fn seen(&self, at: &Mask, input: &Form) -> Mask {
         let (height, width) = (input.height(), input.width());
         match self.windows() {
@@ -152,45 +159,47 @@ pub(crate) trait Operator: Debug + Send + Sync {
         }
     }
 
-    /// Positions that are computed where those of a mask are wanted.
+    /// Returns the number of positions that are computed if those of a mask are needed.
     fn scheduled(&self, at: &Mask) -> usize {
         at.count()
     }
 
-    /// The same operator with an activation on its outputs, if it can apply one itself.
+    /// Returns the operator with an activation on its outputs, or `None` if it cannot apply one
+    /// itself.
     fn finished(&self, _activation: Activation) -> Option<Arc<dyn Operator>> {
         None
     }
 
-    /// Whether its inputs must be features, with rows and columns.
+    /// Returns true if the inputs must be features with rows and columns.
     fn takes_features(&self) -> bool {
         self.windows().is_some()
     }
 
-    /// Bytes of the weights.
+    /// The bytes of the weights.
     fn weight_bytes(&self) -> u64 {
         0
     }
 }
 
-/// What an operator has to do for one frame.
+/// The work of an operator for one frame.
 pub(crate) struct Job<'a> {
     pub(crate) inputs: &'a [&'a Tensor],
-    /// Of the output.
+    /// The form of the output.
     pub(crate) form: &'a Form,
-    /// At least as long as the form says.
+    /// The values of the output; there are at least as many as the form has elements.
     pub(crate) output: &'a mut Values,
     pub(crate) at: &'a Mask,
 }
 
 impl Job<'_> {
-    /// Fills every run of positions of the mask, which may go on in the next row: `fill` gets its range in the output's memory, and the values there. Threads share what lies
-    /// outside of the positions, such as channels.
+    /// Calls `fill` for every run of positions of the mask, with the memory range of the run in the
+    /// output and with the values there. A run may go on in the next row. Threads share the outer
+    /// indices, such as channels.
     fn fill<T: Number>(self, fill: impl Fn(Range<usize>, &mut [T]) + Sync) {
         self.fill_any(&fill);
     }
 
-    /// The same, compiled once for each type of values.
+    /// Calls `fill` as [`Job::fill`] does, but is compiled once for each type of values.
     fn fill_any<T: Number>(self, fill: &(dyn Fn(Range<usize>, &mut [T]) + Sync)) {
         let Self { form, output, at, .. } = self;
         let output = values_of(output, form);
@@ -206,12 +215,12 @@ impl Job<'_> {
     }
 }
 
-/// The values of an output.
+/// Returns the values of an output.
 pub(crate) fn values_of<'a, T: Number>(output: &'a mut Values, form: &Form) -> &'a mut [T] {
     &mut T::of_mut(output)[..form.elements()]
 }
 
-/// The encoding of the inputs of an operator that only moves values.
+/// Returns the encoding of the output of an operator that only moves values.
 pub(crate) fn moved(inputs: &[Encoding]) -> Result<Encoding, String> {
     let first = *inputs.first().ok_or("it has no inputs")?;
     if let Some(other) = inputs.iter().find(|input| input.element != first.element) {
@@ -221,7 +230,8 @@ pub(crate) fn moved(inputs: &[Encoding]) -> Result<Encoding, String> {
     Ok(if alike { first } else { Encoding::plain(first.element) })
 }
 
-/// The encoding of an operator that makes something of 8-bit values.
+/// Returns `to`, the encoding of the output of an operator on 8-bit values, and fails if an input
+/// has other values.
 pub(crate) fn of_bytes(inputs: &[Encoding], to: Encoding) -> Result<Encoding, String> {
     match inputs.iter().find(|input| !input.element.is_byte()) {
         None => Ok(to),
@@ -232,12 +242,13 @@ pub(crate) fn of_bytes(inputs: &[Encoding], to: Encoding) -> Result<Encoding, St
     }
 }
 
-/// What is said of values of another kind than an operator takes.
+/// Returns the message for an input with values of another type than the operator takes.
 pub(crate) fn wanted(wanted: Element, found: Element) -> String {
     format!("it takes {}, but its input holds {}", wanted.describe(), found.describe())
 }
 
-/// The union of all masks. Where an input has other positions than the output, everything depends on it.
+/// Returns the union of all masks. An input whose positions differ from those of the output changes
+/// all of the output.
 pub(crate) fn same_position(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
     let mut seen = Mask::empty(output.height(), output.width());
     for (form, mask) in inputs {
@@ -250,7 +261,7 @@ pub(crate) fn same_position(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
     seen
 }
 
-/// Everything, if anything has changed.
+/// Returns all positions if any input has changed, and none otherwise.
 pub(crate) fn everything(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
     let mut seen = Mask::empty(output.height(), output.width());
     if inputs.iter().any(|(_, mask)| !mask.is_empty()) {
@@ -259,7 +270,7 @@ pub(crate) fn everything(inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
     seen
 }
 
-/// The form of the only input.
+/// Returns the form of the only input.
 pub(crate) fn only<'a>(inputs: &[&'a Form]) -> Result<&'a Form, String> {
     match inputs {
         [input] => Ok(input),
@@ -267,7 +278,7 @@ pub(crate) fn only<'a>(inputs: &[&'a Form]) -> Result<&'a Form, String> {
     }
 }
 
-/// The channels, rows and columns of features.
+/// Returns the channels, rows and columns of features.
 pub(crate) fn features(form: &Form) -> Result<[usize; 3], String> {
     match *form.shape() {
         [1, channels, height, width] if form.axes() == (2..4) => Ok([channels, height, width]),

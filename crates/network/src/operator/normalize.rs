@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Values less their mean, by their standard deviation: of the last axes, or of the places of channels.
+//! Normalization: values less their mean, divided by their standard deviation.
 
 use super::places::aligned;
 use super::{Job, Operator, only, values_of};
@@ -7,12 +7,13 @@ use crate::form::Form;
 use crate::mask::Mask;
 use crate::threads;
 
-/// What a mean is over.
+/// The values that share a mean.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Over {
-    /// All axes from one on, each value with a scale of its own.
+    /// All axes from this one on share a mean, and every value has a separate scale.
     Axes(usize),
-    /// All places of as many channels as make so many groups; a scale per channel or per group.
+    /// The channels are split into this many groups. All positions of a group share a mean, and the
+    /// scale is given per channel or per group.
     Groups(usize),
 }
 
@@ -21,12 +22,13 @@ pub(crate) struct Normalize {
     pub(crate) over: Over,
     pub(crate) epsilon: f32,
     pub(crate) scale: Vec<f32>,
-    /// As many, or none.
+    /// The bias: as many values as there are scales, or empty.
     pub(crate) bias: Vec<f32>,
 }
 
 impl Normalize {
-    /// Values that share a mean, and how many neighbors share a scale.
+    /// Returns the number of values that share a mean, and the number of neighboring values that
+    /// share a scale.
     fn lengths(&self, form: &Form) -> (usize, usize) {
         match self.over {
             Over::Axes(axis) => {
@@ -118,12 +120,13 @@ impl Operator for Normalize {
     }
 }
 
-/// Values by a sum of squares of their neighbors among the channels.
+/// Local response normalization: values divided by a power of the sum of squares over neighboring
+/// channels.
 #[derive(Clone, Debug)]
 pub(crate) struct LocalResponse {
-    /// Channels before and behind that count.
+    /// The numbers of channels before and behind the own one that count.
     pub(crate) around: [usize; 2],
-    /// By the number of channels.
+    /// The factor of the sum, already divided by the number of channels.
     pub(crate) alpha: f32,
     pub(crate) beta: f32,
     pub(crate) bias: f32,

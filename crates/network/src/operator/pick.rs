@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Some elements of each axis, in any order: parts of a tensor, single indices, and padding.
+//! Selection of elements along each axis, in any order: slices, single indices, and padding.
 
 use super::{Job, Operator, moved, only, wanted};
 use crate::element::{Encoding, typed};
@@ -8,19 +8,19 @@ use crate::mask::Mask;
 use crate::tensor::Tensor;
 use crate::values::Number;
 
-/// Which elements of an axis are taken.
+/// The elements that are taken from an axis.
 #[derive(Clone, Debug)]
 pub(crate) enum Picked {
     All,
-    /// For each index of the output that of the input, or [`PADDING`].
+    /// The input index of each output index, or [`PADDING`].
     At(Vec<u32>),
 }
 
-/// What stands for an element that the input does not have: an axis is shorter.
+/// The index of padding. No axis is so long.
 const PADDING: u32 = u32::MAX;
 
 impl Picked {
-    /// For each index of the output that of the input, or none for padding.
+    /// Returns the selection of these input indices, where `None` stands for padding.
     pub(crate) fn at(places: impl Iterator<Item = Option<usize>>) -> Self {
         let place = |at: Option<usize>| at.and_then(|at| u32::try_from(at).ok());
         Self::At(places.map(|at| place(at).unwrap_or(PADDING)).collect())
@@ -33,11 +33,11 @@ impl Picked {
         }
     }
 
-    /// The inputs that each output sees, from a first to a last.
+    /// Returns the range of inputs that each output sees, as the first and the last input.
     fn ranges(&self, length: usize) -> Vec<(usize, usize)> {
         match self {
             Self::All => (0..length).map(|at| (at, at)).collect(),
-            // From 1 to 0 there is none.
+            // The range from 1 to 0 is empty.
             Self::At(places) => {
                 places.iter().map(|&at| element(at).map_or((1, 0), |at| (at, at))).collect()
             }
@@ -45,32 +45,32 @@ impl Picked {
     }
 }
 
-/// An element, unless it is padding.
+/// Returns the index of an element, or `None` for padding.
 #[inline(always)]
 fn element(place: u32) -> Option<usize> {
     (place != PADDING).then_some(place as usize)
 }
 
-/// Some elements of each axis.
+/// A selection of elements along each axis.
 #[derive(Clone, Debug)]
 pub(crate) struct Pick {
-    /// One per axis of the input.
+    /// The selected elements of each axis of the input.
     pub(crate) axes: Vec<Picked>,
-    /// An axis of which one element is taken, and which the output does not have.
+    /// An axis of which a single element is taken, and which the output does not have.
     pub(crate) dropped: Option<usize>,
-    /// One value, which is the padding.
+    /// The padding: a tensor of one value.
     pub(crate) padding: Option<Tensor>,
 }
 
 impl Pick {
-    /// A part of one axis of several.
+    /// Returns a selection along one of `axes` axes, which takes all elements of the others.
     pub(crate) fn along(axis: usize, picked: Picked, axes: usize) -> Self {
         let mut all = vec![Picked::All; axes];
         all[axis] = picked;
         Self { axes: all, dropped: None, padding: None }
     }
 
-    /// The lengths of all axes, with the one that the output does not have.
+    /// The lengths of all axes, including the one that the output does not have.
     fn lengths(&self, input: &Form) -> Vec<usize> {
         self.axes.iter().zip(input.shape()).map(|(picked, &length)| picked.count(length)).collect()
     }
@@ -113,7 +113,8 @@ impl Operator for Pick {
             1 => mask.between(&[(0, 0)], &ranges(axes.start)),
             _ => return mask.clone(),
         };
-        // Rows of which one is left without columns are a row.
+        // If one column of each row is taken and its axis is dropped, the rows become a row of
+        // positions.
         if (seen.height(), seen.width()) == (output.height(), output.width()) {
             return seen;
         }
@@ -134,14 +135,16 @@ impl Pick {
         let (values, steps) = (input.values::<T>(), input.form().steps());
         let lengths = self.lengths(input.form());
         let padding = self.padding.as_ref().map_or(T::default(), |value| value.values::<T>()[0]);
-        // Behind the last axis of which only some elements are taken, neighbors stay neighbors.
+        // Behind the last axis with a selection, neighbors in the input are neighbors in the
+        // output.
         let line = self.axes.iter().rposition(|picked| matches!(picked, Picked::At(_)));
         let Some(line) = line else {
             return job.fill::<T>(|run, to| to.copy_from_slice(&values[run]));
         };
         let (length, solid) = (lengths[line], steps[line]);
         let Picked::At(places) = &self.axes[line] else { unreachable!("it was found") };
-        // Where the axes in front begin, unless they are in the padding.
+        // Returns the start of a line of the input, or `None` if an axis in front is in the
+        // padding.
         let base = |line_number: usize| -> Option<usize> {
             let (mut rest, mut at) = (line_number, 0);
             for axis in (0..line).rev() {
@@ -172,7 +175,7 @@ impl Pick {
     }
 }
 
-/// Fills a part of a line, which begins after `first` of its values.
+/// Fills a part of a line of the output, from its value `first` on.
 fn pick_line<T: Number>(
     values: &[T],
     places: &[u32],

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Positions of an input as positions of an output that has other axes.
+//! Maps the positions of an input to those of an output with other axes.
 
 use crate::form::Form;
 use crate::mask::Mask;
 use std::ops::Range;
 
-/// The positions of an output that depend on those of an input, where each axis of the input becomes that of the output that `to` names, or
-/// none. An output depends on the input at its own index of every axis that both have as positions, and on all of an axis that only the input
-/// has as positions. An axis of one element is repeated.
+/// Returns the positions of an output that depend on those of an input. `to` maps an axis of the
+/// input to an axis of the output, or to `None`. An output depends on the input at its own index of
+/// each axis that both have as positions, and on all inputs along an axis that only the input has
+/// as positions. An axis of one element is repeated.
 pub(crate) fn aligned(
     (form, mask): (&Form, &Mask),
     output: &Form,
@@ -16,7 +17,7 @@ pub(crate) fn aligned(
     if !form.has_positions() || !output.has_positions() {
         return all_if(!mask.is_empty(), output);
     }
-    // Of rows and columns of the input: what gives its index in the output.
+    // For the rows and the columns of the input: the source of their index.
     let index = |axis: Option<usize>| match axis.and_then(&to) {
         Some(own) if output.axes().len() == 2 && own == output.axes().start => Along::Row,
         Some(own) if own + 1 == output.axes().end && output.has_positions() => Along::Column,
@@ -42,16 +43,16 @@ pub(crate) fn aligned(
     }
 }
 
-/// What gives the index along an axis.
+/// The source of the index along an axis of positions of the input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Along {
     Row,
     Column,
-    /// Every index counts.
+    /// All indices count.
     All,
 }
 
-/// Every position, or none.
+/// Returns all positions if the condition holds, and none otherwise.
 pub(crate) fn all_if(is: bool, output: &Form) -> Mask {
     if is {
         Mask::full(output.height(), output.width())

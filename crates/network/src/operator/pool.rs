@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The largest value or the mean of a window.
+//! Pooling: the largest value or the mean of a window.
 
 use super::geometry::outputs;
 use super::{Job, Operator, features, moved, only, values_of, wanted};
@@ -12,7 +12,7 @@ use crate::values::Number;
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum PoolKind {
     Max,
-    /// Whether padding counts as values of 0.
+    /// The mean of a window; `with_padding` says that padding counts as values of 0.
     Average {
         with_padding: bool,
     },
@@ -23,7 +23,7 @@ pub(crate) struct Pool {
     pub(crate) kind: PoolKind,
     pub(crate) rows: Window,
     pub(crate) columns: Window,
-    /// Whether a window that only begins inside the input counts.
+    /// True if a window counts that begins inside the input but reaches beyond its padding.
     pub(crate) ceil: bool,
 }
 
@@ -39,7 +39,8 @@ impl Pool {
         })
     }
 
-    /// Adds every input to those of the outputs `x..x + run.len()` of row `y` that see it, tap by tap, row by row.
+    /// Calls `add` for every output of `x..x + run.len()` in row `y` with every input that it sees,
+    /// tap by tap in row-major order.
     #[inline(always)]
     pub(super) fn each<T: Number, S>(
         &self,
@@ -52,13 +53,13 @@ impl Pool {
         for row in (0..self.rows.kernel).filter_map(|tap| self.rows.input(y, tap, height)) {
             let line = &plane[row * width..][..width];
             for tap in 0..self.columns.kernel {
-                // The outputs whose input of this tap exists are neighbors.
+                // The outputs for which the input of this tap exists are neighbors.
                 let inside = |at: &usize| self.columns.input(x + at, tap, width).is_some();
                 let Some(first) = (0..run.len()).find(inside) else { continue };
                 let input = self.columns.input(x + first, tap, width).expect("it exists");
                 let (run, line) = (run[first..].iter_mut(), &line[input..]);
                 match self.columns.stride {
-                    // Neighbors become vector instructions.
+                    // Loops over neighbors become vector instructions.
                     1 => run.zip(line).for_each(|(to, &value)| add(to, value)),
                     stride => {
                         let inputs = line.iter().step_by(stride);
@@ -69,7 +70,8 @@ impl Pool {
         }
     }
 
-    /// The values of each output that count for a mean.
+    /// Returns, for each output from position `x` of row `y` on, the number of values that count
+    /// for its mean.
     pub(super) fn counts(
         &self,
         [height, width]: [usize; 2],
@@ -80,8 +82,9 @@ impl Pool {
         (x..).map(move |at| rows * counted(self.columns, at, width, with_padding))
     }
 
-    /// The largest values of windows, of any kind: those of each row of a window, and then of these. Like a walk through the whole window this
-    /// finds the first of equal values and the last that is no number.
+    /// Computes the largest values of windows in two passes: first of each row of a window, then of
+    /// these. Like a walk through the complete window, this finds the first of equal values and the
+    /// last NaN.
     fn largest<T: Number>(&self, job: Job<'_>) {
         let Job { inputs, form, output, at } = job;
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
@@ -116,7 +119,8 @@ impl Pool {
         });
     }
 
-    /// Fills every run of outputs of every channel from the channel's inputs; threads share the channels.
+    /// Fills every run of outputs of every channel from the inputs of the channel. Threads share
+    /// the channels.
     pub(super) fn runs<T: Number, Y: Number>(
         &self,
         job: Job<'_>,
@@ -132,7 +136,7 @@ impl Pool {
     }
 }
 
-/// Calls `fill` with the place and the values of every run of positions of a plane.
+/// Calls `fill` with the position and the values of every run of positions of a channel.
 fn for_each_run<T>(at: &Mask, plane: &mut [T], mut fill: impl FnMut((usize, usize), &mut [T])) {
     for y in 0..at.height() {
         for (x, length) in at.runs(y) {
@@ -141,8 +145,8 @@ fn for_each_run<T>(at: &Mask, plane: &mut [T], mut fill: impl FnMut((usize, usiz
     }
 }
 
-/// The taps of a window that count: those inside the input and, if wanted, in its padding. What lies beyond the padding, where a last
-/// window may reach, does not count.
+/// Returns the number of taps of a window that count: those inside the input and, if wanted, those
+/// in its padding. Taps beyond the padding, which the last window may have, do not count.
 fn counted(window: Window, at: usize, inputs: usize, with_padding: bool) -> u16 {
     let end = inputs + window.before + window.after;
     let counts = |tap: &usize| match with_padding {

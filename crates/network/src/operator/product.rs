@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The product of two matrices that both depend on the picture, as in attention.
+//! The product of two matrices that both depend on the frame, as in attention.
 
 use super::arithmetic::broadcast;
 use super::{Job, Operator, Products, values_of};
@@ -11,11 +11,12 @@ use foveate_lanes::{Level, Task};
 #[derive(Clone, Debug)]
 pub(crate) struct Product {
     pub(crate) level: Level,
-    /// Products of a sum.
+    /// The number of products of a sum.
     pub(crate) inner: usize,
 }
 
-/// Rows and columns of a matrix, which are the last two axes, and the axes in front.
+/// Returns the leading axes of a tensor of matrices, and the rows and columns of a matrix, which
+/// are its last two axes.
 fn matrix(form: &Form) -> Result<(&[usize], [usize; 2]), String> {
     match form.shape() {
         [front @ .., rows, columns] => Ok((front, [*rows, *columns])),
@@ -31,7 +32,7 @@ impl Operator for Product {
         let mut shape = front
             .ok_or_else(|| format!("{} and {} do not fit together", a.describe(), b.describe()))?;
         shape.extend([rows, columns]);
-        // Rows that are positions stay what they are.
+        // Positions among the axes before the last remain positions.
         let new = shape.len() - a.shape().len();
         let axes = a.axes().start + new..a.axes().end + new;
         let is_kept = a.has_positions()
@@ -42,7 +43,7 @@ impl Operator for Product {
 
     fn spread(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         let [(_, mask), (_, other)] = inputs else { unreachable!("the form says how many") };
-        // Every row sees all of the second matrix.
+        // Every row of the result depends on the whole second matrix.
         if output.has_positions() && other.is_empty() {
             (*mask).clone()
         } else {
@@ -57,7 +58,8 @@ impl Operator for Product {
         let columns = form.shape()[form.shape().len() - 1];
         let fronts = form.shape().len() - 2;
         let front = Form::whole(form.shape()[..fronts].to_vec());
-        // Matrices in front of each of the output; those that are repeated stand still.
+        // The strides of the matrices of each operand. They are 0 along axes in which the operand
+        // is repeated.
         let steps = |of: &Form| form.steps_of(of)[..fronts].to_vec();
         let (steps_a, steps_b) = (steps(a.form()), steps(b.form()));
         let (a, b) = (a.values::<f32>(), b.values::<f32>());
@@ -73,7 +75,7 @@ impl Operator for Product {
     }
 }
 
-/// One matrix of the output.
+/// The computation of one matrix of the output.
 struct Rows<'a> {
     a: &'a [f32],
     b: &'a [f32],

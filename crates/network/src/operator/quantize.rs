@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From floating-point values to 8-bit ones, and back.
+//! Quantization of floating-point values to 8 bits, and dequantization.
 
 use super::sums::rounded;
 use super::{Job, Operator, only, wanted};
@@ -7,23 +7,23 @@ use crate::element::{Element, Encoding, typed, typed_byte};
 use crate::form::Form;
 use crate::values::Number as _;
 
-/// Scales and zero points: one for a whole tensor, or one for each index of an axis.
+/// Scales and zero points: one for a complete tensor, or one for each index of an axis.
 #[derive(Clone, Debug)]
 pub(crate) struct Scales {
     pub(crate) scales: Vec<f32>,
-    /// As many.
+    /// The zero points; there are as many as scales.
     pub(crate) zeros: Vec<i32>,
-    /// Negative from the last axis on.
+    /// The axis; a negative number counts from the end.
     pub(crate) axis: i64,
 }
 
 impl Scales {
-    /// Those of a whole tensor.
+    /// Returns the scale and zero point of a complete tensor.
     pub(crate) fn one(scale: f32, zero: i32) -> Self {
         Self { scales: vec![scale], zeros: vec![zero], axis: 0 }
     }
 
-    /// How a tensor is encoded that has been quantized with them.
+    /// Returns the encoding of a tensor that has been quantized with these scales.
     fn encoding(&self, element: Element) -> Encoding {
         match (self.scales.as_slice(), self.zeros.as_slice()) {
             (&[scale], &[zero]) => Encoding { element, scale, zero },
@@ -31,7 +31,7 @@ impl Scales {
         }
     }
 
-    /// Refuses a form that has not as many indices.
+    /// Fails if the axis of a form does not have as many indices as there are scales.
     pub(crate) fn check(&self, form: &Form) -> Result<(), String> {
         let count = self.scales.len();
         if count == 1 {
@@ -47,7 +47,7 @@ impl Scales {
         }
     }
 
-    /// The scale and the zero point of the value at a place.
+    /// Returns the scale and the zero point of the value at memory index `place`.
     #[allow(clippy::cast_precision_loss, reason = "a zero point is an 8-bit value")]
     #[inline(always)]
     pub(crate) fn of(&self, form: &Form, place: usize) -> (f32, f32) {
@@ -66,7 +66,7 @@ impl Scales {
     }
 }
 
-/// To 8-bit values.
+/// Quantizes floating-point values to 8-bit values.
 #[derive(Clone, Debug)]
 pub(crate) struct Quantize {
     pub(crate) scales: Scales,
@@ -103,7 +103,7 @@ impl Operator for Quantize {
     }
 }
 
-/// To floating-point values.
+/// Dequantizes integers to floating-point values.
 #[derive(Clone, Debug)]
 pub(crate) struct Dequantize(pub(crate) Scales);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums, products, means and joints of 8-bit values with scales of their own, as onnxruntime defines them.
+//! Sums, products, means and concatenations of 8-bit values in which each tensor has a separate
+//! scale, as onnxruntime defines them.
 
 use super::sums::{Outcome, rounded};
 use super::{Arithmetic, Binary, Concat, Job, Operator, Pool, Table, of_bytes, only, values_of};
@@ -12,7 +13,7 @@ use crate::values::Byte;
 /// The sum or the product of two tensors.
 #[derive(Clone, Debug)]
 pub(crate) struct QuantizedBinary {
-    /// What is added or multiplied, and how it fits together.
+    /// The operation, its operands and the broadcasting.
     pub(crate) binary: Binary,
     pub(crate) from: [Encoding; 2],
     pub(crate) to: Encoding,
@@ -44,7 +45,7 @@ impl Operator for QuantizedBinary {
                     T::of_sum((i32::from(x) - a.zero) * (i32::from(y) - b.zero), factor, to.zero)
                 });
             }
-            // There are no others: see `read::quantized`.
+            // `read::quantized` makes no other operation than products and sums.
             _ => self.binary.lines(job, |x: T, y: T| {
                 let real = |value: T, of: Encoding| (i32::from(value) - of.zero) as f32 * of.scale;
                 rounded::<T>((real(x, a) + real(y, b)) / to.scale, to.zero)
@@ -148,11 +149,11 @@ impl Operator for QuantizedMean {
     }
 }
 
-/// Tensors one behind the other, each brought to the scale of the output.
+/// The concatenation of tensors, each requantized to the scale of the output.
 #[derive(Clone, Debug)]
 pub(crate) struct QuantizedConcat {
     pub(crate) concat: Concat,
-    /// One per input.
+    /// The requantization table of each input.
     pub(crate) tables: Vec<Table>,
     pub(crate) to: Encoding,
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One value of all along some axes: global pooling, sums and norms, and where the largest value is.
+//! Reductions of axes to a single value: global pooling, sums and norms, and the index of the
+//! largest value.
 
 use super::reduced::Reduced;
 use super::{Job, Operator};
@@ -13,16 +14,17 @@ pub(crate) enum Reduction {
     Max,
     Min,
     Sum,
-    /// The sum of all distances from 0.
+    /// The sum of the absolute values.
     L1,
-    /// The root of the sum of all squares.
+    /// The square root of the sum of the squares.
     L2,
     SumSquare,
     Prod,
 }
 
 impl Reduction {
-    /// In double precision, so that a sum over a large picture is as good as over a small one.
+    /// Reduces the values in double precision, so that a sum over a large frame is as exact as one
+    /// over a small frame.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_precision_loss,
@@ -78,12 +80,12 @@ impl Operator for Reduce {
     }
 }
 
-/// The place of the largest value along an axis, or of the lowest.
+/// The index of the largest or the lowest value along an axis.
 #[derive(Clone, Debug)]
 pub(crate) struct ArgMax {
     pub(crate) over: Reduced,
     pub(crate) is_lowest: bool,
-    /// Of several that are as large, the last.
+    /// True if the last of several equal values is taken, false if the first is.
     pub(crate) is_last: bool,
 }
 

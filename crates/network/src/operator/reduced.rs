@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Axes of which one element is left.
+//! The axes that a reduction removes or leaves with length 1.
 
 use super::places::aligned;
 use super::{Job, only};
@@ -9,9 +9,9 @@ use crate::values::Number;
 
 #[derive(Clone, Debug)]
 pub(crate) struct Reduced {
-    /// In order, each once.
+    /// The reduced axes in ascending order, each once.
     pub(crate) axes: Vec<usize>,
-    /// Whether they stay, of length 1.
+    /// True if the reduced axes stay in the output with length 1.
     pub(crate) keep: bool,
 }
 
@@ -37,7 +37,8 @@ impl Reduced {
         })
     }
 
-    /// The axis of the output that one of the input becomes.
+    /// Returns the axis of the output that an axis of the input becomes. For a reduced axis this is
+    /// `None` unless `is_kept`.
     fn place(&self, axis: usize, is_kept: bool) -> Option<usize> {
         let before = self.axes.iter().filter(|&&own| own < axis).count();
         match (self.axes.contains(&axis), self.keep) {
@@ -51,7 +52,8 @@ impl Reduced {
         aligned(input, output, |axis| self.place(axis, false))
     }
 
-    /// Where the values of each output begin, and how far from there each stretch of neighbors is that is reduced, and their number.
+    /// Returns the offsets, from the first value of an output, of the runs of neighboring values
+    /// that are reduced, and the length of each run.
     fn stretches(&self, form: &Form) -> (Vec<usize>, usize) {
         let (shape, steps) = (form.shape(), form.steps());
         let behind = (0..shape.len()).rev().take_while(|axis| self.axes.contains(axis)).count();
@@ -68,7 +70,7 @@ impl Reduced {
         (offsets, shape[solid..].iter().product())
     }
 
-    /// Fills every output with what is made of its values, which come in stretches and in the order of memory.
+    /// Fills every output from its values. `of` gets them as runs in the order of memory.
     pub(super) fn fill<Y: Number>(
         &self,
         job: Job<'_>,
@@ -76,7 +78,7 @@ impl Reduced {
     ) {
         let (values, input) = (job.inputs[0].values::<f32>(), job.inputs[0].form());
         let (offsets, solid) = self.stretches(input);
-        // The output with the axes that are reduced, of length 1.
+        // The form has the shape of the output before reduced axes are dropped, each with length 1.
         let steps = input.steps();
         let whole = (0..input.shape().len()).map(|axis| match self.axes.contains(&axis) {
             true => (1, 0),

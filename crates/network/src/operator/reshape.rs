@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The same values in another shape.
+//! Reshaping: the values of a tensor in another shape.
 
 use super::places::{aligned, all_if};
 use super::{Job, Operator, Products, moved, only};
@@ -8,10 +8,11 @@ use crate::form::{Form, elements_of};
 use crate::mask::Mask;
 use std::ops::Range;
 
-/// The same values, in the same order, in another shape.
+/// The values of a tensor, in the same order, in another shape.
 #[derive(Clone, Debug)]
 pub(crate) struct Reshape {
-    /// As ONNX says it: 0 for the input's own length, -1 for what is left.
+    /// The shape as ONNX defines it: 0 is the length of the input's axis, and -1 is the length that
+    /// is left.
     pub(crate) shape: Vec<i64>,
 }
 
@@ -35,7 +36,7 @@ impl Operator for Reshape {
         if (form.height(), form.width()) == (output.height(), output.width()) {
             return mask.clone();
         }
-        // Positions stand in the same order in memory.
+        // Positions have the same order in memory before and after.
         let (own, new) = (form.width(), output.width());
         Mask::from_fn(output.height(), new, |x, y| {
             let at = y * new + x;
@@ -75,7 +76,8 @@ impl Reshape {
     }
 }
 
-/// The axes that hold all positions of an input, behind as many values as before: the same ones, else one axis, else two.
+/// Returns the axes that hold all positions of an input behind the same number of values as before:
+/// first the same lengths, otherwise one axis, otherwise two axes.
 fn positions(input: &Form, shape: &[usize]) -> Option<Range<usize>> {
     let own = &input.shape()[input.axes()];
     let before: usize = input.shape()[..input.axes().start].iter().product();
@@ -91,7 +93,7 @@ fn positions(input: &Form, shape: &[usize]) -> Option<Range<usize>> {
         .or_else(|| find(2, &holds_all))
 }
 
-/// The same values as features, for an operator that sees rows and columns.
+/// A tensor of four axes as features, for an operator that sees rows and columns.
 #[derive(Clone, Debug)]
 pub(crate) struct Placed;
 
@@ -99,7 +101,7 @@ impl Placed {
     /// The axes that are rows and columns of features.
     const AXES: Range<usize> = 2..4;
 
-    /// Whether a form is one that becomes features.
+    /// Returns true if a tensor of this form must become features first.
     pub(crate) fn takes(form: &Form) -> bool {
         form.shape().len() == 4 && form.shape()[0] == 1 && form.axes() != Self::AXES
     }
@@ -127,7 +129,7 @@ impl Operator for Placed {
     }
 }
 
-/// The values of the input where they are.
+/// Copies the values of the input to the same memory indices of the output.
 fn copy(job: Job<'_>) {
     let inputs = job.inputs;
     typed!(job.form.encoding().element, T => {

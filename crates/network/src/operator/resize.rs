@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Features of another height and width.
+//! Resizing of features to another height and width.
 
 use super::{Job, Operator, features, moved, only, wanted};
 use crate::element::{Element, Encoding, typed};
@@ -11,25 +11,27 @@ use crate::values::Number;
 pub(crate) enum ResizeKind {
     Nearest(Nearest),
     Linear,
-    /// Of four inputs along each axis. Those outside are the nearest inside, or do not count.
+    /// Interpolation of four inputs along each axis. Inputs outside of the border are replaced by
+    /// the nearest inside, or do not count if `is_inside_only`.
     Cubic {
         a: f32,
         is_inside_only: bool,
     },
 }
 
-/// How a coordinate becomes a whole one.
+/// The rounding of a coordinate to an input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Nearest {
     RoundPreferFloor,
     RoundPreferCeil,
     Floor,
     Ceil,
-    /// Down where the output is larger, up where it is smaller: before version 11.
+    /// Rounds down if the output is larger, and up if it is smaller, as before version 11 of the
+    /// operators.
     Simple,
 }
 
-/// Where an output lies in the input, by the names of ONNX.
+/// The mapping of output coordinates to input coordinates, with the names of ONNX.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Coordinates {
     HalfPixel,
@@ -45,14 +47,15 @@ pub(crate) struct Resize {
     pub(crate) size: Size,
 }
 
-/// Rows and columns of the output, as ONNX says them.
+/// The rows and columns of the output, either as scales or as lengths.
 #[derive(Clone, Debug)]
 pub(crate) enum Size {
     Scales([f32; 2]),
     Sizes([usize; 2]),
 }
 
-/// What an output takes along one axis: up to four inputs with their shares, of which there are two where only the second has one.
+/// The inputs of an output along one axis, up to four, with their weights. One tap has weights of 0
+/// that are not used; two taps have weights that are 0 from the third on.
 #[derive(Clone, Copy, Debug)]
 struct Taps {
     at: [usize; 4],
@@ -60,12 +63,12 @@ struct Taps {
 }
 
 impl Taps {
-    /// One input.
+    /// One input with its index, without weights.
     fn one(at: usize) -> Self {
         Self { at: [at; 4], shares: [0.0; 4] }
     }
 
-    /// Two inputs, and the share of the second.
+    /// Two inputs, with `share` as the weight of the second.
     fn two(first: usize, second: usize, share: f32) -> Self {
         Self { at: [first, second, first, second], shares: [1.0 - share, share, 0.0, 0.0] }
     }
@@ -76,7 +79,8 @@ impl Taps {
     }
 }
 
-/// The shares of four neighbors for a place so far behind the second, as R. Keys has them (1981).
+/// Returns the weights of four neighbors in cubic convolution interpolation (R. Keys, 1981) for a
+/// coordinate that is `behind` after the second.
 fn cubic(a: f32, behind: f32) -> [f32; 4] {
     let near = |d: f32| ((a + 2.0) * d - (a + 3.0)) * d * d + 1.0;
     let far = |d: f32| ((a * d - 5.0 * a) * d + 8.0 * a) * d - 4.0 * a;
@@ -211,14 +215,15 @@ impl Operator for Resize {
     }
 }
 
-/// The sum of inputs by their shares.
+/// Returns the weighted sum of inputs.
 #[inline(always)]
 fn sum(taps: &Taps, of: impl Fn(usize) -> f32) -> f32 {
     taps.at.iter().zip(taps.shares).map(|(&at, share)| share * of(at)).sum()
 }
 
 impl Resize {
-    /// Every output, from the plane of its channel, whose rows are so long, and its taps.
+    /// Fills every output. `of` takes the plane of the channel, the length of its rows, and the
+    /// taps of the row and of the column.
     fn fill<T: Number>(&self, job: Job<'_>, of: impl Fn(&[T], usize, &Taps, &Taps) -> T + Sync) {
         let (inputs, form) = (job.inputs, job.form);
         let (height, width) = (inputs[0].form().height(), inputs[0].form().width());
@@ -240,7 +245,8 @@ impl Resize {
     }
 }
 
-/// A value between two, the first where the share of the second is 0, whatever the second is.
+/// Interpolates between two values. If the share of the second is 0 the result is the first, even
+/// if the second is infinite or NaN.
 #[inline(always)]
 fn between(first: f32, second: f32, share: f32) -> f32 {
     if share == 0.0 { first } else { first + (second - first) * share }

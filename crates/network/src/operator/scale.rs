@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A factor and an offset per channel: batch normalization after training.
+//! A factor and an offset per channel, which is batch normalization after training.
 
 use super::{Job, Operator, only};
 use crate::form::Form;
@@ -11,7 +11,7 @@ pub(crate) struct Scale {
 }
 
 impl Scale {
-    /// `scale * (x - mean) / sqrt(variance + epsilon) + bias`.
+    /// Returns the factors and offsets of `scale * (x - mean) / sqrt(variance + epsilon) + bias`.
     pub(crate) fn normalization(
         scale: &[f32],
         bias: &[f32],

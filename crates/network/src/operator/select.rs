@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Comparisons, whose results are 0 and 1, and choices by them.
+//! Comparisons, whose results are 0 and 1, and selection by them.
 
 use super::arithmetic::{broadcast, repeated, together};
 use super::{Job, Operator, wanted};
@@ -16,11 +16,11 @@ pub(crate) enum Comparison {
     LessOrEqual,
 }
 
-/// Whether the first value of two is as a comparison says.
+/// The comparison of two tensors, value by value; the result is 1 where it holds.
 #[derive(Clone, Debug)]
 pub(crate) struct Compare(pub(crate) Comparison);
 
-/// The shape of all inputs together.
+/// Returns the form of all inputs broadcast together.
 fn form(inputs: &[&Form]) -> Result<Form, String> {
     let mut shape = Vec::new();
     for input in inputs {
@@ -65,7 +65,7 @@ impl Operator for Compare {
     }
 }
 
-/// The second value where the first is not 0, else the third.
+/// Selection: the second input where the first is not 0, and the third elsewhere.
 #[derive(Clone, Debug)]
 pub(crate) struct Select;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Exponentials as shares of their sum.
+//! Softmax and its logarithm.
 
 use super::places::aligned;
 use super::sums::rounded;
@@ -10,24 +10,24 @@ use crate::mask::Mask;
 use crate::threads;
 use crate::values::Byte;
 
-/// Along one axis, or over all axes from one on.
+/// Softmax along one axis, or over all axes from one on.
 #[derive(Clone, Debug)]
 pub(crate) struct Softmax {
     pub(crate) axis: i64,
     pub(crate) is_to_end: bool,
-    /// The logarithm of the shares.
+    /// True for the logarithm of the softmax.
     pub(crate) is_logarithm: bool,
 }
 
 impl Softmax {
-    /// Values that are shares of one sum, and how far apart they are.
+    /// Returns the number of values that share a sum, and their stride.
     fn line(&self, form: &Form) -> (usize, usize) {
         let axis = form.axis(self.axis).expect("the form has it");
         let behind = form.shape()[axis + 1..].iter().product();
         if self.is_to_end { (form.shape()[axis] * behind, 1) } else { (form.shape()[axis], behind) }
     }
 
-    /// The places of the output at which sums are wanted begin, for as many as follow each other.
+    /// Computes the softmax of the values of one sum, which are `step` apart.
     fn shares(&self, from: &[f32], to: &mut [f32], step: usize) {
         let values = || from.iter().step_by(step);
         let most = values().fold(f32::NEG_INFINITY, |most, &value| most.max(value));
@@ -42,7 +42,7 @@ impl Softmax {
         }
     }
 
-    /// The positions of the output that depend on changed ones.
+    /// Returns the positions of the output that depend on changed positions of the input.
     fn dependent(&self, inputs: &[(&Form, &Mask)], output: &Form) -> Mask {
         let axis = output.axis(self.axis).expect("the form has it");
         aligned(inputs[0], output, |own| {
@@ -74,7 +74,7 @@ impl Operator for Softmax {
     }
 }
 
-/// The same of 8-bit values.
+/// The softmax of 8-bit values.
 #[derive(Clone, Debug)]
 pub(crate) struct QuantizedSoftmax {
     pub(crate) softmax: Softmax,

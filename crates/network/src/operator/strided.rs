@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tensors that are an input read in other steps: its axes in another order, or repeated.
+//! Tensors that read an input with other strides: transposed or broadcast.
 
 use super::places::aligned;
 use super::{Job, Operator, moved, only};
@@ -8,7 +8,7 @@ use crate::form::Form;
 use crate::mask::Mask;
 use crate::values::Number;
 
-/// Fills the output with the values that are so many steps apart along each of its axes.
+/// Fills the output with values of the input at these strides, one for each axis of the output.
 fn read<T: Number>(job: Job<'_>, steps: &[usize]) {
     let (values, form) = (job.inputs[0].values::<T>(), job.form);
     let line = form.shape().last().copied().unwrap_or(1);
@@ -32,15 +32,15 @@ fn read<T: Number>(job: Job<'_>, steps: &[usize]) {
     });
 }
 
-/// The axes in another order.
+/// A permutation of the axes.
 #[derive(Clone, Debug)]
 pub(crate) struct Transpose {
-    /// For each axis of the output, that of the input.
+    /// The axis of the input for each axis of the output.
     pub(crate) order: Vec<usize>,
 }
 
 impl Transpose {
-    /// The axis of the output that an axis of the input becomes.
+    /// Returns the axis of the output that an axis of the input becomes.
     fn place(&self, axis: usize) -> Option<usize> {
         self.order.iter().position(|&from| from == axis)
     }
@@ -63,7 +63,8 @@ impl Operator for Transpose {
         places.sort_unstable();
         Ok(match *places.as_slice() {
             [first, second] if first + 1 == second => Form::at(shape, first..first + 2),
-            // Far from each other, the one that has more elements stays.
+            // If the axes of positions become separated, only the longer one remains an axis of
+            // positions.
             [first, second] => {
                 let longest = if shape[first] > shape[second] { first } else { second };
                 Form::at(shape, longest..longest + 1)
@@ -88,7 +89,7 @@ impl Operator for Transpose {
     }
 }
 
-/// A tensor that is repeated along axes in which it has one element, and along new axes in front.
+/// A tensor that is broadcast: repeated along axes of one element, and along new axes in front.
 #[derive(Clone, Debug)]
 pub(crate) struct Expand {
     pub(crate) shape: Vec<usize>,

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What becomes of exact sums of products of 8-bit values.
+//! Requantization: the conversion of exact sums of products of 8-bit values to outputs.
 
 use crate::element::Encoding;
 use crate::values::{Byte, Number};
 
-/// The last steps of a sum: a bias per channel is added, and the sum is brought to the output's scale.
+/// The last steps of a sum: the bias of its channel is added, and the sum is scaled to the output.
 #[derive(Clone, Debug)]
 pub(crate) struct Sums {
-    /// One per channel, or none.
+    /// One bias per channel, or empty.
     pub(crate) bias: Vec<i32>,
-    /// Steps of the output per step of the sum: one for all channels, or one for each. Sums that stay sums have none.
+    /// The quantization steps of the output per step of the sum: one factor for all channels, or
+    /// one per channel. Sums that remain sums do not use it.
     pub(crate) factors: Vec<f32>,
     pub(crate) to: Encoding,
 }
 
 impl Sums {
-    /// Sums that stay 32-bit integers.
+    /// Returns the conversion for sums that remain 32-bit integers.
     pub(crate) fn kept() -> Self {
         Self {
             bias: Vec::new(),
@@ -24,7 +25,8 @@ impl Sums {
         }
     }
 
-    /// The output of a channel. Sums beyond 32 bits wrap around, so that their order does not matter.
+    /// Returns the output of a channel. Sums beyond 32 bits wrap around, so that the order of
+    /// additions does not matter.
     #[inline(always)]
     pub(crate) fn finish<Y: Outcome>(&self, channel: usize, sum: i32) -> Y {
         let bias = if self.bias.is_empty() { 0 } else { self.bias[channel] };
@@ -37,7 +39,7 @@ impl Sums {
     }
 }
 
-/// A value that can be made of a sum.
+/// A type of outputs that a sum can be converted to.
 pub(crate) trait Outcome: Number {
     fn of_sum(sum: i32, factor: f32, zero: i32) -> Self;
 }
@@ -71,11 +73,13 @@ impl Outcome for f32 {
     }
 }
 
-/// The nearest step, an even one where two are as near, as far as there are steps. NaN becomes 0.
+/// Returns the 8-bit value for a number of quantization steps from the zero point. Halves are
+/// rounded to even, and results saturate. NaN becomes 0.
 #[inline(always)]
 pub(crate) fn rounded<Y: Byte>(steps: f32, zero: i32) -> Y {
-    // Further than any zero point reaches. From 2^23 to 2^24 floating-point values are integers, so that an addition rounds as is wanted: on
-    // every processor, and without a call.
+    // `FAR` is beyond the reach of any zero point. `WHOLE` lies between 2^23 and 2^24, where
+    // floating-point values are integers, so that an addition rounds halves to even on every
+    // processor without a function call.
     const FAR: f32 = 1024.0;
     const WHOLE: f32 = 12_582_912.0;
     #[allow(clippy::cast_possible_truncation, reason = "it is an integer of few bits")]

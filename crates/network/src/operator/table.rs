@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Functions of one 8-bit value: what each of the 256 values becomes.
+//! Functions of one 8-bit value as tables of 256 entries.
 
 use super::sums::rounded;
 use super::{Activation, Job, Operator, only};
@@ -10,19 +10,19 @@ use crate::values::Byte;
 #[derive(Clone, Debug)]
 pub(crate) struct Table {
     from: Element,
-    /// What the output stands for, if it is not what the input stood for.
+    /// The encoding of the output, or `None` if it is that of the input.
     to: Option<Encoding>,
-    /// What the lowest value becomes, then the next.
+    /// The results in the order of the input values, from the lowest.
     values: Vec<i32>,
 }
 
 impl Table {
-    /// A function of the stored values.
+    /// Returns the table of a function of stored values.
     pub(crate) fn of_stored(element: Element, of: impl Fn(i32) -> i32) -> Self {
         Self { from: element, to: None, values: range(element).map(of).collect() }
     }
 
-    /// An activation of the numbers that the values stand for.
+    /// Returns the table of an activation of the real numbers that the values stand for.
     #[allow(clippy::cast_precision_loss, reason = "a difference of 8-bit values")]
     pub(crate) fn of_reals(from: Encoding, to: Encoding, activation: Activation) -> Self {
         let of = |value: i32| {
@@ -32,7 +32,7 @@ impl Table {
         Self { from: from.element, to: Some(to), values: range(from.element).map(of).collect() }
     }
 
-    /// What some values become.
+    /// Maps some values through the table.
     #[inline(always)]
     pub(super) fn apply<X: Byte, Y: Byte>(&self, from: &[X], to: &mut [Y]) {
         for (to, &from) in to.iter_mut().zip(from) {
@@ -40,7 +40,7 @@ impl Table {
         }
     }
 
-    /// How the output is stored.
+    /// Returns the encoding of the output for an input with this encoding.
     pub(super) fn encoding_of(&self, input: Encoding) -> Result<Encoding, String> {
         if input.element == self.from {
             Ok(self.to.unwrap_or(input))
@@ -50,7 +50,7 @@ impl Table {
     }
 }
 
-/// All values from the lowest on.
+/// Returns the range of all values.
 fn range(element: Element) -> std::ops::RangeInclusive<i32> {
     let (lowest, highest) = element.range();
     lowest..=highest

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Transposed convolution: every input is spread over a window of outputs.
 //!
-//! Outputs whose places have the same remainder by the stride see the same taps. Each such phase is a convolution of its own, over the input as
-//! it is, and sums in that one's order.
+//! Outputs whose positions have the same remainder by the stride see the same taps. Each such phase
+//! is a convolution over the unchanged input, and its products are summed in the order of that
+//! convolution.
 
 use super::{Activation, Job, Operator, Products, features, only, values_of};
 use crate::form::Form;
@@ -13,29 +14,30 @@ use foveate_lanes::Level;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-/// How inputs are spread along one axis: input `i` reaches the outputs `i * stride - before + k * dilation`.
+/// The window of a transposed convolution along one axis: input `i` reaches the outputs
+/// `i * stride - before + k * dilation`, for `k` from 0 to `kernel - 1`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Reach {
     pub(crate) kernel: usize,
     pub(crate) stride: usize,
     pub(crate) dilation: usize,
-    /// Outputs that are cut off in front.
+    /// The number of outputs that are cut off at the front.
     pub(crate) before: usize,
     pub(crate) outputs: usize,
 }
 
-/// Outputs with one remainder along an axis.
+/// The outputs with one remainder by the stride along an axis.
 #[derive(Clone, Copy, Debug)]
 struct Phase {
     remainder: usize,
     window: Window,
-    /// The tap that meets the first input, and from there to the next one.
+    /// The tap that meets the first input, and the distance to the tap that meets the next one.
     last: usize,
     step: usize,
 }
 
 impl Reach {
-    /// The phases that have taps.
+    /// Returns the phases that have taps.
     fn phases(self) -> Vec<Phase> {
         let mut taps: BTreeMap<usize, Vec<usize>> = BTreeMap::new();
         for tap in 0..self.kernel {
@@ -56,7 +58,7 @@ impl Reach {
         taps.into_iter().map(phase).collect()
     }
 
-    /// The inputs that each output sees, from a first to a last.
+    /// Returns the range of inputs that each output sees, as the first and the last input.
     fn seen(self, inputs: usize) -> Vec<(usize, usize)> {
         let Self { kernel, stride, dilation, before, outputs } = self;
         let range = |output: usize| {
@@ -70,7 +72,7 @@ impl Reach {
         (0..outputs).map(range).collect()
     }
 
-    /// The outputs that each input reaches, from a first to a last.
+    /// Returns the range of outputs that each input reaches, as the first and the last output.
     fn reached(self, inputs: usize) -> Vec<(usize, usize)> {
         let range = |input: usize| {
             let first = (input * self.stride).saturating_sub(self.before);
@@ -81,12 +83,12 @@ impl Reach {
         (0..inputs).map(range).collect()
     }
 
-    /// Outputs of a phase, counted from before those that are cut off.
+    /// Returns the number of outputs of a phase, including those that are cut off at the front.
     fn count(self, phase: Phase) -> usize {
         (self.outputs + self.before).saturating_sub(phase.remainder).div_ceil(self.stride)
     }
 
-    /// The output that one of a phase is, unless it is cut off.
+    /// Returns the index of an output of a phase among all outputs, unless it is cut off.
     fn output(self, phase: Phase, at: usize) -> Option<usize> {
         (at * self.stride + phase.remainder).checked_sub(self.before)
     }
@@ -101,14 +103,15 @@ pub(crate) struct TransposedConv {
     inputs: usize,
     level: Level,
     bias: Vec<f32>,
-    /// With the weights of each group.
+    /// The phases along rows and columns, with the packed weights of each group.
     phases: Vec<([Phase; 2], Vec<Weights>)>,
     finish: Activation,
     weight_bytes: u64,
 }
 
 impl TransposedConv {
-    /// With weights of the shape `[inputs, channels per group, rows, columns]`.
+    /// Returns the transposed convolution with weights of the shape
+    /// `[inputs, channels per group, rows, columns]`.
     pub(crate) fn new(
         shape: &[usize],
         weights: &[f32],
@@ -164,7 +167,7 @@ impl TransposedConv {
         })
     }
 
-    /// Computes the outputs of a phase where they are wanted.
+    /// Computes the needed outputs of a phase.
     fn convolve(&self, job: &mut Job<'_>, [y, x]: [Phase; 2], weights: &[Weights]) {
         let (height, width) = (self.rows.count(y), self.columns.count(x));
         let output = |row: usize, column: usize| {
@@ -227,7 +230,7 @@ impl Operator for TransposedConv {
     }
 
     fn compute(&self, mut job: Job<'_>) {
-        // An output that no input reaches is its bias.
+        // Outputs that no input reaches are set to their bias.
         if self.phases.len() < self.rows.stride * self.columns.stride {
             let places = job.form.places();
             let planes = values_of::<f32>(job.output, job.form).chunks_mut(places);
