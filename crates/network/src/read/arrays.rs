@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Networks that are read for arrays, one for each input.
+//! Networks that are read for arrays, with one array for each input.
 
 use super::constant::Constant;
 use super::graph::{InputSource, ProblemPolicy};
@@ -23,7 +23,7 @@ pub(crate) struct ArrayNetwork {
 /// An output of a network.
 struct ArrayOutput {
     name: String,
-    /// Its type, if the model says it.
+    /// The declared type, if the model declares one.
     kind: Option<i32>,
     known: Known,
 }
@@ -45,7 +45,8 @@ pub(crate) fn read_for_arrays(
 }
 
 impl ArrayNetwork {
-    /// The outputs, of which an executor has computed those that are not constant.
+    /// Returns the outputs. Those that are not constant are taken from an executor, which has
+    /// computed them.
     pub(crate) fn outputs(
         &self,
         executor: &Executor<'_>,

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The attributes of a node, and which of them were looked at.
+//! The attributes of a node, with a record of which were read.
 
 use crate::onnx::{AttributeProto, NodeProto};
 use std::cell::RefCell;
 
-/// The attributes of a node. One that nobody looks at may mean something that is not computed, so each look is noted.
+/// The attributes of a node. An attribute that no reader asks for may change what the node
+/// computes, so each access is recorded.
 pub(super) struct NodeAttributes<'a> {
     node: &'a NodeProto,
-    /// Which were looked at, in the order of the node.
+    /// True for each attribute that was read, in the order of the node.
     read: RefCell<Vec<bool>>,
 }
 
@@ -20,14 +21,14 @@ impl<'a> NodeAttributes<'a> {
         self.node
     }
 
-    /// An attribute by its name, which counts as looked at.
+    /// Returns an attribute by its name, and records it as read.
     pub(super) fn get(&self, name: &str) -> Option<&'a AttributeProto> {
         let at = self.node.attribute.iter().position(|own| own.name.as_deref() == Some(name))?;
         self.read.borrow_mut()[at] = true;
         Some(&self.node.attribute[at])
     }
 
-    /// The attributes that nobody has looked at.
+    /// Returns the attributes that were not read.
     pub(super) fn not_read(&self) -> impl Iterator<Item = &'a AttributeProto> {
         let read = self.read.borrow().clone();
         self.node.attribute.iter().zip(read).filter(|(_, read)| !read).map(|(own, _)| own)

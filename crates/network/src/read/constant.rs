@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Constants of a model.
+//! Constant tensors of a model.
 
 use super::constant_values::ConstantValues;
 use super::decode::{decode, unpacked};
@@ -15,7 +15,7 @@ use crate::values::Number;
 pub(super) struct Constant {
     pub(super) shape: Vec<usize>,
     pub(super) values: ConstantValues,
-    /// Its type, a number of `data_type`.
+    /// The element type, a number of `data_type`.
     pub(super) kind: i32,
 }
 
@@ -28,7 +28,8 @@ impl Constant {
         Self { shape, values: ConstantValues::Floats(values), kind: data_type::FLOAT }
     }
 
-    /// Decodes a tensor. Memory grows with the data that is there, not with what the shape claims.
+    /// Decodes a tensor. Its memory grows with the data that are present, not with what the shape
+    /// claims.
     pub(super) fn read(tensor: &TensorProto, folder: &ModelFolder) -> Result<Self, String> {
         let length = |&length: &i64| {
             usize::try_from(length).map_err(|_| format!("its shape has a length of {length}"))
@@ -51,7 +52,7 @@ impl Constant {
         Ok(Self { shape, values, kind })
     }
 
-    /// The values of a tensor as they are stored.
+    /// Returns the stored values of a tensor as a constant.
     pub(super) fn of_tensor(tensor: &Tensor) -> Self {
         fn integers<T: Number + Into<i64>>(tensor: &Tensor) -> ConstantValues {
             ConstantValues::Integers(
@@ -67,7 +68,8 @@ impl Constant {
         Self { shape: tensor.form().shape().to_vec(), values, kind }
     }
 
-    /// The message of its values as a type, in bytes; floating-point ones have 32 bits, whatever the type.
+    /// Encodes the values as `raw_data` of an element type. Floating-point values have 32 bits,
+    /// whatever the type.
     pub(super) fn encode(&self, kind: i32) -> Result<TensorProto, String> {
         let own = self.cast(kind)?;
         let (bytes, kind) = match &own.values {
@@ -96,12 +98,12 @@ impl Constant {
         })
     }
 
-    /// The type in which tensors store its values, if there is one.
+    /// The type in which tensors store the values, if there is one.
     pub(super) fn element(&self) -> Option<Element> {
         element(self.kind)
     }
 
-    /// The same values as a type, as `Cast` has it.
+    /// Converts the values to another type, as `Cast` of ONNX defines it.
     pub(super) fn cast(&self, kind: i32) -> Result<Self, String> {
         #[allow(clippy::cast_precision_loss, reason = "a cast rounds")]
         let float = |&value: &i64| value as f32;
@@ -132,7 +134,7 @@ impl Constant {
         Ok(Self { shape: self.shape.clone(), values, kind })
     }
 
-    /// How many values are infinite or no numbers.
+    /// The number of values that are infinite or NaN.
     pub(super) fn not_finite(&self) -> usize {
         match &self.values {
             ConstantValues::Floats(values) => {
@@ -142,7 +144,7 @@ impl Constant {
         }
     }
 
-    /// Its values as integers.
+    /// Returns the values as integers, and fails if they are not integers.
     pub(super) fn as_integers(&self) -> Result<&[i64], String> {
         match &self.values {
             ConstantValues::Integers(values) => Ok(values),
@@ -153,7 +155,8 @@ impl Constant {
         }
     }
 
-    /// Its values as weights, of which there are some.
+    /// Returns the values as weights, and fails if they are not floating-point values or if there
+    /// are none.
     pub(super) fn as_weights(&self) -> Result<&[f32], String> {
         let values = self.as_floats()?;
         if values.is_empty() {
@@ -163,7 +166,8 @@ impl Constant {
         }
     }
 
-    /// Its only value, as one of a tensor of these.
+    /// Returns the only value as a tensor of this type, and fails if there is not exactly one value
+    /// of the type.
     pub(super) fn single(&self, wanted: Element) -> Result<Tensor, String> {
         if self.element() != Some(wanted) || self.values.count() != 1 {
             let count = self.values.count();
@@ -180,7 +184,8 @@ impl Constant {
         })
     }
 
-    /// Its values as a tensor of the same element; integers of other types are refused.
+    /// Returns the values as a tensor of the same type, and fails for types that tensors cannot
+    /// store.
     pub(super) fn tensor(&self) -> Result<Tensor, String> {
         let element = self.element().ok_or_else(|| {
             format!(
@@ -198,7 +203,7 @@ impl Constant {
         })
     }
 
-    /// Its values as floating-point ones.
+    /// Returns the values as floating-point values, and fails if they are not.
     pub(super) fn as_floats(&self) -> Result<&[f32], String> {
         match &self.values {
             ConstantValues::Floats(values) => Ok(values),
@@ -210,7 +215,7 @@ impl Constant {
     }
 }
 
-/// An integer as one of a type: its lowest bits, or whether it is not 0.
+/// Casts an integer to a type: to its lowest bits, or to 1 for a truth value that is not 0.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "a cast cuts off")]
 fn cut(value: i64, kind: i32) -> i64 {
     match kind {
@@ -222,13 +227,13 @@ fn cut(value: i64, kind: i32) -> i64 {
     }
 }
 
-/// The type of ONNX as one of tensors.
+/// Returns the type in which tensors store values of an ONNX type, if there is one.
 fn element(kind: i32) -> Option<Element> {
     match kind {
         data_type::FLOAT | data_type::DOUBLE | data_type::FLOAT16 | data_type::BFLOAT16 => {
             Some(Element::F32)
         }
-        // Truth values are 0 and 1.
+        // Truth values are stored as 0 and 1.
         data_type::UINT8 | data_type::BOOL => Some(Element::U8),
         data_type::INT8 => Some(Element::I8),
         data_type::INT32 => Some(Element::I32),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The values of a constant.
 
-/// Values of a constant: those of floating point with 32 bits, integers with 64.
+/// The values of a constant: floating-point values of 32 bits, or integers of 64 bits.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum ConstantValues {
     Floats(Vec<f32>),
@@ -16,7 +16,7 @@ impl ConstantValues {
         }
     }
 
-    /// Bytes of a value.
+    /// The bytes of a value.
     pub(super) fn bytes_each(&self) -> u64 {
         match self {
             Self::Floats(_) => 4,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The values of tensors in messages.
+//! Decoding of the values of tensors in messages.
 
 use super::constant_values::ConstantValues;
 use crate::onnx::{TensorProto, data_type};
 
-/// Values from bytes, the lowest first.
+/// Decodes values from bytes in little-endian order.
 pub(super) fn decode(kind: i32, bytes: &[u8]) -> Result<ConstantValues, String> {
     fn each<const N: usize, T>(bytes: &[u8], of: impl Fn([u8; N]) -> T) -> Result<Vec<T>, String> {
         let (values, rest) = bytes.as_chunks::<N>();
@@ -40,7 +40,7 @@ pub(super) fn decode(kind: i32, bytes: &[u8]) -> Result<ConstantValues, String> 
     })
 }
 
-/// Values that are fields of the message.
+/// Returns values that are stored as fields of the message.
 pub(super) fn unpacked(kind: i32, tensor: &TensorProto) -> Result<ConstantValues, String> {
     Ok(match kind {
         data_type::FLOAT => ConstantValues::Floats(tensor.float_data.clone()),
@@ -68,18 +68,18 @@ fn unknown(kind: i32) -> String {
     format!("values of {} are not supported", data_type::name(kind.into()))
 }
 
-/// The lowest 16 bits, which are a value.
+/// Returns the lowest 16 bits, which hold the value.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "what the field holds")]
 fn bits(field: &i32) -> u16 {
     *field as u16
 }
 
-/// A value of 16 bits that is the first half of one of 32.
+/// Converts a bfloat16 value, which is the upper half of a 32-bit value.
 fn brain(bits: u16) -> f32 {
     f32::from_bits(u32::from(bits) << 16)
 }
 
-/// A value of 16 bits: IEEE 754 binary16.
+/// Converts an IEEE 754 binary16 value.
 fn half(bits: u16) -> f32 {
     let (sign, exponent, fraction) = (bits >> 15, bits >> 10 & 31, bits & 1023);
     let fraction = f32::from(fraction);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Arithmetic, comparisons and choices of constants, each repeated where it has one element.
+//! Arithmetic, comparisons and selection of constants, with broadcasting.
 
 use super::constant::Constant;
 use super::constant_values::ConstantValues;
@@ -10,7 +10,7 @@ use crate::operator::{Activation, broadcast};
 
 type Result<T> = std::result::Result<T, String>;
 
-/// A function of every value.
+/// Applies a function of one value to a constant, or returns `None` if the operator is not known.
 pub(super) fn unary(kind: &str, from: &Constant) -> Result<Option<Constant>> {
     let activation = match kind {
         "Abs" => Activation::Abs,
@@ -41,7 +41,8 @@ pub(super) fn unary(kind: &str, from: &Constant) -> Result<Option<Constant>> {
     Ok(Some(Constant { values, ..from.clone() }))
 }
 
-/// A function of two values.
+/// Applies a function of two values to two constants, or returns `None` if the operator is not
+/// known.
 pub(super) fn binary(
     folder: &ModelFolder,
     kind: &str,
@@ -82,7 +83,7 @@ pub(super) fn binary(
     Ok(Some(Constant { shape, values, kind }))
 }
 
-/// An exponent as a power of this base takes it, which may be of another type.
+/// Returns an exponent in the type of the base of its power. The exponent may be of another type.
 pub(super) fn exponent(exponent: &Constant, base: i32) -> Result<Constant> {
     let largest = 1 << f32::MANTISSA_DIGITS;
     if let ConstantValues::Integers(values) = &exponent.values
@@ -135,7 +136,7 @@ fn float(kind: &str, a: f32, b: f32) -> f32 {
     }
 }
 
-/// The second constant where the first is not 0, else the third.
+/// Returns the values of `a` where the condition is not 0, and the values of `b` elsewhere.
 pub(super) fn select(
     folder: &ModelFolder,
     condition: &Constant,
@@ -164,7 +165,7 @@ pub(super) fn select(
     Ok(Constant { shape, values, kind: a.kind })
 }
 
-/// Numbers from a first one to before a last one.
+/// Returns the numbers from a start to before a limit, in steps, as `Range` of ONNX defines it.
 pub(super) fn range(folder: &ModelFolder, inputs: &[&Constant]) -> Result<Constant> {
     let &[start, limit, delta] = inputs else {
         return Err(format!("it has {} inputs, not 3", inputs.len()));
@@ -207,7 +208,7 @@ pub(super) fn range(folder: &ModelFolder, inputs: &[&Constant]) -> Result<Consta
     Ok(Constant::floats(vec![count], values))
 }
 
-/// The shape of all constants together.
+/// Returns the shape of all constants broadcast together.
 fn together(constants: &[&Constant]) -> Result<Vec<usize>> {
     constants.iter().try_fold(Vec::new(), |shape: Vec<usize>, constant| {
         broadcast(&shape, &constant.shape)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Nodes whose outputs are known when the network is read: shapes and what is computed of them.
+//! Constant folding: nodes whose outputs are known when the network is read, such as shapes and
+//! results computed from them.
 
 use super::constant::Constant;
 use super::elementwise;
@@ -10,7 +11,8 @@ use super::rearrange::{filled, gathered, joined, reshaped, sliced, spread, trans
 use crate::form::MAX_AXES;
 use crate::operator::broadcast;
 
-/// The output of a node that only computes with constants; `None` if it is not one of those that are known.
+/// Returns the output of a node that depends only on constants, or `None` if the node is not one
+/// that can be folded.
 pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
     let one = |constant| Ok(Some(constant));
     match node.kind() {
@@ -59,7 +61,7 @@ pub(super) fn fold(node: &NodeReader<'_>) -> Result<Option<Constant>, String> {
     }
 }
 
-/// All inputs, if there are some and all are constant.
+/// Returns all inputs if there are some and all are constant.
 fn constants<'a>(node: &NodeReader<'a>) -> Option<Vec<&'a Constant>> {
     let inputs: Option<Vec<_>> = (0..node.node.input.len())
         .map(|at| match node.input(at) {
@@ -70,7 +72,8 @@ fn constants<'a>(node: &NodeReader<'a>) -> Option<Vec<&'a Constant>> {
     inputs.filter(|inputs| !inputs.is_empty())
 }
 
-/// What a node makes of constants.
+/// Computes the output of a node from constants, or returns `None` if its operator cannot be
+/// folded.
 fn computed(node: &NodeReader<'_>, inputs: &[&Constant]) -> Result<Option<Constant>, String> {
     let first = inputs[0];
     let made = match node.kind() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folder of a model, whose files hold constants, and how much memory constants may still take.
+//! The folder of a model, whose files hold constants, and the memory that constants may still take.
 
 use super::constant_values::ConstantValues;
 use crate::form::elements_of;
@@ -8,18 +8,19 @@ use std::cell::Cell;
 use std::io::{Read as _, Seek as _, SeekFrom};
 use std::path::{Component, Path, PathBuf};
 
-/// The folder of the model, in which data outside of the file must lie.
+/// The folder of a model, in which data outside of the model file must lie.
 pub(super) struct ModelFolder {
     path: PathBuf,
-    /// Bytes of constants that may still be read.
+    /// The bytes of constants that may still be read.
     left: Cell<u64>,
-    /// Bytes of constants that may still be computed.
+    /// The bytes of constants that may still be computed.
     room: Cell<u64>,
 }
 
-/// Bytes of all constants in the files of a model.
+/// The largest number of bytes of all constants in separate files of a model.
 const MAX_BYTES: u64 = 1 << 32;
-/// Bytes of all constants that are computed when a model is read. A few bytes of a file are enough to ask for them.
+/// The largest number of bytes of all constants that are computed when a model is read. It is
+/// limited because a few bytes of a file can ask for a very large constant.
 const MAX_COMPUTED: u64 = 1 << 30;
 
 impl ModelFolder {
@@ -28,14 +29,15 @@ impl ModelFolder {
         Self { path, left: Cell::new(MAX_BYTES), room: Cell::new(MAX_COMPUTED) }
     }
 
-    /// Counts bytes that are to be read.
+    /// Counts bytes that are to be read, and fails if they exceed the limit.
     pub(super) fn charge(&self, bytes: u64) -> Result<(), String> {
         let left = self.left.get().checked_sub(bytes);
         self.left.set(left.ok_or("all constants together have more than 4 GiB")?);
         Ok(())
     }
 
-    /// The number of values of a shape, if there is room for them as a computed constant of this type.
+    /// Returns the number of values of a shape, and fails if there is no room for them as a
+    /// computed constant of this type.
     pub(super) fn check_room(
         &self,
         shape: &[usize],
@@ -52,7 +54,7 @@ impl ModelFolder {
         }
     }
 
-    /// Counts a computed constant, which is kept.
+    /// Counts a computed constant that is kept, and fails if there is no room for it.
     pub(super) fn keep(&self, shape: &[usize], values: &ConstantValues) -> Result<(), String> {
         let count = self.check_room(shape, values)? as u64;
         self.room.set(self.room.get() - count * values.bytes_each());
@@ -60,7 +62,7 @@ impl ModelFolder {
     }
 }
 
-/// The bytes of a tensor in a file of its own, which must lie in the folder of the model.
+/// Reads the bytes of a tensor from a separate file, which must lie in the folder of the model.
 pub(super) fn external(tensor: &TensorProto, folder: &ModelFolder) -> Result<Vec<u8>, String> {
     let entry = |key: &str| {
         tensor

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Activations that the operator before them applies itself.
+//! Fusion of activations with the operators whose outputs they take.
 
 use super::graph::GraphReader;
 use super::names::full_kind;
@@ -9,7 +9,8 @@ use crate::onnx::NodeProto;
 use crate::operator::Activation;
 
 impl GraphReader<'_> {
-    /// Lets the operator just before apply an activation itself, if nobody else wants what it makes.
+    /// Lets the operator of the last node apply an activation, if no other node takes its output.
+    /// Returns the tensor, or `None` if the activation cannot be fused.
     pub(super) fn fuse(
         &mut self,
         kind: &str,
@@ -27,8 +28,9 @@ impl GraphReader<'_> {
         Some(value)
     }
 
-    /// Lets a value times its own `Sigmoid`, which is the last node, be one activation, and the operator before apply it, if nobody else wants
-    /// what it makes.
+    /// Replaces the product of a tensor with its `Sigmoid`, which must be the last node, by one
+    /// activation. The operator of the tensor applies the activation if it can and if no other node
+    /// takes its output. Returns the resulting tensor, or `None` if the node is no such product.
     pub(super) fn swish(&mut self, node: &NodeProto) -> Option<usize> {
         let ([a, b], [_]) = (node.input.as_slice(), node.output.as_slice()) else { return None };
         let value = |name: &str| match self.known.get(name) {

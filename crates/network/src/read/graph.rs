@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The graph of a model, node by node.
+//! Reading of the graph of a model, node by node.
 
 use super::attributes::NodeAttributes;
 use super::constant::Constant;
@@ -21,31 +21,32 @@ use crate::operator::{Fixed, Operator, Placed, Quantize, Scales};
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-/// Where the values of the inputs come from.
+/// The source of the values of the inputs.
 pub(super) enum InputSource<'a> {
-    /// Frames of a size, or of the network's own: one input takes them.
+    /// The only input takes frames of this size, or of the network's size if there is none.
     Frames(Option<FrameSize>),
-    /// Frames of the network's own size, or of this one where it takes any.
+    /// The only input takes frames of the network's size, or of this size if the network takes any.
     Open(FrameSize),
-    /// Arrays, one for each input.
+    /// Each input takes an array.
     Arrays(&'a [TensorProto]),
 }
 
 /// The reaction to a node that cannot be read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ProblemPolicy {
-    /// The reading ends.
+    /// Reading ends with the problem.
     Stop,
-    /// The problem is noted, and nodes that depend on this one are only looked up.
+    /// The problem is recorded, and nodes that depend on this one are only checked for their
+    /// operators and attributes.
     Note,
 }
 
-/// A graph that was read.
+/// The result of reading a graph.
 pub(super) struct GraphResult {
     pub(super) network: Network,
-    /// The outputs in order: values of the network, or constants.
+    /// The outputs in order, each with its name: a tensor of the network, or a constant.
     pub(super) outputs: Vec<(String, Known)>,
-    /// The values of the network's input, if an array is it.
+    /// The values of the network's input, if an array provides them.
     pub(super) picture: Vec<f32>,
     pub(super) problems: Vec<NetworkError>,
 }
@@ -89,7 +90,8 @@ pub(super) fn read(
     Ok(GraphResult { network, outputs, picture: bound.picture, problems })
 }
 
-/// All constants by their names, and those that hold values that are not finite.
+/// All constants by their names, and the names of constants with values that are not finite, with
+/// the number of such values.
 type Constants = (HashMap<String, Known>, Vec<(String, usize)>);
 
 fn constants(graph: &GraphProto, folder: &ModelFolder) -> Result<Constants, NetworkError> {
@@ -107,7 +109,7 @@ fn constants(graph: &GraphProto, folder: &ModelFolder) -> Result<Constants, Netw
     Ok((known, odd))
 }
 
-/// The outputs that are values, with their names.
+/// Returns the outputs that are tensors of the network, with their names.
 fn values_of(outputs: &[(String, Known)]) -> Vec<(String, usize)> {
     let value = |(name, known): &(String, Known)| match known {
         &Known::Value(value) => Some((name.clone(), value)),
@@ -120,19 +122,20 @@ fn values_of(outputs: &[(String, Known)]) -> Vec<(String, usize)> {
 pub(super) struct GraphReader<'a> {
     pub(super) network: Network,
     pub(super) known: HashMap<String, Known>,
-    /// Values of which nothing is known, because a node before them cannot be read.
+    /// The names of tensors that are not known, because a node before them cannot be read.
     unknown: HashSet<String>,
     folder: &'a ModelFolder,
     opset: i64,
     on_problem: ProblemPolicy,
-    /// How often each name is taken.
+    /// The number of uses of each name.
     pub(super) uses: HashMap<&'a str, usize>,
-    /// Values that have a second name.
+    /// The tensors that have a second name.
     pub(super) aliased: HashSet<usize>,
 }
 
 impl GraphReader<'_> {
-    /// Reads all nodes, and returns the problems that are noted. `channels_last` names an input that is read as its transpose.
+    /// Reads all nodes, and returns the recorded problems. `channels_last` names an input whose
+    /// transposition is skipped.
     fn nodes(
         &mut self,
         graph: &GraphProto,
@@ -196,7 +199,7 @@ impl GraphReader<'_> {
         Ok(())
     }
 
-    /// Adds what makes an output of a node, and returns what the output is.
+    /// Adds the operator of an output of a node to the network, and returns the output.
     fn known(&mut self, node: &NodeProto, name: &str, made: Made) -> Result<Known, NetworkError> {
         let kind = node.op_type.clone().unwrap_or_default();
         Ok(match made {
@@ -221,7 +224,8 @@ impl GraphReader<'_> {
         })
     }
 
-    /// Lets a name stand for the input stored as integers of 8 bits.
+    /// Adds a node that stores the input as 8-bit integers, and gives its output the name of the
+    /// input.
     fn store(&mut self, name: &str, element: Element) -> Result<(), NetworkError> {
         let quantize = Arc::new(Quantize { scales: Scales::one(1.0, 0), to: element });
         let value = self.network.push(&format!("{name}/stored"), "Cast", quantize, vec![0])?;
@@ -229,7 +233,8 @@ impl GraphReader<'_> {
         Ok(())
     }
 
-    /// Adds a node behind those that make its inputs what it takes: constants, and features.
+    /// Adds a node behind the nodes that make its constant inputs, and behind those that make its
+    /// inputs features if it takes features.
     fn push(
         &mut self,
         name: &str,
@@ -257,7 +262,7 @@ impl GraphReader<'_> {
         self.network.push(name, kind, operator, inputs)
     }
 
-    /// Lets the only output of a node be a value that there is.
+    /// Makes the only output of a node a second name of a tensor.
     fn same(&mut self, node: &NodeProto, index: usize, value: usize) -> Result<(), NetworkError> {
         let output = &node.output[0];
         self.is_new(output).map_err(|problem| NetworkError::Node {
@@ -270,7 +275,7 @@ impl GraphReader<'_> {
         Ok(())
     }
 
-    /// Refuses a name that something has.
+    /// Fails if a tensor with this name exists.
     fn is_new(&self, output: &str) -> Result<(), String> {
         if !output.is_empty() && self.known.contains_key(output) {
             return Err(format!("its output `{output}` has the name of another tensor"));
@@ -278,7 +283,7 @@ impl GraphReader<'_> {
         Ok(())
     }
 
-    /// What the outputs of a node are.
+    /// Returns the outputs of a node.
     fn made(&self, node: &NodeProto) -> Result<Vec<Made>, String> {
         for input in node.input.iter().filter(|input| !input.is_empty()) {
             if !self.known.contains_key(input) {
@@ -303,7 +308,7 @@ impl GraphReader<'_> {
         Ok(made)
     }
 
-    /// The outputs of the graph.
+    /// Returns the outputs of the graph.
     fn outputs(&self, graph: &GraphProto) -> Result<Vec<(String, Known)>, NetworkError> {
         if graph.output.is_empty() {
             return Err(NetworkError::Network("it has no output".to_owned()));
@@ -319,7 +324,7 @@ impl GraphReader<'_> {
     }
 }
 
-/// How often each name is taken: by nodes, and as an output of the network.
+/// Counts the uses of each name, by nodes and as an output of the graph.
 fn uses(graph: &GraphProto) -> HashMap<&str, usize> {
     let mut uses = HashMap::new();
     let of_nodes = graph.node.iter().flat_map(|node| node.input.iter().map(String::as_str));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The input of a network, and the frames that it is to take.
+//! The input of a network, and its form for the frames or arrays that it takes.
 
 use super::constant::Constant;
 use super::folder::ModelFolder;
@@ -12,19 +12,19 @@ use crate::layout::Layout;
 use crate::onnx::{GraphProto, NodeProto, TensorProto, ValueInfoProto, data_type};
 use std::sync::Arc;
 
-/// Width and height of the frames, for a network that takes any.
+/// The width and height of the frames, for a network that takes frames of any size.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameSize {
-    /// Pixels of a row.
+    /// The pixels of a row.
     pub width: usize,
-    /// Rows.
+    /// The number of rows.
     pub height: usize,
 }
 
-/// What puts the channels first.
+/// The permutation that puts the channels first.
 const CHANNELS_FIRST: [i64; 4] = [0, 3, 1, 2];
 
-/// Whether a node does nothing but to put the channels of a value first.
+/// Returns true if a node does nothing but put the channels of `value` first.
 pub(super) fn puts_channels_first(node: &NodeProto, value: &str) -> bool {
     let order = node.attribute.iter().find(|attribute| attribute.name.as_deref() == Some("perm"));
     is_standard(node.domain.as_deref())
@@ -34,7 +34,7 @@ pub(super) fn puts_channels_first(node: &NodeProto, value: &str) -> bool {
         && order.is_some_and(|order| order.ints == CHANNELS_FIRST)
 }
 
-/// The layout of the input, from its shape and from what takes it.
+/// Returns the layout of the input, derived from its shape and from the nodes that take it.
 fn layout(
     input: &ValueInfoProto,
     lengths: &[Option<usize>],
@@ -61,20 +61,20 @@ fn layout(
     }
 }
 
-/// The inputs of a network, as it is read.
+/// The inputs of a network as they are bound when it is read.
 pub(super) struct InputBinding {
-    /// The form of the input with channels first.
+    /// The form of the input with the channels first.
     pub(super) form: Form,
     pub(super) layout: Layout,
-    /// The names of the inputs, and their values.
+    /// The names of the inputs, each with its tensor or constant.
     pub(super) known: Vec<(String, Known)>,
-    /// The name of the input and how it is stored, if in 8 bits.
+    /// The name of the input and its stored type, if it is stored in 8 bits.
     pub(super) stored: Option<(String, Element)>,
-    /// The values of the input, if they are given.
+    /// The values of the input, if an array provides them.
     pub(super) picture: Vec<f32>,
 }
 
-/// The only input, which takes frames.
+/// Binds the only input, which takes frames.
 pub(super) fn frame_input(
     inputs: &[&ValueInfoProto],
     graph: &GraphProto,
@@ -94,7 +94,8 @@ pub(super) fn frame_input(
     Ok(InputBinding { form, layout, known, stored: None, picture: Vec::new() })
 }
 
-/// An array for each input. The first that the executor can take is the input of the network, the others are constants of it.
+/// Binds one array to each input. The first array that the executor can take becomes the input of
+/// the network, and the others become constants.
 pub(super) fn arrays_of(
     inputs: &[&ValueInfoProto],
     arrays: &[TensorProto],
@@ -139,7 +140,7 @@ pub(super) fn arrays_of(
     Ok(bound)
 }
 
-/// Refuses an array of another type or shape than its input.
+/// Fails if an array has another type or shape than its input.
 fn check_array(input: &ValueInfoProto, array: &TensorProto) -> Result<(), NetworkError> {
     let name = name_of(input);
     let tensor = input.r#type.as_ref().and_then(|of| of.tensor_type.as_ref());
@@ -177,7 +178,8 @@ fn check_array(input: &ValueInfoProto, array: &TensorProto) -> Result<(), Networ
     )))
 }
 
-/// The form of the input with channels first, features of which the size may be open, and the layout in which the model takes it.
+/// Returns the form of the input with the channels first, and the layout in which the model takes
+/// it. `frames` is the size of the frames, and `open` the size for an input of any size.
 fn input_form(
     input: &ValueInfoProto,
     graph: &GraphProto,
@@ -203,7 +205,8 @@ fn input_form(
         .ok_or_else(|| wrong("but it has no shape".to_owned()))?;
     let mut lengths = Vec::new();
     for (axis, dim) in shape.dim.iter().enumerate() {
-        // Without a length, or with -1, as some exporters write it, the axis is open. A length of 0 is one, and no picture has it.
+        // Without a length, or with -1, which some exporters write, the axis has any length. A
+        // length of 0 is a length, but no frame has it.
         let length = dim.dim_value.filter(|&length| length != -1).map(|length| {
             usize::try_from(length).ok().filter(|&length| length > 0).ok_or_else(|| {
                 wrong(format!(

@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the outputs of a node are.
+//! The outputs of a node, as they are read.
 
 use super::constant::Constant;
 use super::node::{Known, Operand};
 use crate::operator::{Activation, Operator};
 use std::sync::Arc;
 
-/// What an output of a node is.
+/// An output of a node.
 pub(super) enum Made {
     Constant(Constant),
-    /// What an input is.
+    /// The output is an input of the node.
     Same(Known),
     Operator(Arc<dyn Operator>, Vec<Operand>),
-    /// An activation of a value, which the operator that makes it may apply itself.
+    /// The output is an activation of a tensor. The operator that makes the tensor may apply it.
     Finish(Activation, usize),
 }
 
-/// One output, which an operator makes of these values.
+/// Returns one output, which an operator makes of these tensors.
 pub(super) fn one(
     operator: impl Operator + 'static,
     inputs: Vec<usize>,
@@ -24,7 +24,7 @@ pub(super) fn one(
     of(operator, inputs.into_iter().map(Operand::Value).collect())
 }
 
-/// One output, which an operator makes of values and constants.
+/// Returns one output, which an operator makes of tensors and constants.
 pub(super) fn of(
     operator: impl Operator + 'static,
     operands: Vec<Operand>,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What it takes at most to hold the messages of a file. An empty message has two bytes in a file and hundreds in memory, so a small file could
-//! ask for all the memory of a machine.
+//! An upper bound of the memory for the messages of a file. An empty message has two bytes in a
+//! file and hundreds in memory, so a small file could ask for all the memory of a machine.
 
 use crate::onnx::{AttributeProto, NodeProto, TensorProto};
 use prost::decode_length_delimiter as varint;
 
-/// Bytes in memory of a field: of the largest message, in a list that grows to twice its length beside what it had.
+/// The bytes in memory of a field: three times those of the largest message, because a list that
+/// grows holds its old values next to twice as many new ones.
 const FIELD: u64 = 1280;
 const fn fits(bytes: usize) -> bool {
     3 * bytes as u64 <= FIELD
@@ -15,12 +16,14 @@ const _: () = assert!(
         && fits(size_of::<NodeProto>())
         && fits(size_of::<TensorProto>())
 );
-/// Bytes in memory for each of a list of integers, which may have one in the file: eight, in a list that grows.
+/// The bytes in memory for each byte of a list of integers in the file. An integer may have one
+/// byte there and has eight in memory, in a list that grows to three times this size.
 const INTEGERS: u64 = 24;
-/// The same for values that have as many bytes in the file.
+/// The bytes in memory for each byte of a list of floating-point values in the file. They have as
+/// many bytes in memory, in a list that grows to three times this size.
 const REALS: u64 = 3;
 
-/// A message that holds others, or lists.
+/// A message that holds other messages or lists.
 #[derive(Clone, Copy)]
 enum Kind {
     Model,
@@ -34,14 +37,14 @@ enum Kind {
     Shape,
 }
 
-/// What a field with a length holds.
+/// The content of a field that has a length.
 enum Holds {
     Message(Kind),
-    /// So many bytes in memory for each in the file.
+    /// Data that take this many bytes in memory for each byte in the file.
     Bytes(u64),
 }
 
-/// What a field holds; its number is that in `onnx`.
+/// Returns the content of a field. Field numbers are those of the messages in `onnx`.
 fn holds(kind: Kind, field: usize) -> Holds {
     match (kind, field) {
         (Kind::Model, 7) => Holds::Message(Kind::Graph),
@@ -58,20 +61,22 @@ fn holds(kind: Kind, field: usize) -> Holds {
     }
 }
 
-/// Bytes that the model in a file takes at most in memory. What is damaged ends the count, as it ends the reading.
+/// Returns the largest number of bytes that the model in a file takes in memory. The count ends at
+/// damaged data, because decoding ends there, too.
 pub(super) fn of_model(bytes: &[u8]) -> u64 {
     let mut sum = 0;
-    // Nothing stands behind damage, so what is left does not matter.
+    // Data behind the damage are not decoded, so the result is ignored.
     let _ = add(&mut sum, Kind::Model, bytes);
     sum
 }
 
-/// Adds what a message takes; nothing if it is damaged.
+/// Adds the memory of a message, or returns `None` if the message is damaged.
 fn add(sum: &mut u64, kind: Kind, mut bytes: &[u8]) -> Option<()> {
     while !bytes.is_empty() {
         let key = varint(&mut bytes).ok()?;
         *sum += FIELD;
-        // The fields of a group, which nothing here has, are counted as those of the message around it.
+        // Groups are not used by ONNX; their fields are counted as fields of the message that
+        // contains them.
         let length = match key % 8 {
             0 => varint(&mut bytes).map(|_| 0).ok()?,
             1 => 8,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads a network from an ONNX file.
+//! Reading of networks from ONNX files.
 
 mod arrays;
 mod attributes;
@@ -44,28 +44,32 @@ pub(crate) use arrays::read_for_arrays;
 pub use input::FrameSize;
 pub use operators::operators;
 
-/// Bytes of the largest file.
+/// The bytes of the largest file.
 const MAX_FILE: u64 = 1 << 31;
-/// Bytes that the messages of a file take in memory.
+/// The largest number of bytes that the messages of a file may take in memory.
 const MAX_MEMORY: u64 = 1 << 33;
-/// The oldest version of the operators that is read: later ones broadcast as they do today.
+/// The oldest supported version of the operators. Since this version operators broadcast as they do
+/// in later ones.
 const MIN_OPSET: i64 = 7;
-/// The newest one: what later ones change is not known.
+/// The newest supported version of the operators. Changes in later versions are not known.
 const MAX_OPSET: i64 = 28;
 
 impl Network {
-    /// Reads a network for frames of a size, or without one for frames of its own.
+    /// Reads a network for frames of this size, or without a size for frames of the network's own
+    /// size.
     ///
     /// # Errors
-    /// When the file cannot be read, is not a valid ONNX model, or has an operator that is not supported; without a size when its own is open.
+    /// Fails if the file cannot be read, is not a valid ONNX model, or has an operator that is not
+    /// supported. Without a size it also fails if the network takes frames of any size.
     pub fn read(path: &Path, frames: impl Into<Option<FrameSize>>) -> Result<Self, NetworkError> {
         Self::parse(&contents(path)?, path, frames)
     }
 
-    /// As [`Network::read`], with what the file `path` holds. Data outside of the file is looked for in its folder.
+    /// Reads a network as [`Network::read`] does, from the content of the file `path`. Data outside
+    /// of the file are read from its folder.
     ///
     /// # Errors
-    /// As [`Network::read`].
+    /// Fails as [`Network::read`] does.
     pub fn parse(
         bytes: &[u8],
         path: &Path,
@@ -82,11 +86,12 @@ impl Network {
         }
     }
 
-    /// Reads a network, and goes on behind a node that cannot be read. `open` is the size of frames where the network takes any.
-    /// A node that depends on one that cannot be read is checked for its operator and its attributes alone.
+    /// Reads a network, and continues after a node that cannot be read. `open` is the size of
+    /// frames if the network takes any. Of a node that depends on one that cannot be read, only the
+    /// operator and the attributes are checked.
     ///
     /// # Errors
-    /// As [`Network::read`], but for nodes.
+    /// Fails as [`Network::read`] does, except for problems of nodes.
     pub fn check(path: &Path, open: FrameSize) -> Result<NetworkCheck, NetworkError> {
         let model = decoded(&contents(path)?, path)?;
         let read = graph_of(&model, path, &InputSource::Open(open), ProblemPolicy::Note)?;
@@ -99,13 +104,14 @@ impl Network {
 /// The result of a check of all nodes of a network.
 #[derive(Debug)]
 pub struct NetworkCheck {
-    /// Nodes of the model. The network has fewer where an operator does the work of several.
+    /// The number of nodes of the model. The network has fewer nodes where an operator does the
+    /// work of several.
     pub nodes: usize,
     /// The network, or the problems of the nodes that cannot be read.
     pub network: Result<Network, Vec<NetworkError>>,
 }
 
-/// The bytes of a file, up to a limit.
+/// Reads the bytes of a file, and fails if they exceed the limit.
 fn contents(path: &Path) -> Result<Vec<u8>, NetworkError> {
     if !path.metadata().map_err(NetworkError::io(path))?.is_file() {
         return Err(not_onnx(path, "it is not a file"));
@@ -141,7 +147,7 @@ fn graph_of(
     graph::read(graph, &ModelFolder::of(path), source, (opset, on_problem))
 }
 
-/// The model in a file.
+/// Decodes the model in a file.
 fn decoded(bytes: &[u8], path: &Path) -> Result<ModelProto, NetworkError> {
     let memory = memory::of_model(bytes);
     if memory > MAX_MEMORY {

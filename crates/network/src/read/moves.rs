@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators of ONNX that only move values: other shapes, other orders, and joints.
+//! ONNX operators that only move values: reshaping, transposition and concatenation.
 
 use super::made::{Made, of, one};
 use super::node::{NodeReader, from_start, signed};
@@ -21,7 +21,7 @@ pub(super) fn expand(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
         wanted.iter().map(|&length| usize::try_from(length).ok()).collect();
     let wanted = wanted.ok_or("its shape has a negative length")?;
     let own = (node.forms)(value);
-    // Lengths of 1 repeat neither.
+    // A length of 1 broadcasts from either side.
     let shape = broadcast(own.shape(), &wanted)
         .ok_or_else(|| format!("{} cannot become {wanted:?}", own.describe()))?;
     one(Expand { shape }, vec![value])
@@ -82,12 +82,12 @@ pub(super) fn unsqueeze(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     one(Reshape { shape: shape.collect() }, vec![value])
 }
 
-/// The axes of `count` that a node names.
+/// Returns the axes among `count` that a node names.
 pub(super) fn axes(node: &NodeReader<'_>, count: usize) -> Result<Option<Vec<usize>>, String> {
     node.ints_of("axes", 1)?.map(|axes| axes_of(&axes, count)).transpose()
 }
 
-/// Axes of `count`, each named once.
+/// Resolves axes among `count`, and fails if one is named twice.
 pub(super) fn axes_of(axes: &[i64], count: usize) -> Result<Vec<usize>, String> {
     let own = |&axis: &i64| {
         usize::try_from(from_start(axis, count))

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What nodes, operators and values are called.
+//! Names of nodes, operators, inputs and outputs in a model.
 
 use crate::onnx::{NodeProto, ValueInfoProto};
 
-/// Whether a domain is that of the standard.
+/// Returns true if a domain is that of the ONNX standard.
 pub(super) fn is_standard(domain: Option<&str>) -> bool {
     matches!(domain, None | Some("" | "ai.onnx"))
 }
 
-/// What an operator is called, with its domain if it is not of the standard.
+/// Returns the name of an operator, with its domain if that is not the standard one.
 pub(super) fn full_kind(node: &NodeProto) -> String {
     let kind = node.op_type.as_deref().unwrap_or_default();
     match node.domain.as_deref().filter(|domain| !is_standard(Some(domain))) {
@@ -17,18 +17,18 @@ pub(super) fn full_kind(node: &NodeProto) -> String {
     }
 }
 
-/// What a node is called: by its name, or by its operator and its number.
+/// Returns the name of a node, or one made from its operator and its index if the node has none.
 pub(super) fn shown_name(node: &NodeProto, index: usize) -> String {
     let name = node.name.clone().filter(|name| !name.is_empty());
     name.unwrap_or_else(|| format!("{}_{index}", node.op_type.as_deref().unwrap_or_default()))
 }
 
-/// The type of an input or an output, if the model says it.
+/// Returns the type of an input or an output, if the model declares one.
 pub(super) fn element_type(value: &ValueInfoProto) -> Option<i32> {
     value.r#type.as_ref()?.tensor_type.as_ref()?.elem_type
 }
 
-/// What the model calls an input or an output.
+/// Returns the name of an input or an output in the model.
 pub(super) fn name_of(value: &ValueInfoProto) -> &str {
     value.name.as_deref().unwrap_or_default()
 }

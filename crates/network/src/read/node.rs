@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A node as operators read it: attributes with their defaults, constants, and values.
+//! Access to a node for the readers of operators: attributes with their defaults, constants, and
+//! tensors.
 
 use super::attributes::NodeAttributes;
 use super::constant::Constant;
@@ -14,15 +15,15 @@ use crate::tensor::Tensor;
 use std::collections::HashMap;
 use std::sync::Arc;
 
-/// What a name stands for.
+/// The meaning of a name in the graph.
 #[derive(Clone, Debug)]
 pub(super) enum Known {
-    /// A value of the network.
+    /// A tensor of the network.
     Value(usize),
     Constant(Arc<Constant>),
 }
 
-/// What an operator takes.
+/// An operand of an operator: a tensor of the network, or a constant.
 pub(super) enum Operand {
     Value(usize),
     Constant(Tensor),
@@ -43,7 +44,7 @@ impl<'a> NodeReader<'a> {
         self.node.op_type.as_deref().unwrap_or_default()
     }
 
-    /// The same with the domain, if it is not of the standard.
+    /// Returns the name of the operator with the domain, if that is not the standard one.
     pub(super) fn full_kind(&self) -> String {
         names::full_kind(self.node)
     }
@@ -57,11 +58,11 @@ impl<'a> NodeReader<'a> {
     }
 
     pub(super) fn int(&self, name: &str, default: i64) -> i64 {
-        // A writer may leave out a field that is 0.
+        // A writer may leave out a field whose value is 0.
         self.attribute(name).map_or(default, |attribute| attribute.i.unwrap_or(0))
     }
 
-    /// A type of values that an attribute names, a number of `data_type`.
+    /// Returns the type that an attribute names, a number of `data_type`.
     pub(super) fn kind_of(&self, name: &str) -> Result<i32, String> {
         let kind = self.int(name, 0);
         i32::try_from(kind).map_err(|_| format!("its {name} is {}", data_type::name(kind)))
@@ -86,13 +87,13 @@ impl<'a> NodeReader<'a> {
         self.attribute(name).map(|attribute| attribute.floats.as_slice())
     }
 
-    /// A constant that is an attribute.
+    /// Returns the constant tensor of an attribute.
     pub(super) fn tensor(&self, name: &str) -> Result<Option<Constant>, String> {
         let tensor = self.attribute(name).and_then(|attribute| attribute.t.as_ref());
         tensor.map(|tensor| Constant::read(tensor, self.folder)).transpose()
     }
 
-    /// What an input is, if the node has it.
+    /// Returns an input, if the node has it.
     pub(super) fn input(&self, at: usize) -> Option<&'a Known> {
         self.node
             .input
@@ -101,7 +102,7 @@ impl<'a> NodeReader<'a> {
             .and_then(|name| self.known.get(name))
     }
 
-    /// An input that is a constant.
+    /// Returns an input, which must be a constant if the node has it.
     pub(super) fn constant(&self, at: usize, what: &str) -> Result<Option<&'a Constant>, String> {
         match self.input(at) {
             None => Ok(None),
@@ -110,7 +111,7 @@ impl<'a> NodeReader<'a> {
         }
     }
 
-    /// An input that is one constant integer of 8 bits.
+    /// Returns an input, which must be one constant integer of 8 bits if the node has it.
     pub(super) fn stored(
         &self,
         at: usize,
@@ -123,12 +124,12 @@ impl<'a> NodeReader<'a> {
         Ok(Some(typed_byte!(element, T => tensor.values::<T>()[0].into())))
     }
 
-    /// An input that must be there, and constant.
+    /// Returns an input, which the node must have and which must be a constant.
     pub(super) fn wanted(&self, at: usize, what: &str) -> Result<&'a Constant, String> {
         self.constant(at, what)?.ok_or_else(|| format!("it has no {what}"))
     }
 
-    /// An input that is a value of the network or a constant of floating-point values.
+    /// Returns an input as an operand: a tensor of the network, or a constant.
     pub(super) fn operand(&self, at: usize) -> Result<Operand, String> {
         match self.input(at) {
             Some(&Known::Value(value)) => Ok(Operand::Value(value)),
@@ -137,7 +138,7 @@ impl<'a> NodeReader<'a> {
         }
     }
 
-    /// An input that is a value of the network.
+    /// Returns an input, which must be a tensor of the network.
     pub(super) fn value(&self, at: usize) -> Result<usize, String> {
         match self.input(at) {
             Some(&Known::Value(value)) => Ok(value),
@@ -146,7 +147,7 @@ impl<'a> NodeReader<'a> {
         }
     }
 
-    /// Integers from an attribute or, in later versions of the operator, from an input.
+    /// Returns integers from an attribute or, in later versions of the operator, from an input.
     pub(super) fn ints_of(
         &self,
         attribute: &str,
@@ -159,7 +160,8 @@ impl<'a> NodeReader<'a> {
         constant.map(|constant| constant.as_integers().map(<[i64]>::to_vec)).transpose()
     }
 
-    /// The windows of a convolution or of pooling over `kernel` rows and columns; `value` is the input.
+    /// Returns the windows, along rows and columns, of a convolution or of pooling with this
+    /// kernel; `value` is the tensor of the input.
     pub(super) fn windows(&self, kernel: [usize; 2], value: usize) -> Result<[Window; 2], String> {
         let two = |name: &str| -> Result<[usize; 2], String> {
             match self.ints(name) {
@@ -216,7 +218,7 @@ impl<'a> NodeReader<'a> {
         Ok([window(0), window(1)])
     }
 
-    /// What a convolution with weights of this shape sees of `value`.
+    /// Returns the geometry of a convolution of `value` with weights of this shape.
     pub(super) fn geometry(&self, weights: &[usize], value: usize) -> Result<Geometry, String> {
         let &[_, _, height, width] = weights else {
             return Err(format!(
@@ -234,7 +236,7 @@ impl<'a> NodeReader<'a> {
         Geometry::new(weights, self.windows(kernel, value)?, groups)
     }
 
-    /// `kernel_shape`.
+    /// Returns the attribute `kernel_shape`.
     pub(super) fn kernel(&self) -> Result<Option<[usize; 2]>, String> {
         match self.ints("kernel_shape") {
             None => Ok(None),
@@ -246,7 +248,7 @@ impl<'a> NodeReader<'a> {
     }
 }
 
-/// A length that is at least 1.
+/// Checks that a length is from 1 to 65535.
 pub(super) fn positive(what: &str, value: i64) -> Result<usize, String> {
     usize::try_from(value)
         .ok()
@@ -254,12 +256,12 @@ pub(super) fn positive(what: &str, value: i64) -> Result<usize, String> {
         .ok_or_else(|| format!("its {what} is {value}; it must be 1 to 65535"))
 }
 
-/// A length as ONNX counts.
+/// Converts a length to the integer type of ONNX.
 pub(super) fn signed(length: usize) -> i64 {
     i64::try_from(length).expect("a length is below 2^63")
 }
 
-/// A place, counted from the end where it is negative.
+/// Converts an index that counts from the end if it is negative to one that counts from the start.
 pub(super) fn from_start(at: i64, length: usize) -> i64 {
     if at < 0 { at.saturating_add(signed(length)) } else { at }
 }

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators of ONNX that normalize, and shares of sums.
+//! ONNX operators that normalize, including softmax.
 
 use super::constant::Constant;
 use super::made::{Made, one};
 use super::node::{NodeReader, from_start, positive};
 use crate::operator::{LocalResponse, Normalize, Over, Softmax};
 
-/// Scale and bias at two inputs.
+/// Returns the scale and the bias, which are the inputs 1 and 2.
 fn affine(node: &NodeReader<'_>) -> Result<[Vec<f32>; 2], String> {
     let scale = node.wanted(1, "scale")?.as_weights()?.to_vec();
     let bias = node.constant(2, "bias")?.map(Constant::as_weights).transpose()?;
@@ -52,7 +52,7 @@ pub(super) fn softmax(node: &NodeReader<'_>, is_logarithm: bool) -> Result<Vec<M
     one(shares(node, value, node.opset, is_logarithm)?, vec![value])
 }
 
-/// What a sum is over, which depends on the version of the operators.
+/// Reads the attributes of a softmax, whose meaning depends on the version of the operators.
 pub(super) fn shares(
     node: &NodeReader<'_>,
     value: usize,
@@ -61,7 +61,8 @@ pub(super) fn shares(
 ) -> Result<Softmax, String> {
     let is_to_end = opset < 13;
     let axis = node.int("axis", if is_to_end { 1 } else { -1 });
-    // Of one axis alone the second is its end, so that a sum is over one value.
+    // With the axis behind the last one, each value is the only one of its sum. A tensor of one
+    // axis has this with the default.
     let count = (node.forms)(value).shape().len();
     if is_to_end && usize::try_from(from_start(axis, count)) == Ok(count) {
         return Err(format!("its axis {axis} is behind the last, so that every share is 1"));

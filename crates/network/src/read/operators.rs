@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The operators of ONNX, and which of ours each becomes.
+//! The supported ONNX operators, and the function that reads each.
 
 use super::made::{Made, one};
 use super::node::NodeReader;
@@ -8,7 +8,7 @@ use crate::operator::{Activation, Arithmetic, Comparison, PoolKind, Reduction};
 
 type Maker = fn(&NodeReader<'_>) -> Result<Vec<Made>, String>;
 
-/// All operators, in the order of the alphabet.
+/// All supported operators in alphabetical order.
 const OPERATORS: &[(&str, Maker)] = &[
     ("Abs", |node| pointwise::finish(node, Activation::Abs)),
     ("Add", |node| pointwise::binary(node, Arithmetic::Add)),
@@ -146,7 +146,8 @@ const OPERATORS: &[(&str, Maker)] = &[
     ("com.microsoft.QLinearSoftmax", quantized::softmax),
 ];
 
-/// The operators that are supported, in the order of the alphabet; those that are not of ONNX with their domain.
+/// Returns the names of the supported operators in alphabetical order. An operator that is not of
+/// the ONNX standard has its domain in front.
 pub fn operators() -> impl Iterator<Item = &'static str> {
     OPERATORS.iter().map(|&(name, _)| name)
 }
@@ -155,7 +156,7 @@ pub(super) fn is_known(kind: &str) -> bool {
     operators().any(|name| name == kind)
 }
 
-/// What the outputs of a node are.
+/// Returns the outputs of a node.
 pub(super) fn make(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let (_, maker) = OPERATORS
         .iter()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators of ONNX that take parts of a tensor, or put something around it.
+//! ONNX operators that take parts of a tensor, or pad it.
 
 use super::made::{Made, one};
 use super::moves::axes_of;
@@ -11,7 +11,7 @@ use crate::operator::{Pick, Picked};
 use crate::tensor::Tensor;
 use std::sync::Arc;
 
-/// Elements that padding adds to an axis at an end at most.
+/// The largest number of elements that padding adds at one end of an axis.
 const MAX_PAD: i64 = 65535;
 
 pub(super) fn slice(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
@@ -36,7 +36,7 @@ pub(super) fn slice(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     one(Pick { axes, dropped: None, padding: None }, vec![value])
 }
 
-/// A part of an axis that is not empty.
+/// Returns a slice of an axis, and fails if it is empty.
 fn part(start: i64, end: i64, step: i64, length: usize) -> Result<Picked, String> {
     let (first, count) = stretch(start, end, step, length)?;
     if count == 0 {
@@ -141,7 +141,7 @@ pub(super) fn pad(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     one(Pick { axes: picked, dropped: None, padding }, vec![value])
 }
 
-/// What padding holds.
+/// The values that padding holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mode {
     Constant,
@@ -163,7 +163,7 @@ impl Mode {
         }
     }
 
-    /// The element of an axis that stands at a place, which may be outside of it.
+    /// Returns the element of an axis that stands at an index, which may be outside of the axis.
     fn element(self, at: i64, length: usize) -> Option<usize> {
         let all = signed(length);
         let inside = |at: i64| usize::try_from(at).ok();
@@ -172,7 +172,7 @@ impl Mode {
             Self::Edge => inside(at.clamp(0, all - 1)),
             Self::Wrap => inside(at.rem_euclid(all)),
             Self::Reflect => {
-                // There and back again; the ends stand once.
+                // A reflected axis runs forward and back, and its end elements occur once.
                 let period = (2 * (all - 1)).max(1);
                 let at = at.rem_euclid(period);
                 inside(at.min(period - at).min(all - 1))
@@ -181,7 +181,7 @@ impl Mode {
     }
 }
 
-/// An axis with so many elements before and behind it; fewer where that is negative.
+/// Returns an axis padded with `before` and `after` elements. Negative numbers remove elements.
 fn padded([before, after]: [i64; 2], length: usize, mode: Mode) -> Result<Picked, String> {
     if let Some(odd) = [before, after].into_iter().find(|pad| !(-MAX_PAD..=MAX_PAD).contains(pad)) {
         return Err(format!("a pad of {odd} is not supported; it must be within {MAX_PAD}"));

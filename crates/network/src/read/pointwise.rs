@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators of ONNX in which every value has its own: activations, arithmetic and scales.
+//! ONNX operators that act on each value separately: activations, arithmetic and scaling.
 
 use super::constant::Constant;
 use super::elementwise;
@@ -15,7 +15,7 @@ use crate::operator::{
 use crate::tensor::Tensor;
 use std::sync::Arc;
 
-/// An activation as a node of its own.
+/// Returns an activation as a separate operator.
 pub(super) fn pointwise(activation: Activation) -> Arc<dyn Operator> {
     Arc::new(Pointwise(activation))
 }
@@ -26,7 +26,7 @@ pub(super) fn finish(node: &NodeReader<'_>, activation: Activation) -> Result<Ve
 
 pub(super) fn relu(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let value = node.value(0)?;
-    // ONNX knows it for integers with sign.
+    // ONNX defines `Relu` for signed integers, too.
     match (node.forms)(value).encoding().element {
         Element::I8 => one(Table::of_stored(Element::I8, |stored| stored.max(0)), vec![value]),
         _ => finish(node, Activation::Relu),
@@ -51,7 +51,7 @@ pub(super) fn cast(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     cast_to(node, node.kind_of("to")?)
 }
 
-/// A cast to the type of the second input, of which nothing else matters.
+/// Reads a cast to the type of the second input, which has no other meaning.
 pub(super) fn cast_like(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     let kind = match node.input(1).ok_or("it has no second input")? {
         Known::Constant(like) => like.kind,
@@ -70,7 +70,8 @@ pub(super) fn cast_like(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     }
 }
 
-/// A cast of a tensor that is not constant. Values of 16 and 64 bits are kept as those of 32.
+/// Reads a cast of a tensor that is not constant. Values of 16 and 64 bits are kept as 32-bit
+/// values.
 fn cast_to(node: &NodeReader<'_>, kind: i32) -> Result<Vec<Made>, String> {
     use data_type::{BFLOAT16, DOUBLE, FLOAT, FLOAT16};
     let element = |value: usize| (node.forms)(value).encoding().element;
@@ -88,7 +89,7 @@ fn cast_to(node: &NodeReader<'_>, kind: i32) -> Result<Vec<Made>, String> {
     }
 }
 
-/// A power, whose exponent may be of integers.
+/// Reads a power, whose exponent may be of integers.
 pub(super) fn power(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     match (node.value(0), node.input(1)) {
         (Ok(value), Some(Known::Constant(exponent)))

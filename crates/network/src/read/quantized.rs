@@ -35,7 +35,7 @@ pub(super) fn dequantize(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     one(Dequantize(node.dequantization(element)?), vec![value])
 }
 
-/// The floating-point values that constant integers stand for.
+/// Returns the floating-point values that constant integers stand for.
 pub(super) fn dequantized(node: &NodeReader<'_>, constant: &Constant) -> Result<Constant> {
     let element = constant.element().filter(|&element| element != Element::F32);
     let scales = node.dequantization(element.ok_or("it takes integers of 8 or 32 bits")?)?;
@@ -50,7 +50,7 @@ pub(super) fn dequantized(node: &NodeReader<'_>, constant: &Constant) -> Result<
     Ok(Constant::floats(constant.shape.clone(), values))
 }
 
-/// The integers that constant floating-point values become.
+/// Quantizes constant floating-point values to integers.
 pub(super) fn quantized(node: &NodeReader<'_>, constant: &Constant) -> Result<Constant> {
     let (scales, to) = node.quantization()?;
     let form = Form::whole(constant.shape.clone());
@@ -71,12 +71,12 @@ pub(super) fn quantized(node: &NodeReader<'_>, constant: &Constant) -> Result<Co
     })
 }
 
-/// The type of ONNX of 8-bit integers.
+/// Returns the ONNX type of 8-bit integers.
 fn stored_as(element: Element) -> i32 {
     if element == Element::I8 { data_type::INT8 } else { data_type::UINT8 }
 }
 
-/// `QLinearConv`.
+/// Reads `QLinearConv`.
 pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     let value = node.value(0)?;
     let weights = node.wanted(3, "w")?;
@@ -89,7 +89,7 @@ pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     one(IntegerConv::new(geometry, rows, from.zero, sums, Level::detect())?, vec![value])
 }
 
-/// `ConvInteger`.
+/// Reads `ConvInteger`.
 pub(super) fn conv_integer(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     let value = node.value(0)?;
     let weights = node.wanted(1, "w")?;
@@ -99,13 +99,13 @@ pub(super) fn conv_integer(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     one(IntegerConv::new(geometry, rows, zero, Sums::kept(), Level::detect())?, vec![value])
 }
 
-/// `MatMulInteger`.
+/// Reads `MatMulInteger`.
 pub(super) fn matmul_integer(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     let zero = node.zero(2, "a_zero_point", element(node, node.value(0)?)?)?;
     product(node, (1, 3), false, zero, |_| Ok(Sums::kept()))
 }
 
-/// `QLinearMatMul`.
+/// Reads `QLinearMatMul`.
 pub(super) fn matmul(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     let from = node.encoding(1, "a", element(node, node.value(0)?)?)?;
     product(node, (3, 5), false, from.zero, |outputs| {
@@ -115,7 +115,7 @@ pub(super) fn matmul(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     })
 }
 
-/// `QGemm`, whose output is of floating-point values where it has no scale of its own.
+/// Reads `QGemm`, whose output is of floating-point values if it has no scale.
 pub(super) fn gemm(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     if node.int("transA", 0) != 0 {
         return Err("transA is not supported".to_owned());
@@ -139,7 +139,7 @@ pub(super) fn gemm(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     })
 }
 
-/// The product with the matrix at an input, whose zero points are at another.
+/// Reads the product with the matrix at one input, whose zero points are at another input.
 fn product(
     node: &NodeReader<'_>,
     (matrix, zeros): (usize, usize),
@@ -154,7 +154,7 @@ fn product(
     one(IntegerMatMul { rows, inputs, zero, sums }, vec![node.value(0)?])
 }
 
-/// `QLinearAdd` and `QLinearMul`.
+/// Reads `QLinearAdd` and `QLinearMul`.
 pub(super) fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made>> {
     let to = node.encoding_out(6, "C")?;
     let from = [node.encoding(1, "A", to.element)?, node.encoding(4, "B", to.element)?];
@@ -172,7 +172,7 @@ pub(super) fn binary(node: &NodeReader<'_>, kind: Arithmetic) -> Result<Vec<Made
     one(QuantizedBinary { binary, from, to }, inputs)
 }
 
-/// A constant tensor of 8-bit values.
+/// Returns a constant tensor of 8-bit values.
 fn stored(constant: &Constant, element: Element) -> Result<Tensor> {
     let form = Form::whole(constant.shape.clone()).encoded(Encoding::plain(element));
     if constant.element() != Some(element) {
@@ -181,7 +181,7 @@ fn stored(constant: &Constant, element: Element) -> Result<Tensor> {
     Tensor::of_integers(form, constant.as_integers()?)
 }
 
-/// `QLinearAveragePool`.
+/// Reads `QLinearAveragePool`.
 pub(super) fn average_pool(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     channels_first(node)?;
     let value = node.value(0)?;
@@ -191,7 +191,7 @@ pub(super) fn average_pool(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     one(QuantizedPool { pool, with_padding, from, to }, vec![value])
 }
 
-/// `QLinearGlobalAveragePool`.
+/// Reads `QLinearGlobalAveragePool`.
 pub(super) fn mean(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     channels_first(node)?;
     let value = node.value(0)?;
@@ -199,14 +199,14 @@ pub(super) fn mean(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     one(QuantizedMean { from, to }, vec![value])
 }
 
-/// `QLinearLeakyRelu` and `QLinearSigmoid`.
+/// Reads `QLinearLeakyRelu` and `QLinearSigmoid`.
 pub(super) fn activation(node: &NodeReader<'_>, activation: Activation) -> Result<Vec<Made>> {
     let value = node.value(0)?;
     let (from, to) = through(node, value)?;
     one(Table::of_reals(from, to, activation), vec![value])
 }
 
-/// `QLinearSoftmax`, whose version is its own attribute.
+/// Reads `QLinearSoftmax`, which gives its version as an attribute.
 pub(super) fn softmax(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     let value = node.value(0)?;
     let (from, to) = through(node, value)?;
@@ -214,7 +214,7 @@ pub(super) fn softmax(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     one(QuantizedSoftmax { softmax, from, to }, vec![value])
 }
 
-/// `QLinearConcat`.
+/// Reads `QLinearConcat`.
 pub(super) fn concat(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     let to = node.encoding_out(0, "Y")?;
     let (mut inputs, mut tables) = (Vec::new(), Vec::new());
@@ -227,7 +227,8 @@ pub(super) fn concat(node: &NodeReader<'_>) -> Result<Vec<Made>> {
     one(QuantizedConcat { concat: Concat { axis: node.int("axis", 1) }, tables, to }, inputs)
 }
 
-/// The encodings of the input and of the output of an operator that keeps the kind of 8-bit values.
+/// Returns the encodings of the input and the output of an operator that keeps the type of 8-bit
+/// values.
 fn through(node: &NodeReader<'_>, value: usize) -> Result<(Encoding, Encoding)> {
     let element = element(node, value)?;
     Ok((node.encoding(1, "X", element)?, node.encoding(3, "Y", element)?))
@@ -240,7 +241,7 @@ fn channels_first(node: &NodeReader<'_>) -> Result<()> {
     }
 }
 
-/// How an input is stored, which must be in 8 bits.
+/// Returns the type of an input, and fails if it does not have 8 bits.
 fn element(node: &NodeReader<'_>, value: usize) -> Result<Element> {
     let element = (node.forms)(value).encoding().element;
     if element.is_byte() {
@@ -250,7 +251,7 @@ fn element(node: &NodeReader<'_>, value: usize) -> Result<Element> {
     }
 }
 
-/// Factors per step of an output.
+/// Divides the factors by the scale of an output.
 fn over(factors: Vec<f32>, scale: f32) -> Vec<f32> {
     factors.into_iter().map(|factor| factor / scale).collect()
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Constants whose values are taken from another one: what exporters write to make the widths of padding from a list.
+//! Constants whose values are selected from another constant. Exporters use such nodes, for
+//! example, to compute the widths of padding from a list.
 
 use super::constant::Constant;
 use super::constant_values::ConstantValues;
@@ -7,7 +8,7 @@ use super::folder::ModelFolder;
 use super::node::{NodeReader, from_start, signed};
 use crate::form::{MAX_AXES, elements_of};
 
-/// As many times the same value as a shape says.
+/// Returns a constant of this shape that repeats one value.
 pub(super) fn filled(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant, String> {
     let shape: Option<Vec<usize>> =
         shape.as_integers()?.iter().map(|&length| usize::try_from(length).ok()).collect();
@@ -25,7 +26,8 @@ pub(super) fn filled(node: &NodeReader<'_>, shape: &Constant) -> Result<Constant
     Ok(Constant { shape, values, kind: value.kind })
 }
 
-/// The same values in another shape, of which one length may be -1 and those of 0 are as before.
+/// Returns the values in another shape, in which one length may be -1 and a length of 0 is that of
+/// the input.
 pub(super) fn reshaped(
     node: &NodeReader<'_>,
     from: &Constant,
@@ -59,7 +61,7 @@ pub(super) fn reshaped(
     Ok(Constant { shape, ..from.clone() })
 }
 
-/// Other axes first; without `perm`, the last.
+/// Permutes the axes. Without `perm` their order is reversed.
 pub(super) fn transposed(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
     let axes = from.shape.len();
     let order: Vec<usize> = match node.ints("perm") {
@@ -77,7 +79,7 @@ pub(super) fn transposed(node: &NodeReader<'_>, from: &Constant) -> Result<Const
     })
 }
 
-/// A part along some axes, in steps that may be negative.
+/// Takes slices along some axes, with steps that may be negative.
 pub(super) fn sliced(node: &NodeReader<'_>, from: &Constant) -> Result<Constant, String> {
     let starts = node.ints_of("starts", 1)?.ok_or("it has no starts")?;
     let ends = node.ints_of("ends", 2)?.ok_or("it has no ends")?;
@@ -106,7 +108,8 @@ pub(super) fn sliced(node: &NodeReader<'_>, from: &Constant) -> Result<Constant,
     })
 }
 
-/// The first element of a part of an axis, and how many there are, as the standard has it.
+/// Returns the first element of a slice of an axis and the number of its elements, as ONNX defines
+/// them.
 pub(super) fn stretch(
     start: i64,
     end: i64,
@@ -114,7 +117,7 @@ pub(super) fn stretch(
     length: usize,
 ) -> Result<(i64, usize), String> {
     let (start, end, all) = (from_start(start, length), from_start(end, length), signed(length));
-    // Backwards, an end of -1 is in front of the first.
+    // With a negative step, an end of -1 is in front of the first element.
     let (low, high) = if step < 0 { (-1, all - 1) } else { (0, all) };
     let (start, end) = (start.clamp(low.max(0), high.max(0)), end.clamp(low, high));
     let way = if step < 0 { start - end } else { end - start };
@@ -126,7 +129,8 @@ pub(super) fn stretch(
     }
 }
 
-/// A constant repeated to a shape along axes of one element, and along new axes in front.
+/// Broadcasts a constant to a shape: repeats it along axes of one element, and along new axes in
+/// front.
 pub(super) fn spread(
     folder: &ModelFolder,
     of: &Constant,
@@ -149,7 +153,7 @@ pub(super) fn spread(
     })
 }
 
-/// The elements of an axis that indices name.
+/// Returns the elements of an axis at these indices.
 pub(super) fn gathered(
     node: &NodeReader<'_>,
     from: &Constant,
@@ -169,7 +173,7 @@ pub(super) fn gathered(
         return Err(format!("its output has more than {MAX_AXES} axes"));
     }
     let shape = [front, indices.shape.as_slice(), behind].concat();
-    // As if the indices were one axis.
+    // The values are selected as if all indices were one axis.
     let (count, inner) = (places.len(), behind.iter().product::<usize>());
     let made = pick(node.folder, from, vec![front.iter().product(), count, inner], |place| {
         (place[0] * length + places[place[1]]) * inner + place[2]
@@ -177,7 +181,7 @@ pub(super) fn gathered(
     Ok(Constant { shape, ..made })
 }
 
-/// Constants one behind the other along an axis.
+/// Concatenates constants along an axis.
 pub(super) fn joined(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Constant, String> {
     let first = parts[0];
     let axis = usize::try_from(from_start(node.int("axis", 0), first.shape.len()))
@@ -220,17 +224,18 @@ pub(super) fn joined(node: &NodeReader<'_>, parts: &[&Constant]) -> Result<Const
     Ok(Constant { shape, values, kind: first.kind })
 }
 
-/// Where an axis is in an order of all.
+/// Returns the position of an axis in a permutation.
 fn position(order: &[usize], axis: usize) -> usize {
     order.iter().position(|&own| own == axis).expect("every axis is named")
 }
 
-/// Values from one place of an axis to the next.
+/// Returns the stride of an axis, in values.
 fn stride(shape: &[usize], axis: usize) -> usize {
     shape[axis + 1..].iter().product()
 }
 
-/// A constant whose value at each place is another's value, of which `from` gives the number.
+/// Returns a constant whose value at each index is selected from another constant: `from` returns
+/// the number of that value.
 fn pick(
     folder: &ModelFolder,
     of: &Constant,
@@ -255,7 +260,7 @@ fn pick(
     Ok(Constant { shape, values, kind: of.kind })
 }
 
-/// Goes to the next place of a shape, the last axis first; behind the last one is the first.
+/// Advances to the next index of a shape, in row-major order. The first index follows the last.
 fn advance(place: &mut [usize], shape: &[usize]) {
     for (at, &length) in place.iter_mut().zip(shape).rev() {
         *at += 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scales, zero points and weights of quantized networks, checked.
+//! Scales, zero points and weights of quantized networks, with their checks.
 
 use super::constant::Constant;
 use super::constant_values::ConstantValues;
@@ -12,7 +12,8 @@ use std::borrow::Cow;
 type Result<T> = std::result::Result<T, String>;
 
 impl NodeReader<'_> {
-    /// Scales: positive numbers, of which there is one or `count`.
+    /// Returns the scales at an input, which must be positive. There must be one or `count`;
+    /// without `count` any number but none is valid.
     fn scales(&self, at: usize, what: &str, count: Option<usize>) -> Result<Vec<f32>> {
         let scales = self.wanted(at, what)?.as_floats()?;
         if let Some(odd) = scales.iter().find(|scale| !scale.is_finite() || **scale <= 0.0) {
@@ -30,7 +31,8 @@ impl NodeReader<'_> {
         }
     }
 
-    /// Zero points, of which there is one or `count`; 0 where the node has none.
+    /// Returns `count` zero points from an input that has one or `count`. They are 0 if the node
+    /// has none.
     fn zeros(&self, at: usize, what: &str, element: Element, count: usize) -> Result<Vec<i32>> {
         let Some(zeros) = self.constant(at, what)? else { return Ok(vec![0; count]) };
         if zeros.element() != Some(element) {
@@ -51,19 +53,21 @@ impl NodeReader<'_> {
         }
     }
 
-    /// The only zero point of a tensor.
+    /// Returns the only zero point of a tensor.
     pub(super) fn zero(&self, at: usize, what: &str, element: Element) -> Result<i32> {
         self.zeros(at, what, element, 1).map(|zeros| zeros[0])
     }
 
-    /// The encoding of a tensor whose scale is at an input and whose zero point is at the next.
+    /// Returns the encoding of a tensor whose scale is at an input and whose zero point is at the
+    /// next.
     pub(super) fn encoding(&self, at: usize, what: &str, element: Element) -> Result<Encoding> {
         let scale = self.scales(at, &format!("{what}_scale"), Some(1))?[0];
         let zero = self.zero(at + 1, &format!("{what}_zero_point"), element)?;
         Ok(Encoding { element, scale, zero })
     }
 
-    /// The same for an output, whose zero point says what it is.
+    /// Returns the encoding of an output whose scale is at an input. The zero point at the next
+    /// input determines the type.
     pub(super) fn encoding_out(&self, at: usize, what: &str) -> Result<Encoding> {
         let element = match self.constant(at + 1, &format!("{what}_zero_point"))? {
             None => Element::U8,
@@ -72,7 +76,8 @@ impl NodeReader<'_> {
         self.encoding(at, what, element)
     }
 
-    /// What a step of a sum stands for: a product of factors, one for all of `count` channels or one for each.
+    /// Returns the real number of a step of a sum, as a product of factors: one for all of `count`
+    /// channels, or one per channel.
     pub(super) fn factors(
         &self,
         [scale, alpha]: [f32; 2],
@@ -83,7 +88,7 @@ impl NodeReader<'_> {
         Ok(scales.into_iter().map(|own| alpha * (scale * own)).collect())
     }
 
-    /// A bias of 32-bit integers, if there is one.
+    /// Returns a bias of 32-bit integers, or an empty one if the node has none.
     pub(super) fn bias(&self, at: usize) -> Result<Vec<i32>> {
         let Some(bias) = self.constant(at, "bias")? else { return Ok(Vec::new()) };
         if bias.element() != Some(Element::I32) {
@@ -95,7 +100,7 @@ impl NodeReader<'_> {
         bias.as_integers()?.iter().map(value).collect()
     }
 
-    /// Scales and zero points of `QuantizeLinear`, and what it makes.
+    /// Returns the scales and zero points of `QuantizeLinear`, and the type of its output.
     pub(super) fn quantization(&self) -> Result<(Scales, Element)> {
         let own = match self.int("output_dtype", 0) {
             0 => None,
@@ -115,7 +120,7 @@ impl NodeReader<'_> {
         Ok((self.along("y", to)?, to))
     }
 
-    /// Scales and zero points of `DequantizeLinear` of integers.
+    /// Returns the scales and zero points of `DequantizeLinear` for integers of this type.
     pub(super) fn dequantization(&self, element: Element) -> Result<Scales> {
         let to = self.kind_of("output_dtype")?;
         if ![0, data_type::FLOAT, data_type::FLOAT16, data_type::BFLOAT16].contains(&to) {
@@ -141,7 +146,8 @@ fn byte(element: Option<Element>, what: &str) -> Result<Element> {
         .ok_or_else(|| format!("its {what} must be of 8-bit integers; others are not supported"))
 }
 
-/// Constant weights, a row per channel; their zero points, one or one per channel, are at an input.
+/// Returns constant weights with one row per channel. Their zero points, one or one per channel,
+/// are at the input `zeros`.
 pub(super) fn bytes(
     node: &NodeReader<'_>,
     weights: &Constant,
@@ -150,7 +156,7 @@ pub(super) fn bytes(
 ) -> Result<Rows> {
     let element = byte(weights.element(), "weights")?;
     let (lowest, highest) = element.range();
-    // Without sign, 0 is kept as the lowest value with sign.
+    // Unsigned values are stored less 128, so that 0 becomes the lowest signed value.
     let kept = |value: i64| {
         Some(value)
             .filter(|value| (lowest.into()..=highest.into()).contains(value))
@@ -170,7 +176,7 @@ pub(super) fn bytes(
     Ok(Rows { values, zeros: zeros.collect() })
 }
 
-/// A matrix of two axes with a row for each output, with how many outputs and inputs it has.
+/// Returns a matrix with one row per output, and its numbers of outputs and inputs.
 pub(super) fn row_major(
     matrix: &Constant,
     is_row_major: bool,

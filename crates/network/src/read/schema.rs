@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators as their standard describes them, version by version: how many inputs and outputs a node has, and its attributes.
-//! `scripts/onnx_schemas.py` compares the table with the schemas of ONNX and onnxruntime.
+//! The standard's description of operators by version: the numbers of inputs and outputs of a node,
+//! and its attributes. `scripts/onnx_schemas.py` compares the table with the schemas of ONNX and
+//! onnxruntime.
 
 use super::attributes::NodeAttributes;
 use super::names;
@@ -23,7 +24,7 @@ struct AttributeSchema {
     name: &'static str,
     kind: &'static str,
     is_required: bool,
-    /// Its value where the node has none, if that is one number or word.
+    /// The value of the attribute if the node does not have it, if that is a single number or word.
     default: Option<&'static str>,
 }
 
@@ -37,27 +38,27 @@ static SCHEMAS: LazyLock<HashMap<&str, Vec<OperatorSchema>>> = LazyLock::new(|| 
     schemas
 });
 
-/// The names of all attributes without any effect on what an operator computes here, with the operator.
+/// The attributes without effect on what an operator computes here, by operator.
 const WITHOUT_EFFECT: &[(&str, &[&str])] = &[
-    // Only training needs them.
+    // Only training needs these attributes.
     ("BatchNormalization", &["momentum"]),
     ("Dropout", &["ratio", "seed"]),
-    // Only casts to 8-bit floating-point values, which are refused, depend on them.
+    // Only casts to 8-bit floating-point values, which are rejected, depend on these attributes.
     ("Cast", &["round_mode", "saturate"]),
     ("CastLike", &["round_mode", "saturate"]),
     ("QuantizeLinear", &["saturate"]),
-    // The order of indices, an output that is refused.
+    // The attribute is the order of indices, which are an output that is rejected.
     ("MaxPool", &["storage_order"]),
-    // Only coordinates of tf_crop_and_resize, which are refused, lie outside.
+    // Only the coordinates of tf_crop_and_resize, which are rejected, lie outside of the input.
     ("Resize", &["extrapolation_value"]),
-    // The precision of sums, which are of 32 bits.
+    // The attribute is the precision of sums, which are always of 32 bits here.
     ("GroupNormalization", &["stash_type"]),
     ("LayerNormalization", &["stash_type"]),
     ("Range", &["stash_type"]),
 ];
 
 impl OperatorSchema {
-    /// Checks that a node has what its operator has in a version of the operators.
+    /// Fails if a node does not conform to its operator in a version of the operators.
     pub(super) fn check(node: &NodeProto, opset: i64) -> Result<(), String> {
         let Some(schema) = Self::of(node, opset)? else { return Ok(()) };
         within("inputs", node.input.len(), schema.inputs)?;
@@ -78,7 +79,7 @@ impl OperatorSchema {
         }
     }
 
-    /// Refuses an attribute that says something and was not looked at.
+    /// Fails if an attribute has another value than its default, was not read and has an effect.
     pub(super) fn check_read(attributes: &NodeAttributes<'_>, opset: i64) -> Result<(), String> {
         let node = attributes.node();
         let Some(schema) = Self::of(node, opset)? else { return Ok(()) };
@@ -95,10 +96,10 @@ impl OperatorSchema {
         Ok(())
     }
 
-    /// The line for a version, if the table has the operator.
+    /// Returns the line for a version, or `None` if the table does not have the operator.
     fn of(node: &NodeProto, opset: i64) -> Result<Option<&'static Self>, String> {
         let Some(lines) = SCHEMAS.get(names::full_kind(node).as_str()) else { return Ok(None) };
-        // Operators of other domains have a version of their own, the first.
+        // Operators of other domains have a separate version, which is 1.
         let version = if names::is_standard(node.domain.as_deref()) { opset } else { 1 };
         match lines.iter().rev().find(|schema| schema.since <= version) {
             Some(schema) => Ok(Some(schema)),
@@ -117,7 +118,7 @@ impl OperatorSchema {
 }
 
 impl AttributeSchema {
-    /// Refuses a value of another type.
+    /// Fails if the value of an attribute has another type.
     fn check(&self, attribute: &AttributeProto) -> Result<(), String> {
         if attribute.ref_attr_name.as_deref().is_some_and(|name| !name.is_empty()) {
             return Err(format!(
@@ -125,7 +126,7 @@ impl AttributeSchema {
                 self.name
             ));
         }
-        // Models of the first version of the format do not say of which type an attribute is.
+        // Models of the first version of the format do not declare the types of attributes.
         let kind = match attribute.r#type.unwrap_or(0) {
             0 => apparent(attribute),
             kind => attribute_type::name(kind),
@@ -140,7 +141,7 @@ impl AttributeSchema {
         Ok(())
     }
 
-    /// Whether an attribute has the value that it has where the node does not name it.
+    /// Returns true if an attribute has its default value.
     fn has_default(&self, attribute: &AttributeProto) -> bool {
         match (self.kind, self.default) {
             ("INT", Some(default)) => default.parse() == Ok(attribute.i.unwrap_or(0)),
@@ -151,7 +152,7 @@ impl AttributeSchema {
     }
 }
 
-/// The type of an attribute that does not say it.
+/// Infers the type of an attribute that does not declare it.
 fn apparent(attribute: &AttributeProto) -> Option<&'static str> {
     let AttributeProto { f, i, s, t, floats, ints, .. } = attribute;
     match () {
@@ -165,7 +166,7 @@ fn apparent(attribute: &AttributeProto) -> Option<&'static str> {
     }
 }
 
-/// Refuses a count that is not from a least to a most.
+/// Fails if a count is not in its range.
 fn within(what: &str, count: usize, (least, most): (usize, Option<usize>)) -> Result<(), String> {
     if count >= least && most.is_none_or(|most| count <= most) {
         return Ok(());
@@ -178,7 +179,7 @@ fn within(what: &str, count: usize, (least, most): (usize, Option<usize>)) -> Re
     Err(format!("it has {count} {what}; its operator has {allowed}"))
 }
 
-/// A line of the table, with the name of its operator.
+/// Parses a line of the table, and returns the name of its operator with it.
 fn parse(line: &'static str) -> Option<(&'static str, OperatorSchema)> {
     let mut words = line.split(' ');
     let name = words.next()?;

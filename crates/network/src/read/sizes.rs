@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators of ONNX that give features another size.
+//! ONNX operators that change the height and width of features.
 
 use super::constant::Constant;
 use super::made::{Made, one};
@@ -8,11 +8,11 @@ use crate::operator::{
     Coordinates, DepthToSpace, Nearest, Order, Resize, ResizeKind, Size, SpaceToDepth,
 };
 
-/// The largest scale of a Resize is below this; what it makes is limited, too.
+/// The scale of a Resize must be below this. The size of its output is limited separately.
 const MAX_SCALE: f32 = 65536.0;
 
 pub(super) fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
-    // Before version 11 a Resize is an Upsample of another name.
+    // Before version 11 a Resize has the meaning of an Upsample.
     let is_old = node.kind() == "Upsample" || node.opset < 11;
     let text = |name, old, new| node.text(name, if is_old { old } else { new });
     let coordinates =
@@ -33,7 +33,7 @@ pub(super) fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     };
     let kind = match node.text("mode", "nearest").as_str() {
         "nearest" => ResizeKind::Nearest(nearest),
-        // Before version 9 it is called as what it is of images.
+        // The name `bilinear` is used before version 9.
         "linear" | "bilinear" => ResizeKind::Linear,
         "cubic" => ResizeKind::Cubic {
             a: node.float("cubic_coeff_a", -0.75),
@@ -55,7 +55,7 @@ pub(super) fn resize(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     one(Resize { kind, coordinates, size: size(node, value, is_old)? }, vec![value])
 }
 
-/// Rows and columns of the output.
+/// Returns the rows and columns of the output.
 fn size(node: &NodeReader<'_>, value: usize, is_old: bool) -> Result<Size, String> {
     let are_of_all = match node.ints("axes") {
         None | Some(&[0, 1, 2, 3]) => true,
@@ -115,7 +115,7 @@ pub(super) fn space_to_depth(node: &NodeReader<'_>) -> Result<Vec<Made>, String>
     one(SpaceToDepth { side, order }, vec![node.value(0)?])
 }
 
-/// The side of the squares that become channels or are made of them, and in which order.
+/// Returns the side of the blocks of positions, and the order of the channels.
 fn squares(node: &NodeReader<'_>) -> Result<(usize, Order), String> {
     let side = positive("blocksize", node.int("blocksize", 0))?;
     match node.text("mode", "DCR").as_str() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators of ONNX that sum over windows, channels or everything.
+//! ONNX operators that sum or reduce over windows, channels or axes.
 
 use super::constant::Constant;
 use super::made::{Made, of, one};

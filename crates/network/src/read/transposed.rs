@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Transposed convolution, as ONNX says what its output is.
+//! Transposed convolution, with the size of its output as ONNX defines it.
 
 use super::constant::Constant;
 use super::made::{Made, one};
@@ -35,7 +35,7 @@ pub(super) fn conv(node: &NodeReader<'_>) -> Result<Vec<Made>, String> {
     one(conv, vec![value])
 }
 
-/// How inputs are spread along rows (0) or columns (1).
+/// Returns the window of a transposed convolution along rows (0) or columns (1).
 fn reach(node: &NodeReader<'_>, value: usize, axis: usize, kernel: usize) -> Result<Reach, String> {
     let form = (node.forms)(value);
     let [_, _, sizes @ ..] = form.shape() else {
@@ -54,7 +54,7 @@ fn reach(node: &NodeReader<'_>, value: usize, axis: usize, kernel: usize) -> Res
         more if (0..1 << 16).contains(&more) => more,
         more => return Err(format!("its output_padding is {more}; it must be 0 to 65535")),
     };
-    // Lengths are below 2^28, strides and kernels below 2^16.
+    // The sums fit, because lengths are below 2^28, and strides and kernels below 2^16.
     let (size, step) = (signed(size), signed(stride));
     let all = (size - 1) * step + more + signed((kernel - 1) * dilation) + 1;
     let mode = node.text("auto_pad", "NOTSET");
