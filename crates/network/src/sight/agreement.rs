@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether a network says the same of what the receiver sees as of whole frames.
+//! The agreement between the outputs of a network for the screen and those for the input frames.
 
 use super::detection::{Detection, matched};
 use super::detector::Detector;
@@ -7,25 +7,26 @@ use super::distance::{Distance, largest};
 use super::findings::Findings;
 use serde::Serialize;
 
-/// Detections are the same object if they overlap by at least this share.
+/// The smallest overlap, as intersection over union, of detections that are the same object.
 pub const SAME_OBJECT: f64 = 0.5;
-/// Areas in pixels of the frame at which objects become medium and large, as of COCO.
+/// The areas in pixels of the frame from which objects are medium and large, as in COCO.
 const AREAS: [f64; 2] = [32.0 * 32.0, 96.0 * 96.0];
 
-/// Sums over frames.
+/// Sums of the agreement over frames.
 #[derive(Clone, Debug, Default)]
 pub struct Sums {
-    /// Frames.
+    /// The number of frames.
     pub frames: u64,
-    /// How far the outputs are from those of whole frames.
+    /// The distance of the outputs from those for the input frames.
     pub distance: Distance,
     classes: ClassSums,
-    /// Places of outputs that have a class each, and those with the same.
+    /// The number of positions at which an output has a class, and the number of those at which the
+    /// class is the same.
     places: (u64, u64),
     detections: Option<[Found; 3]>,
 }
 
-/// Over frames with outputs that are one class.
+/// Sums over the frames for which an output is one class.
 #[derive(Clone, Copy, Debug, Default)]
 struct ClassSums {
     frames: u64,
@@ -34,46 +35,48 @@ struct ClassSums {
     seen_margin: f64,
 }
 
-/// Detections of one size.
+/// Counts of detections, for example of those of one size.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Found {
-    /// Found in whole frames.
+    /// Detections in input frames.
     pub whole: u64,
-    /// Of these found in what the receiver sees, too.
+    /// Detections in input frames that are found on the screen, too.
     pub kept: u64,
-    /// Found in what the receiver sees.
+    /// Detections on the screen.
     pub seen: u64,
-    /// Of these found in nothing that the whole frames have.
+    /// Detections on the screen that match no detection in the input frames.
     pub added: u64,
 }
 
-/// Detections in what the receiver sees beside those in whole frames.
+/// The agreement of detections on the screen with those in the input frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct DetectionsKept {
-    /// How they are read, as on the command line.
+    /// The detector, as it is written on the command line.
     pub detector: String,
-    /// All sizes.
+    /// The detections of all sizes.
     pub all: Found,
-    /// Below 32x32 pixels.
+    /// The detections below 32x32 pixels.
     pub small: Found,
-    /// Up to 96x96 pixels.
+    /// The detections from 32x32 to below 96x96 pixels.
     pub medium: Found,
-    /// Larger ones.
+    /// The detections of 96x96 pixels and more.
     pub large: Found,
-    /// Share of the detections in whole frames that are kept.
+    /// The share of the detections in input frames that are kept.
     pub kept_share: f64,
-    /// Share of the detections in what the receiver sees that are in whole frames, too.
+    /// The share of the detections on the screen that are in the input frames, too.
     pub precision: f64,
 }
 
-/// The class of a frame.
+/// The agreement of outputs that are one class per frame.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct ClassKept {
-    /// Share of the frames with the same largest value in every output that is one class.
+    /// The share of outputs with the same largest value, over all frames and all outputs that are
+    /// one class.
     pub same_share: f64,
-    /// Largest value less the second largest, in whole frames: the mean.
+    /// The mean difference between the largest and the second largest value, for input frames.
     pub whole_margin: f64,
-    /// The same class's value less the largest other one, in what the receiver sees: the mean. Negative where the class is another one.
+    /// The mean difference, for the screen, between the value of the input frame's class and the
+    /// largest value of any other class. It is negative where the screen has another class.
     pub seen_margin: f64,
 }
 
@@ -85,13 +88,14 @@ impl Found {
         self.added += other.added;
     }
 
-    /// Share of the whole frames' detections that are kept; all of none.
+    /// The share of the detections in input frames that are kept; 1 if there are none.
     #[must_use]
     pub fn kept_share(&self) -> f64 {
         share(self.kept, self.whole)
     }
 
-    /// Share of the receiver's detections that are those of whole frames; all of none.
+    /// The share of the detections on the screen that are in the input frames, too; 1 if there are
+    /// none.
     #[must_use]
     pub fn precision(&self) -> f64 {
         share(self.seen - self.added, self.seen)
@@ -103,17 +107,18 @@ fn share(part: u64, all: u64) -> f64 {
     if all == 0 { 1.0 } else { part as f64 / all as f64 }
 }
 
-/// The detections of a frame that count, and which of them are the same.
+/// The detections of a frame that count, matched between the input frame and the screen.
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
-    /// Those of the whole frame, and whether the receiver sees them, too.
+    /// The detections in the input frame, each with true if it is on the screen, too.
     pub whole: Vec<(Detection, bool)>,
-    /// Those in what the receiver sees, and whether the whole frame has them, too.
+    /// The detections on the screen, each with true if it is in the input frame, too.
     pub seen: Vec<(Detection, bool)>,
 }
 
 impl Pairs {
-    /// The same object has the same class. Both must count by their scores and heights.
+    /// Matches the detections that count by their scores and heights. Only detections of the same
+    /// class can match.
     #[must_use]
     pub fn of(detector: &Detector, whole: &[Detection], seen: &[Detection]) -> Self {
         let counting = |all: &[Detection]| -> Vec<Detection> {
@@ -142,7 +147,7 @@ impl Pairs {
         sizes
     }
 
-    /// All sizes together.
+    /// Returns the counts of all sizes together.
     #[must_use]
     pub fn found(&self) -> Found {
         let mut all = Found::default();
@@ -152,14 +157,14 @@ impl Pairs {
 }
 
 impl Sums {
-    /// Of one frame.
+    /// Returns the sums for one frame.
     #[must_use]
     pub fn of(whole: &Findings, seen: &Findings, pairs: Option<&Pairs>) -> Self {
         let mut sums = Self { frames: 1, ..Self::default() };
         for (right, found) in whole.outputs.iter().zip(&seen.outputs) {
             sums.distance.add(Distance::of(&right.values, &found.values).0);
             match right.shape[..] {
-                // Boxes have classes of their own.
+                // Detections have classes in their boxes.
                 _ if pairs.is_some() => {}
                 [1, classes] | [1, classes, 1, 1] if classes > 1 => {
                     sums.classes.add(&right.values, &found.values);
@@ -177,7 +182,7 @@ impl Sums {
         sums
     }
 
-    /// Adds those of other frames.
+    /// Adds the sums of other frames.
     pub fn add(&mut self, other: &Self) {
         self.frames += other.frames;
         self.distance.add(other.distance);
@@ -193,13 +198,13 @@ impl Sums {
         }
     }
 
-    /// Share of places with the same class.
+    /// The share of positions with the same class, if an output has a class per position.
     #[must_use]
     pub fn places(&self) -> Option<f64> {
         (self.places.0 > 0).then(|| share(self.places.1, self.places.0))
     }
 
-    /// How often the class is the same, and by how much, if outputs are one.
+    /// The agreement of classes, if an output is one class per frame.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "means")]
     pub fn classes(&self) -> Option<ClassKept> {
@@ -211,7 +216,7 @@ impl Sums {
         })
     }
 
-    /// All detections.
+    /// The counts of detections of all sizes, if detections are read.
     #[must_use]
     pub fn found(&self) -> Option<Found> {
         self.detections.map(|sizes| {
@@ -221,7 +226,8 @@ impl Sums {
         })
     }
 
-    /// Detections by size, if they are read, which `detector` does.
+    /// The agreement of detections by size, if detections are read. `detector` is the one that
+    /// reads them.
     #[must_use]
     pub fn detections(&self, detector: &Detector) -> Option<DetectionsKept> {
         let (all, [small, medium, large]) = (self.found()?, self.detections?);
@@ -230,8 +236,9 @@ impl Sums {
         Some(DetectionsKept { detector, all, small, medium, large, kept_share, precision })
     }
 
-    /// The agreement in one number, 0 to 1. Of detections the smaller of the share that is kept and the share that is right; else the share of
-    /// frames, or of places, with the same class; else what the relative RMS error leaves of 1.
+    /// The agreement as one number from 0 to 1. For detections it is the smaller of the share that
+    /// is kept and the precision. For classes it is the share of frames, or of positions, with the
+    /// same class. For other outputs it is 1 less the relative RMS error, at least 0.
     #[must_use]
     pub fn agreement(&self) -> f64 {
         if let Some(found) = self.found() {
@@ -241,12 +248,13 @@ impl Sums {
         let both = [classes, self.places()].into_iter().flatten().reduce(f64::min);
         both.unwrap_or_else(|| {
             let left = 1.0 - self.distance.relative();
-            // What is no number agrees with nothing.
+            // The comparison is false for NaN, which agrees with nothing.
             if left > 0.0 { left } else { 0.0 }
         })
     }
 
-    /// How many things agree or do not: detections, frames, places. None where it is an error that counts.
+    /// The number of detections, frames or positions that can agree, or `None` if the agreement is
+    /// an error.
     #[must_use]
     pub fn counted(&self) -> Option<u64> {
         if let Some(found) = self.found() {
@@ -272,7 +280,7 @@ impl ClassSums {
     }
 }
 
-/// Places at which the largest of the channels is the same.
+/// Returns the number of positions at which the same channel is the largest.
 fn same_places(whole: &[f32], seen: &[f32], places: usize) -> u64 {
     let class = |values: &[f32], place: usize| {
         let channels: Vec<f32> = values.iter().skip(place).step_by(places).copied().collect();
@@ -301,7 +309,7 @@ mod tests {
         sums.add(&Sums::of(&whole, &findings(&[1, 3], &[9.0, 4.0, 3.0]), None));
         assert_eq!((sums.classes().unwrap().same_share, sums.agreement()), (0.5, 0.5));
         assert_eq!(sums.classes().unwrap().seen_margin, -2.0);
-        // Two classes at three places: the last one differs.
+        // There are two classes at three positions, and the last position differs.
         let whole = findings(&[1, 2, 1, 3], &[0., 1., 0., 1., 0., 1.]);
         let seen = findings(&[1, 2, 1, 3], &[0., 1., 2., 1., 0., 1.]);
         let sums = Sums::of(&whole, &seen, None);

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Objects that a network finds, and which of two lists of them are the same.
+//! Objects that a network detects, and the matching of two lists of them.
 
 use foveate_frame::Rect;
 
-/// An object that a network finds.
+/// An object that a network detects.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detection {
-    /// Number of its class, from 0.
+    /// The number of the class, from 0.
     pub class: usize,
-    /// How sure the network is, 0 to 1.
+    /// The confidence of the network, from 0 to 1.
     pub score: f32,
-    /// Where it is, in pixels.
+    /// The bounding box in pixels.
     pub rect: Rect,
 }
 
-/// Area that two rectangles share, as a share of what they cover together.
+/// Returns the intersection over union of two rectangles.
 pub(super) fn overlap(one: &Rect, other: &Rect) -> f64 {
     let width = one.x1.min(other.x1) - one.x0.max(other.x0);
     let height = one.y1.min(other.y1) - one.y0.max(other.y0);
@@ -25,7 +25,8 @@ pub(super) fn overlap(one: &Rect, other: &Rect) -> f64 {
     both / (one.area() + other.area() - both)
 }
 
-/// Of detections of one class that overlap by more than `most` the surest, the surest first.
+/// Non-maximum suppression: among detections of one class that overlap by more than `most`, keeps
+/// the one with the highest score. Returns the detections in descending order of score.
 pub(super) fn suppressed(mut found: Vec<Detection>, most: f64) -> Vec<Detection> {
     found.sort_by(|one, other| other.score.total_cmp(&one.score));
     let mut kept: Vec<Detection> = Vec::new();
@@ -39,8 +40,9 @@ pub(super) fn suppressed(mut found: Vec<Detection>, most: f64) -> Vec<Detection>
     kept
 }
 
-/// For every one of `found`, the surest first, which of `right` it is: that which it overlaps most, by at least `least`, of those that are not
-/// taken. `same` says which may be the same at all.
+/// Matches every detection of `found`, in descending order of score, with the one of `right` that
+/// it overlaps most. They must overlap by at least `least`, and one of `right` is matched at most
+/// once. `same` tells which pairs may match.
 #[must_use]
 pub fn matched<T>(
     found: &[Detection],

@@ -1,37 +1,41 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How detections are read from a network, and which of them count.
+//! The format in which detections are read from a network, and the selection of those that count.
 
 use std::fmt;
 
 use super::detection::{Detection, suppressed};
 use super::head::{Head, Output};
 
-/// Detections that are surer than this are used for average precision, whatever else counts.
+/// The lowest score of detections that are used for average precision, whatever the score of a
+/// detector is.
 pub(super) const LEAST_SCORE: f32 = 0.01;
 
-/// A format of detections, and which of them count.
+/// A format of detections, and the selection of those that count.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Detector {
     /// The format.
     pub head: Head,
-    /// Detections of at least this score count, 0 to 1.
+    /// The lowest score of detections that count, from 0 to 1.
     pub score: f32,
-    /// Of detections of a class that overlap by more, the surest counts.
+    /// The largest overlap of detections of a class. Of detections that overlap more, the one with
+    /// the highest score counts.
     pub overlap: f64,
-    /// Classes that count, by their numbers from 0; empty for all.
+    /// The classes that count, by their numbers from 0; empty for all.
     pub classes: Vec<usize>,
-    /// Objects of at least this height in pixels of the frame count.
+    /// The lowest height of detections that count, in pixels of the frame.
     pub height: f64,
 }
 
 impl Detector {
-    /// With what most use: a score of 0.3, an overlap of 0.45, everything counts.
+    /// Returns a detector with usual settings: a score of 0.3, an overlap of 0.45, all classes and
+    /// all heights.
     #[must_use]
     pub fn new(head: Head) -> Self {
         Self { head, score: 0.3, overlap: 0.45, classes: Vec::new(), height: 0.0 }
     }
 
-    /// What a network finds with at least the score that average precision needs, the surest first, in pixels of the input.
+    /// Returns the detections with at least the score that average precision needs, in descending
+    /// order of score and in pixels of the input.
     pub(super) fn read(&self, outputs: &[Output], input: (usize, usize)) -> Vec<Detection> {
         let least = self.score.min(LEAST_SCORE);
         let mut found = self.head.decode(outputs, input, least);
@@ -39,16 +43,17 @@ impl Detector {
         suppressed(found, self.overlap)
     }
 
-    /// Whether a detection, in pixels of the frame, counts.
+    /// Returns true if a detection, in pixels of the frame, counts.
     pub(super) fn counts(&self, one: &Detection) -> bool {
         one.score >= self.score && one.rect.height() >= self.height
     }
 }
 
-/// A detector as people write it: `yolox`, or `yolox,score=0.3,overlap=0.45,classes=0+2,height=80`.
+/// Parses a detector as users write it: `yolox`, or
+/// `yolox,score=0.3,overlap=0.45,classes=0+2,height=80`.
 ///
 /// # Errors
-/// When the text is none; the error says what would be right.
+/// Fails if the text is no detector; the message tells what is expected.
 pub fn parse_detector(text: &str) -> Result<Detector, String> {
     let mut words = text.split(',');
     let name = words.next().unwrap_or_default();

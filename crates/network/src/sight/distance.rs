@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far values are from the right ones.
+//! Distances between the values of an output and the right values.
 
-/// Sums over values and over those of a whole computation.
+/// Sums over values and over the right values, which are those of a reference computation.
 #[derive(Clone, Copy, Debug)]
 pub struct Distance {
     /// The largest difference.
     pub largest: f64,
-    /// Sum of the squared differences.
+    /// The sum of the squared differences.
     difference: f64,
-    /// Sum of the squares of the right values, of those that were found, and of the products of both.
+    /// The sums of the squares of the right values, of the squares of the found values, and of
+    /// their products.
     right: f64,
     found: f64,
     product: f64,
-    /// Range of the right values.
+    /// The range of the right values.
     lowest: f64,
     highest: f64,
     values: u64,
@@ -27,7 +28,7 @@ impl Default for Distance {
 }
 
 impl Distance {
-    /// Of some values, and whether any has other bits.
+    /// Returns the distance of two lists of values, with true if any value differs in a bit.
     #[must_use]
     pub fn of(right: &[f32], found: &[f32]) -> (Self, bool) {
         let (mut sum, mut differs) = (Self::default(), false);
@@ -47,7 +48,7 @@ impl Distance {
         (sum, differs)
     }
 
-    /// Adds that of other values.
+    /// Adds the distance of other values.
     pub fn add(&mut self, other: Self) {
         self.largest = self.largest.max(other.largest);
         self.difference += other.difference;
@@ -59,31 +60,34 @@ impl Distance {
         self.values += other.values;
     }
 
-    /// Sum of the squared differences.
+    /// The sum of the squared differences.
     #[must_use]
     pub fn difference(&self) -> f64 {
         self.difference
     }
 
-    /// Sum of the squares of the right values.
+    /// The sum of the squares of the right values.
     #[must_use]
     pub fn right(&self) -> f64 {
         self.right
     }
 
-    /// Root of the mean squared difference, as a share of that of the values; 0 if there is no difference.
+    /// The RMS of the differences as a share of the RMS of the right values; 0 if there is no
+    /// difference.
     #[must_use]
     pub fn relative(&self) -> f64 {
         if self.difference == 0.0 { 0.0 } else { (self.difference / self.right).sqrt() }
     }
 
-    /// Cosine of the angle between all values as vectors; 1 if there is no difference.
+    /// The cosine of the angle between the right and the found values as vectors; 1 if there is no
+    /// difference.
     #[must_use]
     pub fn cosine(&self) -> f64 {
         if self.difference == 0.0 { 1.0 } else { self.product / (self.right * self.found).sqrt() }
     }
 
-    /// Peak signal-to-noise ratio in decibels, with the range of the right values as the peak; nothing if there is no difference.
+    /// The peak signal-to-noise ratio in decibels, with the range of the right values as the peak;
+    /// `None` if there is no difference.
     #[must_use]
     pub fn psnr(&self) -> Option<f64> {
         #[allow(clippy::cast_precision_loss, reason = "a mean")]
@@ -92,14 +96,15 @@ impl Distance {
     }
 }
 
-/// Peak signal-to-noise ratio in decibels from the squares of the peak and of the error, both as means or both as sums over the same values;
-/// nothing if there is no error.
+/// Returns the peak signal-to-noise ratio in decibels, from the squares of the peak and of the
+/// error. Both must be means, or both sums over the same values. Returns `None` if there is no
+/// error.
 #[must_use]
 pub fn psnr(peak: f64, error: f64) -> Option<f64> {
     (error != 0.0).then(|| 10.0 * (peak / error).log10())
 }
 
-/// The place of the largest value, the first of equal ones.
+/// Returns the index of the largest value, or of the first of several equal ones.
 #[must_use]
 pub fn largest(values: &[f32]) -> usize {
     let mut best = 0;
@@ -122,7 +127,7 @@ mod tests {
         assert_eq!((sum.largest, sum.relative()), (4.0, 4.0 / 3.0));
         assert_eq!(sum.cosine(), 9.0 / 15.0);
         assert!((sum.psnr().unwrap() - 10.0 * (9.0f64 / 8.0).log10()).abs() < 1e-12);
-        // More values as one vector, and a wider range.
+        // The added values lengthen the vectors and widen the range.
         sum.add(Distance::of(&[-1.0], &[-1.0]).0);
         assert_eq!(sum.cosine(), 10.0 / (10.0f64 * 26.0).sqrt());
         assert!((sum.psnr().unwrap() - 10.0 * (16.0f64 * 3.0 / 16.0).log10()).abs() < 1e-12);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a network cannot be shown frames, or what it says cannot be read.
+//! Errors of feeding frames to a network and of reading its outputs.
 
 use crate::error::NetworkError;
 
-/// Why a network cannot be shown frames, or what it says cannot be read.
+/// The reason why a network cannot take frames, or why its outputs cannot be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SightError {
@@ -17,17 +17,17 @@ pub enum SightError {
         plural(*channels)
     )]
     Channels {
-        /// The option.
+        /// The command-line option.
         what: &'static str,
-        /// How many values it has.
+        /// The number of values of the option.
         found: usize,
-        /// Channels of the input.
+        /// The number of channels of the input.
         channels: usize,
     },
-    /// The outputs are not those of the detector.
+    /// The outputs do not have the format of the detector.
     #[error("{problem}")]
     Detector {
-        /// What is expected, and what there is.
+        /// The expected format and the outputs of the network, in words.
         problem: String,
     },
 }

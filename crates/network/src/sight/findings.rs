@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a network says of a frame.
+//! The outputs of a network for a frame, and the detections in them.
 
 use super::detection::Detection;
 use super::detector::Detector;
@@ -10,36 +10,38 @@ use crate::executor::Executor;
 use crate::network::Network;
 use foveate_frame::Rect;
 
-/// What a network says of a frame.
+/// The outputs of a network for a frame, and the detections in them.
 #[derive(Clone, Debug)]
 pub struct Findings {
-    /// Its outputs.
+    /// The outputs of the network.
     pub outputs: Vec<Output>,
-    /// What is found with at least the score that average precision needs, the surest first, in pixels of the frame; nothing without a detector.
+    /// The detections with at least the score that average precision needs, in descending order of
+    /// score and in pixels of the frame; `None` without a detector.
     pub detections: Option<Vec<Detection>>,
 }
 
-/// Reads outputs.
+/// Reads the outputs of a network.
 #[derive(Clone, Debug)]
 pub(super) struct Reader {
     pub(super) detector: Option<Detector>,
     input: (usize, usize),
     frame: (u32, u32),
-    /// Pixels of the frame per pixel of the input.
+    /// The pixels of the frame per pixel of the input, along x and y.
     scale: (f64, f64),
 }
 
 impl Reader {
-    /// For the outputs of a network, to which a lens may lead; without a detector.
+    /// Returns a reader of the outputs of a network, without a detector. `lens` is the scaling from
+    /// the frame to the input, if there is one.
     pub(super) fn new(network: &Network, frame: (u32, u32), lens: Option<&Lens>) -> Self {
         let input = (network.input().width(), network.input().height());
         Self { detector: None, input, frame, scale: lens.map_or((1.0, 1.0), Lens::scale) }
     }
 
-    /// The same with another detector, or none.
+    /// Replaces the detector, which may be `None`.
     ///
     /// # Errors
-    /// When the outputs have another format than the detector's.
+    /// Fails if the outputs do not have the format of the detector.
     pub(super) fn with(
         self,
         network: &Network,
@@ -51,17 +53,17 @@ impl Reader {
         Ok(Self { detector, ..self })
     }
 
-    /// How many classes the detector tells apart, if there is one.
+    /// The number of classes of the detector, if there is one.
     pub(super) fn classes(&self, network: &Network) -> Option<usize> {
         self.detector.as_ref().map(|detector| detector.head.classes(&shapes(network)))
     }
 
-    /// What the network probably wants.
+    /// Guesses the formats and the pixel mapping of the network.
     pub(super) fn usual(&self, network: &Network) -> Usual {
         usual(&shapes(network), self.input)
     }
 
-    /// What the executor has found.
+    /// Reads the outputs that an executor has computed.
     pub(super) fn read(&self, network: &Network, executor: &Executor<'_>) -> Findings {
         let outputs = outputs(network, |value| executor.value(value).reals().into_owned());
         let placed = |one: Detection| Detection { rect: self.place(&one.rect), ..one };
@@ -72,14 +74,14 @@ impl Reader {
         Findings { outputs, detections }
     }
 
-    /// A rectangle in the frame, without what lies outside of it.
+    /// Scales a rectangle from the input to the frame, and clips it to the frame.
     fn place(&self, rect: &Rect) -> Rect {
         let ((x, y), Rect { x0, y0, x1, y1 }) = (self.scale, *rect);
         Rect { x0: x0 * x, y0: y0 * y, x1: x1 * x, y1: y1 * y }.within(self.frame)
     }
 }
 
-/// The outputs of a network without values.
+/// Returns the outputs of a network with their shapes, but without values.
 fn shapes(network: &Network) -> Vec<Output> {
     outputs(network, |_| Vec::new())
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a frame of one size becomes the input of a network of another.
+//! The conversion of frames of one size to the input size of a network.
 
 use std::fmt;
 
@@ -7,25 +7,29 @@ use crate::error::NetworkError;
 use crate::network::Network;
 use crate::read::FrameSize;
 
-/// Grey of the rows and columns that a letterbox adds, as a share of white: 114 of 255, as detectors are trained with.
+/// The grey of the rows and columns that a letterbox adds, as a share of white. Detectors are
+/// usually trained with 114 of 255.
 const PADDING: f32 = 114.0 / 255.0;
 
-/// How frames get the size of a network's input. Sizes are width and height in pixels; without one it is the network's.
+/// The way in which frames get the size of a network's input. Sizes are width and height in pixels;
+/// without a size, the network's own is used.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Framing {
-    /// They have it.
+    /// Frames have the size of the input.
     #[default]
     Same,
-    /// Scaled as a whole, into the upper left corner; the rest is grey.
+    /// Frames are scaled with their aspect ratio and placed in the upper left corner. The rest of
+    /// the input is grey.
     Letterbox(Option<(u32, u32)>),
-    /// Scaled to it, each side for itself.
+    /// Frames are scaled to the size of the input, along each axis separately.
     Stretch(Option<(u32, u32)>),
 }
 
-/// A framing as people write it: `same`, `letterbox`, `letterbox=416x416`, `stretch` or `stretch=416x416`.
+/// Parses a framing as users write it: `same`, `letterbox`, `letterbox=416x416`, `stretch` or
+/// `stretch=416x416`.
 ///
 /// # Errors
-/// When the text is none; the error says what would be right.
+/// Fails if the text is no framing; the message tells what is expected.
 pub fn parse_framing(text: &str) -> Result<Framing, String> {
     let (way, size) = text.split_once('=').map_or((text, None), |(way, size)| (way, Some(size)));
     let side = |side: &str| side.parse().ok().filter(|side| (1..=16_384).contains(side));
@@ -67,7 +71,7 @@ impl serde::Serialize for Framing {
 }
 
 impl Framing {
-    /// The size that is asked for; `None` is the network's own.
+    /// The requested size of the input; `None` is the network's own.
     pub(super) fn size(self, frame: (u32, u32)) -> Option<(u32, u32)> {
         match self {
             Self::Same => Some(frame),
@@ -75,7 +79,8 @@ impl Framing {
         }
     }
 
-    /// The lens from frames of a size to an input of another; none where they are the same.
+    /// Returns the scaling from frames of a size to an input of another size, or `None` for
+    /// [`Framing::Same`].
     pub(super) fn lens(self, frame: (u32, u32), input: (u32, u32)) -> Option<Lens> {
         let shown = match self {
             Self::Same => return None,
@@ -85,10 +90,12 @@ impl Framing {
         Some(Lens::new(frame, shown, input))
     }
 
-    /// Reads a network for frames of this size, with the lens to it. `read` takes the size that its input must have; without one it is the network's own.
+    /// Reads a network for frames of this size, and returns it with the scaling to its input.
+    /// `read` gets the size that the input must have; `None` is the network's own.
     ///
     /// # Errors
-    /// When the network cannot be read, or its input has no size and none is asked for.
+    /// Fails if the network cannot be read, or if it takes frames of any size and no size is
+    /// requested.
     pub(super) fn read(
         self,
         read: impl FnOnce(Option<FrameSize>) -> Result<Network, NetworkError>,
@@ -106,7 +113,7 @@ impl Framing {
     }
 }
 
-/// The largest size within another that has the shape of a frame.
+/// Returns the largest size within another that has the aspect ratio of a frame.
 fn inside((width, height): (u32, u32), (most_x, most_y): (u32, u32)) -> (u32, u32) {
     let (x, y) = (f64::from(most_x) / f64::from(width), f64::from(most_y) / f64::from(height));
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the input")]
@@ -114,24 +121,25 @@ fn inside((width, height): (u32, u32), (most_x, most_y): (u32, u32)) -> (u32, u3
     (side(width, most_x), side(height, most_y))
 }
 
-/// A pixel of the input is between two pixels of the frame, in each direction.
+/// The two pixels of the frame between which a pixel of the input lies, along one axis.
 #[derive(Clone, Copy, Debug)]
 struct Tap {
     first: usize,
     second: usize,
-    /// Share of the second.
+    /// The weight of the second pixel.
     weight: f32,
 }
 
-/// Where each pixel of an input comes from, by bilinear interpolation between the centers of pixels.
+/// The source of each pixel of an input, by bilinear interpolation between the centers of pixels of
+/// the frame.
 #[derive(Clone, Debug)]
 pub(super) struct Lens {
     columns: Vec<Tap>,
     rows: Vec<Tap>,
-    /// Width of the frame and of the input.
+    /// The width of the frame, and that of the input.
     width: usize,
     input_width: usize,
-    /// Pixels of the frame per pixel of the input, in each direction.
+    /// The pixels of the frame per pixel of the input, along x and y.
     scale: (f64, f64),
 }
 
@@ -148,18 +156,19 @@ impl Lens {
         }
     }
 
-    /// Grey beside the frame, as a share of white.
+    /// The grey around the frame, as a share of white.
     pub(super) fn padding() -> f32 {
         PADDING
     }
 
-    /// Pixels of the frame per pixel of the input: of a row, and of a column.
+    /// The pixels of the frame per pixel of the input, along x and y.
     pub(super) fn scale(&self) -> (f64, f64) {
         self.scale
     }
 
-    /// Gives every pixel of the input that comes from a region for which `is` holds: its number, its place, and its grey. `is` takes the column
-    /// and the row of a region with this side.
+    /// Calls `give` for every pixel of the input that depends on a region for which `is` holds,
+    /// with its column and row, its index and its grey level. `is` gets the column and the row of a
+    /// region; regions have `side` x `side` pixels.
     pub(super) fn project(
         &self,
         frame: &[u16],
@@ -229,7 +238,8 @@ mod tests {
         let lens = Framing::Stretch(None).lens((4, 2), (2, 2)).unwrap();
         let frame = [0, 2, 10, 20, 4, 6, 30, 40];
         assert_eq!(all(&lens, &frame, 4), [1.0, 15.0, 5.0, 35.0].map(Some));
-        // Larger: the outer pixels stand still beyond the outer centers.
+        // The input is larger. Pixels beyond the outer centers of the frame have the values of
+        // these.
         let lens = Framing::Stretch(None).lens((2, 1), (4, 1)).unwrap();
         assert_eq!(all(&lens, &[0, 100], 4), [0.0, 25.0, 75.0, 100.0].map(Some));
         assert_eq!(lens.scale(), (0.5, 1.0));
@@ -245,7 +255,7 @@ mod tests {
         assert!(found[8..].iter().all(Option::is_none));
     }
 
-    /// Every pixel that changes when a region changes is given.
+    /// A pixel of the input that changes when a region changes must be given.
     #[test]
     fn what_comes_from_a_region_is_given() {
         let lens = Framing::Stretch(None).lens((12, 8), (7, 5)).unwrap();

@@ -1,48 +1,54 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The formats in which detectors say what they found, and how they are read.
+//! The output formats of detectors, and their decoding.
 
 use std::fmt;
 
 use super::detection::Detection;
 use foveate_frame::{MAX_COORDINATE, Rect};
 
-/// Pixels between the cells of the three grids that many detectors have.
+/// The strides, in pixels, of the three grids of cells that many detectors have.
 const STRIDES: [usize; 3] = [8, 16, 32];
 
-/// A format of detections.
+/// An output format of detectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Head {
-    /// `[1, cells, 5 + classes]`: place and logarithm of the size in cells of strides 8, 16 and 32, objectness, classes.
+    /// `[1, cells, 5 + classes]`: center and logarithm of the size in cells of strides 8, 16 and
+    /// 32, objectness, class scores.
     Yolox,
-    /// `[1, cells, 5 + classes]`: centre and size in pixels, objectness, classes. Of `YOLOv5` and `YOLOv7`.
+    /// `[1, cells, 5 + classes]`: center and size in pixels, objectness, class scores. `YOLOv5` and
+    /// `YOLOv7` have this format.
     Yolov5,
-    /// `[1, 4 + classes, cells]`: centre and size in pixels, classes. Of `YOLOv8` and `YOLO11`.
+    /// `[1, 4 + classes, cells]`: center and size in pixels, class scores. `YOLOv8` and `YOLO11`
+    /// have this format.
     Yolov8,
-    /// `[1, boxes, classes]` and `[1, boxes, 4]`: probabilities, of which the first is that of the background, and corners as shares of the input.
+    /// `[1, boxes, classes]` and `[1, boxes, 4]`: probabilities, the first of which is that of the
+    /// background, and corners as shares of the input.
     Ssd,
-    /// `cls_8`, `obj_8`, `bbox_8` and the same of strides 16 and 32: place and logarithm of the size in cells. Of `YuNet`.
+    /// `cls_8`, `obj_8`, `bbox_8`, and outputs of the same kinds for strides 16 and 32: center and
+    /// logarithm of the size in cells. `YuNet` has this format.
     Yunet,
-    /// `[1, 5 + classes, rows, columns]`: objectness, place and size, classes. Of `FastestDet`.
+    /// `[1, 5 + classes, rows, columns]`: objectness, center and size, class scores. `FastestDet`
+    /// has this format.
     FastestDet,
 }
 
 /// An output of a network.
 #[derive(Clone, Debug)]
 pub struct Output {
-    /// What the model calls it.
+    /// The name in the model.
     pub name: String,
-    /// Its shape.
+    /// The shape of the output.
     pub shape: Vec<usize>,
-    /// Its values in the order of memory; none where only its shape is asked for.
+    /// The values in row-major order; empty if only the shape is needed.
     pub values: Vec<f32>,
 }
 
 impl Head {
-    /// All of them.
+    /// All formats.
     pub const ALL: [Self; 6] =
         [Self::Yolox, Self::Yolov5, Self::Yolov8, Self::Ssd, Self::Yunet, Self::FastestDet];
 
-    /// As it is written.
+    /// The name on the command line.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -55,7 +61,7 @@ impl Head {
         }
     }
 
-    /// The outputs that it has, in words.
+    /// The outputs of the format, in words.
     fn expects(self) -> &'static str {
         match self {
             Self::Yolox => {
@@ -71,10 +77,11 @@ impl Head {
         }
     }
 
-    /// Refuses outputs that have another format. `input` is width and height of the network's input.
+    /// Checks that outputs have this format. `input` is the width and the height of the network's
+    /// input.
     ///
     /// # Errors
-    /// The text says what is expected and what there is.
+    /// Fails if they have another format; the message names the expected and the actual outputs.
     pub fn check(self, outputs: &[Output], input: (usize, usize)) -> Result<(), String> {
         let fits = match self {
             Self::Yolox => {
@@ -108,7 +115,7 @@ impl Head {
         ))
     }
 
-    /// How many classes outputs tell apart that have this format.
+    /// The number of classes in outputs of this format.
     #[must_use]
     pub fn classes(self, outputs: &[Output]) -> usize {
         let values = |axis: usize, others: usize| {
@@ -123,7 +130,8 @@ impl Head {
         }
     }
 
-    /// What is found with a score of at least `least`: the likeliest class of every cell, in pixels of the input. The outputs have been checked.
+    /// Decodes the detections with a score of at least `least`: the most likely class of every
+    /// cell, in pixels of the input. The outputs must have passed [`Head::check`].
     #[must_use]
     pub fn decode(self, outputs: &[Output], input: (usize, usize), least: f32) -> Vec<Detection> {
         match self {
@@ -158,13 +166,14 @@ impl fmt::Display for Head {
     }
 }
 
-/// A centre and a size as a rectangle.
+/// Returns the corners of a rectangle with this center and size.
 fn centred(values: &[f32]) -> [f32; 4] {
     let [x, y, width, height] = [values[0], values[1], values[2], values[3]];
     [x - width / 2.0, y - height / 2.0, x + width / 2.0, y + height / 2.0]
 }
 
-/// The likeliest class, if it is likely enough and the rectangle is one.
+/// Returns a detection of the most likely class, if its score is high enough and the corners are
+/// valid.
 fn likeliest(classes: &[f32], factor: f32, least: f32, corners: [f32; 4]) -> Option<Detection> {
     let best = classes.iter().enumerate().max_by(|one, other| one.1.total_cmp(other.1));
     let (class, &share) = best?;
@@ -190,7 +199,7 @@ fn yolox(output: &Output, input: (usize, usize), least: f32) -> Vec<Detection> {
     output.values.chunks_exact(values).zip(cells).filter_map(read).collect()
 }
 
-/// A place in cells and the logarithm of a size, as a rectangle.
+/// Returns the corners of a rectangle from a center in cells and the logarithm of a size.
 #[allow(clippy::cast_precision_loss, reason = "an input has fewer pixels than a float holds")]
 fn in_cell(values: &[f32], stride: usize, column: usize, row: usize) -> [f32; 4] {
     let stride = stride as f32;
@@ -198,7 +207,7 @@ fn in_cell(values: &[f32], stride: usize, column: usize, row: usize) -> [f32; 4]
     centred(&[x, y, values[2].exp() * stride, values[3].exp() * stride])
 }
 
-/// The output of a kind and a stride, such as `cls_8`.
+/// Returns the output of a kind and a stride, such as `cls_8`.
 fn grid_output<'a>(outputs: &'a [Output], kind: &str, stride: usize) -> Option<&'a Output> {
     let name = format!("{kind}_{stride}");
     outputs.iter().find(|output| output.name == name)
@@ -214,7 +223,7 @@ fn yunet(outputs: &[Output], stride: usize, columns: usize, least: f32) -> Vec<D
     classes.iter().zip(objects).zip(places.chunks_exact(4)).enumerate().filter_map(read).collect()
 }
 
-/// The output of scores and that of boxes.
+/// Returns the output of scores and that of boxes.
 fn scores_and_boxes(outputs: &[Output]) -> Option<(&Output, &Output)> {
     let is_boxes = |output: &&Output| matches!(output.shape[..], [1, _, 4]);
     let called = |output: &&Output| ["box", "loc"].iter().any(|word| output.name.contains(word));
@@ -235,7 +244,7 @@ fn ssd(outputs: &[Output], input: (usize, usize), least: f32) -> Vec<Detection> 
     let read = |(shares, corners): (&[f32], &[f32])| {
         let corners =
             [corners[0] * width, corners[1] * height, corners[2] * width, corners[3] * height];
-        // Classes count from the one behind the background.
+        // The first class is the background, so classes count from the second.
         likeliest(&shares[1..], 1.0, least, corners)
     };
     scores.values.chunks_exact(classes).zip(boxes.values.chunks_exact(4)).filter_map(read).collect()
@@ -275,7 +284,7 @@ mod tests {
         (one.class, one.score, corners.map(|value| (value * 1000.0).round() / 1000.0))
     }
 
-    /// Grids of 8x4, 4x2 and 2x1 cells. The object is in the second grid, cell (2, 1).
+    /// The grids have 8x4, 4x2 and 2x1 cells. The object is in cell (2, 1) of the second grid.
     #[test]
     fn yolox_counts_cells_of_three_grids() {
         let mut values = vec![0.0; 42 * 7];
@@ -290,7 +299,7 @@ mod tests {
             0.9,
         ]);
         let outputs = [output("output", &[1, 42, 7], values)];
-        // Centre (2.5, 1.25) cells of 16 pixels, 32 x 64 pixels.
+        // The center is at (2.5, 1.25) cells of 16 pixels, and the size is 32 x 64 pixels.
         let found = only(Head::Yolox, &outputs, (64, 32));
         assert_eq!((found.0, found.2), (1, [24., -12., 56., 52.]));
         assert!((found.1 - 0.72).abs() < 1e-6);
@@ -321,7 +330,7 @@ mod tests {
             output("scores", &[1, 2, 3], vec![0.9, 0.05, 0.05, 0.1, 0.1, 0.8]),
         ];
         assert_eq!(only(Head::Ssd, &outputs, (320, 240)), (1, 0.8, [80., 120., 240., 240.]));
-        // The background is no class.
+        // The background is not counted as a class.
         assert_eq!(Head::Ssd.classes(&outputs), 2);
     }
 
@@ -334,7 +343,7 @@ mod tests {
                 outputs.push(output(&name, &[1, cells, values], vec![0.0; cells * values]));
             }
         }
-        // Cell (1, 1) of the first grid, of 4 columns.
+        // The index is that of cell (1, 1) in the first grid, which has 4 columns.
         outputs[0].values[5] = 0.64;
         outputs[1].values[5] = 1.5;
         outputs[2].values[20..24].copy_from_slice(&[0.5, 0.5, 0.0, 0.0]);
@@ -348,7 +357,7 @@ mod tests {
             values[value * 6 + 4] = number;
         }
         let outputs = [output("758", &[1, 7, 2, 3], values)];
-        // Cell (1, 1) begins at (32, 32); half of the input is 48 x 32.
+        // Cell (1, 1) begins at (32, 32). Half of the input is 48 x 32 pixels.
         assert_eq!(only(Head::FastestDet, &outputs, (96, 64)), (1, 1.0, [8., 16., 56., 48.]));
     }
 
@@ -360,7 +369,7 @@ mod tests {
             assert!(problem.contains("`logits` [1, 1000]"), "{problem}");
             assert!(problem.contains(head.name()), "{problem}");
         }
-        // Another size of the input than the cells are of.
+        // The input has another size than the number of cells requires.
         let outputs = [output("output", &[1, 42, 7], vec![0.0; 42 * 7])];
         assert!(Head::Yolox.check(&outputs, (64, 64)).is_err());
     }

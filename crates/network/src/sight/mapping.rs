@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How pixels become the values that a network takes.
+//! The conversion of pixels to the values that a network takes.
 
 use super::error::SightError;
 use serde::Serialize;
 
-/// How pixels become inputs: `(pixel / largest pixel - mean) / scale`, in every channel.
+/// The conversion of pixels to inputs of a network: `(pixel / largest pixel - mean) / scale`, in
+/// every channel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mapping {
-    /// One value, or one per channel.
+    /// The mean: one value, or one per channel.
     pub mean: Vec<f32>,
-    /// One value, or one per channel.
+    /// The scale: one value, or one per channel.
     pub scale: Vec<f32>,
 }
 
 impl Mapping {
-    /// Refuses a mapping for other channels.
+    /// Fails if the mapping is for another number of channels.
     pub(super) fn check(&self, channels: usize) -> Result<(), SightError> {
         for (what, values) in [("--mean", &self.mean), ("--scale", &self.scale)] {
             if values.len() != 1 && values.len() != channels {
@@ -24,7 +25,7 @@ impl Mapping {
         Ok(())
     }
 
-    /// What a share of white becomes in a channel.
+    /// Returns the input value in a channel for a pixel given as a share of white.
     pub(super) fn value(&self, channel: usize, share: f64) -> f32 {
         let of = |values: &[f32]| f64::from(values[if values.len() == 1 { 0 } else { channel }]);
         #[allow(clippy::cast_possible_truncation, reason = "inputs are 32 bits wide")]
@@ -33,25 +34,27 @@ impl Mapping {
     }
 }
 
-/// A value of a mean as people write it: a number, or a quotient of two.
+/// Parses a value of a mean as users write it: a number, or a quotient of two numbers.
 ///
 /// # Errors
-/// When the text is none, or not finite; the error says what would be right.
+/// Fails if the text is no number or quotient, or if the value is not finite; the message tells
+/// what is expected.
 pub fn parse_mean(text: &str) -> Result<f32, String> {
     quotient(text).ok_or_else(|| "expected a number, or a quotient such as 127/255".to_owned())
 }
 
-/// A value of a scale as people write it: a number above 0, or a quotient of two.
+/// Parses a value of a scale as users write it: a number above 0, or a quotient of two numbers.
 ///
 /// # Errors
-/// When the text is none, or not finite; the error says what would be right.
+/// Fails if the text is no number or quotient, or if the value is not finite or not above 0; the
+/// message tells what is expected.
 pub fn parse_scale(text: &str) -> Result<f32, String> {
     quotient(text)
         .filter(|&value| value > 0.0)
         .ok_or_else(|| "expected a number above 0, or a quotient such as 1/255".to_owned())
 }
 
-/// A number, or a quotient of two, if it is finite.
+/// Parses a number, or a quotient of two numbers, and returns it if it is finite.
 fn quotient(text: &str) -> Option<f32> {
     let number = |text: &str| text.parse().ok().filter(|value: &f32| value.is_finite());
     let value = match text.split_once('/') {

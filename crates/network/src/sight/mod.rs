@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a network is shown frames, what it says of them, and how much of what it says of whole frames it says of others, too.
+//! Feeds frames to networks, reads detections from their outputs, and measures how far the outputs
+//! for different frames agree.
 //!
-//! A [`Witness`] is a network with its [`Viewing`]: the [`Framing`] brings frames to the size of its input, a [`Mapping`] makes values of pixels, and
-//! a [`Detector`] reads what was found in one of the formats of [`Head`]. Nothing here reads files but the network's, and nothing knows a camera.
+//! A [`Witness`] is a network with its [`Viewing`]: the [`Framing`] brings frames to the size of
+//! the input, a [`Mapping`] converts pixels to values, and a [`Detector`] reads detections in a
+//! format of [`Head`]. This module reads no files but that of the network, and knows no camera.
 
 mod agreement;
 mod detection;

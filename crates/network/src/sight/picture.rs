@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as the input of a network, and where it has changed.
+//! A frame as the input of a network, with the positions that have changed.
 
 use super::framing::Lens;
 use super::mapping::Mapping;
@@ -7,50 +7,53 @@ use crate::form::Form;
 use crate::mask::Mask;
 use foveate_frame::Plane;
 
-/// Frames of one size and depth, in square regions that change as a whole.
+/// The format of frames: one size and depth, and square regions that change as a whole.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Frames {
-    /// Pixels of a row, at least 1.
+    /// The pixels of a row, at least 1.
     pub width: u32,
-    /// Rows, at least 1.
+    /// The number of rows, at least 1.
     pub height: u32,
     /// The largest value of a pixel, at least 1.
     pub pixel_max: u32,
-    /// Pixels of a region's side, at least 1. Those at the right and at the bottom may reach beyond the frame.
+    /// The side of a region in pixels, at least 1. The regions at the right and at the bottom may
+    /// reach beyond the frame.
     pub region: u32,
 }
 
-/// The picture that the network sees, and the frame that it was made of.
+/// The input of the network, and the frame from which it was made.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// Width of the frame, and side of a region.
+    /// The width of the frame, and the side of a region, in pixels.
     width: usize,
     side: usize,
-    /// Regions of a row.
+    /// The number of regions of a row.
     columns: usize,
     frame: Vec<u16>,
-    /// Regions in which it differs from the one before.
+    /// The regions in which the frame differs from the previous one.
     fresh: Vec<bool>,
     inputs: Inputs,
-    /// The input of the network.
+    /// The values of the network's input, in row-major order.
     pub values: Vec<f32>,
-    /// Where the input differs from the one before, as far as whole regions say.
+    /// The positions at which the input may differ from the previous one, because they depend on a
+    /// changed region.
     pub changed: Mask,
-    /// How many regions that are.
+    /// The number of changed regions.
     pub changed_regions: usize,
 }
 
-/// How pixels of the frame become values.
+/// The conversion of pixels of the frame to input values.
 #[derive(Clone, Debug)]
 enum Inputs {
-    /// Each becomes one: what each grey is, channel by channel.
+    /// Every pixel of the frame is one pixel of the input. The tables hold the input value of every
+    /// pixel value, one table per channel.
     Each(Vec<Vec<f32>>),
-    /// Between pixels of another size.
+    /// A pixel of the input is interpolated between pixels of the frame.
     Between { lens: Box<Lens>, mapping: Mapping, channels: usize, max: f64 },
 }
 
 impl Picture {
-    /// A black picture of such frames for the input of a network.
+    /// Returns the input for a black frame of this format.
     pub(super) fn new(
         frames: Frames,
         input: &Form,
@@ -74,7 +77,7 @@ impl Picture {
                 max,
             },
         };
-        // Beside a frame in a letterbox there is grey.
+        // A letterbox is grey around the frame.
         let outside = lens.map_or(0.0, |_| f64::from(Lens::padding()));
         let (width, height) = (frames.width as usize, frames.height as usize);
         let across = |side: u32| side.div_ceil(frames.region) as usize;
@@ -96,10 +99,11 @@ impl Picture {
         picture
     }
 
-    /// Takes over a frame.
+    /// Stores the next frame, and updates the input and its changed positions.
     ///
     /// # Panics
-    /// If it has another size, or a pixel is larger than one of these frames can be.
+    /// Panics if the frame is smaller than the format says, or if a pixel is larger than the
+    /// largest value.
     pub fn show(&mut self, frame: Plane<'_>) {
         match frame {
             Plane::Bytes(pixels) => self.update(pixels),
@@ -109,13 +113,13 @@ impl Picture {
         self.project();
     }
 
-    /// The frame that was shown last.
+    /// The last frame.
     #[must_use]
     pub fn frame(&self) -> &[u16] {
         &self.frame
     }
 
-    /// The part of every row of a region.
+    /// Returns the pixels of each row of a region, as ranges of the frame.
     fn rows(&self, region: usize) -> impl Iterator<Item = std::ops::Range<usize>> + use<> {
         let (width, side) = (self.width, self.side);
         let (left, top) = (region % self.columns * side, region / self.columns * side);
@@ -141,7 +145,7 @@ impl Picture {
         }
     }
 
-    /// Brings what is fresh into the input.
+    /// Updates the input at the positions that depend on changed regions.
     fn project(&mut self) {
         match &self.inputs {
             Inputs::Each(tables) => {
@@ -175,7 +179,8 @@ mod tests {
     use super::*;
     use crate::sight::Framing;
 
-    /// What is not marked as changed has the values from before, and all have those of a picture that never saw another frame.
+    /// Positions that are not marked as changed must keep their values, and the input must be the
+    /// one that a new instance makes of the frame.
     #[test]
     fn inputs_follow_the_frame_and_marks_cover_what_changes() {
         let mut chance = fastrand::Rng::with_seed(7);

@@ -1,26 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which format of detections a network probably has, and how its pixels are usually mapped: for whoever opens a network without a word about it.
+//! Guesses the detection format and the usual pixel mapping of a network, for users who open a
+//! network without options.
 
 use super::detector::Detector;
 use super::head::{Head, Output};
 
-/// What a network probably wants. Whoever trained it may say otherwise.
+/// The probable formats and pixel mapping of a network. It may have been trained with others.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Usual {
-    /// All formats that its outputs fit.
+    /// All formats that the outputs have.
     pub fits: Vec<Head>,
-    /// The likeliest of them; none if that would be by chance, as of segmentations.
+    /// The most likely of the formats; `None` if the match is probably by chance, as for
+    /// segmentation networks.
     pub head: Option<Head>,
-    /// What is subtracted from pixels of 0 to 1, as on the command line.
+    /// The mean to subtract from pixels of 0 to 1, as it is written on the command line.
     pub mean: &'static str,
-    /// By what they are divided then.
+    /// The scale by which pixels are then divided, as it is written on the command line.
     pub scale: &'static str,
 }
 
-/// What a network with these outputs probably wants. `input` is width and height of its input.
+/// Guesses the formats and the pixel mapping of a network with these outputs. `input` is the width
+/// and the height of its input.
 #[must_use]
 pub fn usual(outputs: &[Output], input: (usize, usize)) -> Usual {
-    // What is told by names and numbers of cells stands before what is told by a number of axes.
+    // Formats with fixed names or numbers of cells come before formats that are recognized by the
+    // number of axes.
     let order = [Head::Yunet, Head::Yolox, Head::Ssd, Head::FastestDet, Head::Yolov5, Head::Yolov8];
     let fits: Vec<Head> =
         order.into_iter().filter(|head| head.check(outputs, input).is_ok()).collect();
@@ -30,18 +34,18 @@ pub fn usual(outputs: &[Output], input: (usize, usize)) -> Usual {
 }
 
 impl Usual {
-    /// The likeliest detector, with what most use.
+    /// The most likely detector, with the usual settings.
     #[must_use]
     pub fn detector(&self) -> Option<Detector> {
         self.head.map(Detector::new)
     }
 }
 
-/// Whether outputs that fit would be strange otherwise.
+/// Returns true if outputs that have a format probably have it on purpose.
 fn is_likely(head: Head, outputs: &[Output], input: (usize, usize)) -> bool {
     match (head, &outputs[0].shape[..]) {
         (Head::Yolov5, [_, cells, values]) | (Head::Yolov8, [_, values, cells]) => values < cells,
-        // A grid as fine as the picture says what every pixel is, and a single cell what the whole is.
+        // A grid as fine as the input is a segmentation, and a single cell is a classification.
         (Head::FastestDet, [_, _, rows, columns]) => {
             rows.min(columns) > &1 && rows * 8 <= input.1 && columns * 8 <= input.0
         }
@@ -49,8 +53,9 @@ fn is_likely(head: Head, outputs: &[Output], input: (usize, usize)) -> bool {
     }
 }
 
-/// Mean and scale with which the project that a format is of shows pixels to its networks: `YOLOX` and `YuNet` (`FaceDetectorYN` of `OpenCV`) take
-/// 0 to 255, `UltraFace` (pixel - 127) / 128, `YOLOv5` and its successors and `FastestDet` 0 to 1.
+/// Returns the mean and the scale with which the project of a format prepares pixels. `YOLOX` and
+/// `YuNet` (`FaceDetectorYN` of `OpenCV`) take 0 to 255, `UltraFace` takes (pixel - 127) / 128, and
+/// `YOLOv5`, its successors and `FastestDet` take 0 to 1.
 fn mapping(head: Head) -> (&'static str, &'static str) {
     match head {
         Head::Yolox | Head::Yunet => ("0", "1/255"),
@@ -92,7 +97,8 @@ mod tests {
         assert_eq!((classes.head, classes.fits.len(), classes.scale), (None, 0, "1"));
         let classes = of(&[("softmax", &[1, 1000, 1, 1])], (224, 224));
         assert_eq!((classes.head, classes.fits), (None, vec![Head::FastestDet]));
-        // A segmentation fits the axes of FastestDet, which somebody may choose.
+        // A segmentation has as many axes as the format of FastestDet, so users may still choose
+        // that format.
         let places = of(&[("out", &[1, 21, 513, 513])], (513, 513));
         assert_eq!((places.head, places.fits), (None, vec![Head::FastestDet]));
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network that says whether two pictures show the same, for whoever looks for a camera that it cannot tell from whole frames.
+//! A network that measures how far its outputs for two frames agree, for the search for a camera
+//! behind which it has the outputs of the input frames.
 
 use std::path::Path;
 use std::time::Duration;
@@ -20,7 +21,7 @@ use crate::network::Network;
 use crate::read::FrameSize;
 use foveate_frame::Plane;
 
-/// A network, and how frames of one size are shown to it.
+/// A network with the conversion of frames of one size to its input.
 #[derive(Debug)]
 pub struct Witness {
     network: Network,
@@ -29,26 +30,28 @@ pub struct Witness {
     reader: Reader,
 }
 
-/// How a network is shown frames, and how what it says is read.
+/// The conversion of frames to the input of a network, and the reading of its outputs.
 #[derive(Clone, Debug)]
 pub struct Viewing {
-    /// How frames get the size of the network's input.
+    /// The way in which frames get the size of the network's input.
     pub framing: Framing,
-    /// How pixels become inputs.
+    /// The conversion of pixels to input values.
     pub mapping: Mapping,
-    /// How detections are read; without it, outputs are compared as classes or as numbers.
+    /// The detector that reads detections. Without one, outputs are compared as classes or as
+    /// numbers.
     pub detector: Option<Detector>,
 }
 
-/// What a network said of a frame.
+/// The outputs of a network for a frame.
 #[derive(Clone, Debug)]
 pub struct Testimony(Findings);
 
-/// How much of what a network says of whole frames it says of others, too, over some frames.
+/// The agreement of a network's outputs over some frames, such as the screen's, with those for the
+/// input frames.
 #[derive(Clone, Debug, Default)]
 pub struct Agreement(Sums);
 
-/// A witness at work: it looks at the frames of one camera.
+/// A run of a network over the frames of one camera.
 #[derive(Debug)]
 pub struct Looking<'a> {
     witness: &'a Witness,
@@ -61,15 +64,16 @@ impl Witness {
     /// Reads a network for frames of a size.
     ///
     /// # Errors
-    /// When it cannot be read, takes frames of another size, or its outputs are not those of the detector.
+    /// Fails if the network cannot be read or takes frames of another size, if the mapping is for
+    /// another number of channels, or if the outputs do not have the format of the detector.
     pub fn read(path: &Path, frame: (u32, u32), viewing: &Viewing) -> Result<Self, SightError> {
         Self::with(|size| Network::read(path, size), frame, viewing)
     }
 
-    /// The same with what the file `path` holds.
+    /// Reads a network as [`Witness::read`] does, from the content of the file `path`.
     ///
     /// # Errors
-    /// As [`Witness::read`].
+    /// Fails as [`Witness::read`] does.
     pub fn parse(
         bytes: &[u8],
         path: &Path,
@@ -91,10 +95,11 @@ impl Witness {
             .viewed(viewing.mapping.clone(), viewing.detector.clone())
     }
 
-    /// The same with another mapping and another detector, or none.
+    /// Replaces the mapping and the detector, which may be `None`.
     ///
     /// # Errors
-    /// When the mapping is for other channels, or the outputs are not those of the detector.
+    /// Fails if the mapping is for another number of channels, or if the outputs do not have the
+    /// format of the detector.
     pub fn viewed(self, mapping: Mapping, detector: Option<Detector>) -> Result<Self, SightError> {
         mapping.check(self.network.input().shape()[1])?;
         let reader = self.reader.with(&self.network, detector);
@@ -102,13 +107,13 @@ impl Witness {
         Ok(Self { mapping, reader, ..self })
     }
 
-    /// How many classes the detector tells apart, if there is one.
+    /// The number of classes of the detector, if there is one.
     #[must_use]
     pub fn classes(&self) -> Option<usize> {
         self.reader.classes(&self.network)
     }
 
-    /// What the network probably wants.
+    /// Guesses the formats and the pixel mapping of the network.
     #[must_use]
     pub fn usual(&self) -> Usual {
         self.reader.usual(&self.network)
@@ -120,7 +125,7 @@ impl Witness {
         &self.network
     }
 
-    /// Looks at frames of the size that it was read for.
+    /// Starts a run over frames of the size for which the network was read.
     #[must_use]
     pub fn look_at(&self, frames: Frames) -> Looking<'_> {
         let input = self.network.input();
@@ -132,25 +137,25 @@ impl Witness {
         }
     }
 
-    /// A black picture of such frames.
+    /// Returns the input for a black frame of this format.
     #[must_use]
     pub fn picture(&self, frames: Frames) -> Picture {
         Picture::new(frames, self.network.input(), &self.mapping, self.lens.as_ref())
     }
 
-    /// How detections are read, if they are.
+    /// The detector, if there is one.
     #[must_use]
     pub fn detector(&self) -> Option<&Detector> {
         self.reader.detector.as_ref()
     }
 
-    /// What an executor of the network says.
+    /// Reads the outputs that an executor of the network has computed.
     #[must_use]
     pub fn findings(&self, executor: &Executor<'_>) -> Findings {
         self.reader.read(&self.network, executor)
     }
 
-    /// Which detections are the same, if they are read.
+    /// Matches the detections of two frames, if detections are read.
     #[must_use]
     pub fn pairs(&self, whole: &Findings, other: &Findings) -> Option<Pairs> {
         let both = whole.detections.as_ref().zip(other.detections.as_ref());
@@ -158,7 +163,7 @@ impl Witness {
         Some(Pairs::of(detector, whole, other))
     }
 
-    /// How much of what was said of a whole frame is said of another.
+    /// Returns the agreement of the outputs for another frame with those for the input frame.
     #[must_use]
     pub fn compare(&self, whole: &Testimony, other: &Testimony) -> Agreement {
         let (whole, other) = (&whole.0, &other.0);
@@ -167,13 +172,13 @@ impl Witness {
 }
 
 impl Looking<'_> {
-    /// What the network says of a frame.
+    /// Runs the network on a frame, and returns its outputs.
     pub fn look(&mut self, frame: Plane<'_>) -> Testimony {
         self.run(frame);
         Testimony(self.findings())
     }
 
-    /// Runs the network on a frame, and says how long that took.
+    /// Runs the network on a frame, and returns the time that the computation took.
     pub fn run(&mut self, frame: Plane<'_>) -> Duration {
         self.picture.show(frame);
         let start = Moment::now();
@@ -181,7 +186,7 @@ impl Looking<'_> {
         start.elapsed()
     }
 
-    /// What it says of the frame before.
+    /// The outputs for the last frame.
     #[must_use]
     pub fn findings(&self) -> Findings {
         self.witness.findings(&self.executor)
@@ -197,19 +202,20 @@ impl<'a> std::iter::Sum<&'a Agreement> for Agreement {
 }
 
 impl Agreement {
-    /// The agreement in one number, 0 to 1, as that of [`Sums`].
+    /// The agreement as one number from 0 to 1, as [`Sums::agreement`] defines it.
     #[must_use]
     pub fn share(&self) -> f64 {
         self.0.agreement()
     }
 
-    /// How many things agree or do not: detections, frames or places with a class; none where outputs are compared as numbers.
+    /// The number of detections, frames or positions that can agree; `None` if outputs are compared
+    /// as numbers.
     #[must_use]
     pub fn counted(&self) -> Option<u64> {
         self.0.counted()
     }
 
-    /// Detections of all sizes, if they are read.
+    /// The counts of detections of all sizes, if detections are read.
     #[must_use]
     pub fn found(&self) -> Option<Found> {
         self.0.found()
