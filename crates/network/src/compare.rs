@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What has changed of values beside those that are kept. Channel by channel the loops run over neighbors in memory, in vector lanes, because
-//! this is all that the modes that compare take longer.
+//! Compares new values of a tensor with its kept values. The loops run over values that are
+//! neighbors in memory, in vector lanes, because this comparison is the only extra cost of the
+//! modes that compare.
 
 use crate::form::Form;
 use crate::mask::Mask;
 use crate::tensor::for_each_run;
 use crate::values::Number;
 
-/// Positions of which all channels are compared before the next ones, so that their marks stay in the first cache.
+/// The positions that are compared in all channels before the next ones, so that their marks stay
+/// in the first-level cache.
 const TOGETHER: usize = 2048;
 
-/// The positions of `at` of which a value differs by more than `limit`; with a limit of 0, in any bit.
+/// Returns the positions of `at` at which a value differs by more than `limit`. With a limit of 0,
+/// values differ if any bit differs.
 pub(crate) fn moved<T: Number>(
     form: &Form,
     kept: &[T],
@@ -20,7 +23,8 @@ pub(crate) fn moved<T: Number>(
 ) -> Mask {
     if limit > 0.0 {
         let scale = form.encoding().scale;
-        // NaN is neither more nor less. Both are asked, because a branch would keep values from the lanes.
+        // A distance that is NaN is not within the limit. Both conditions are evaluated, because a
+        // branch would prevent vector instructions.
         let is_near =
             |kept: T, fresh: T| kept.is_same(fresh) | (kept.distance(fresh) * scale <= limit);
         differing(form, kept, fresh, at, is_near)
@@ -29,7 +33,7 @@ pub(crate) fn moved<T: Number>(
     }
 }
 
-/// The positions of `at` of which a value is not alike.
+/// Returns the positions of `at` at which `is_alike` is false for at least one value.
 fn differing<T: Number>(
     form: &Form,
     kept: &[T],
@@ -55,7 +59,7 @@ fn differing<T: Number>(
     found
 }
 
-/// Marks the positions, of `inner` values each, of which one is not alike.
+/// Marks the positions at which `is_alike` is false for one of their `inner` values.
 fn mark<T: Number>(
     marks: &mut [u32],
     kept: &[T],
@@ -75,7 +79,7 @@ fn mark<T: Number>(
     }
 }
 
-/// Copies the values of some positions.
+/// Copies the values at the positions of `at`.
 pub(crate) fn copy<T: Number>(form: &Form, from: &[T], to: &mut [T], at: &Mask) {
     for_each_run(form, at, |run| to[run.clone()].copy_from_slice(&from[run]));
 }
@@ -86,7 +90,7 @@ mod tests {
     use crate::element::{Element, Encoding};
     use proptest::prelude::*;
 
-    /// The same value by value, as the modes are defined.
+    /// Compares value by value, by the definition of the modes.
     fn naive<T: Number>(form: &Form, kept: &[T], fresh: &[T], at: &Mask, limit: f32) -> Mask {
         let (inner, places) = (form.inner(), form.places());
         let differs = |kept: T, fresh: T| {
@@ -106,7 +110,8 @@ mod tests {
         found
     }
 
-    /// Forms with planes below and above a word and a block, and with the channels last.
+    /// Forms with fewer and more positions than a mask word and a comparison block, and forms with
+    /// the channels last.
     fn forms() -> impl Strategy<Value = Form> {
         let features = (1usize..4, 1usize..70, prop_oneof![1usize..10, 60usize..70])
             .prop_map(|(channels, height, width)| Form::features(vec![1, channels, height, width]));
@@ -127,7 +132,7 @@ mod tests {
         let bits: Vec<bool> = (0..form.places()).map(|_| next() % 3 <= dense).collect();
         let at = Mask::from_fn(form.height(), form.width(), |x, y| bits[y * form.width() + x]);
         let kept: Vec<T> = (0..form.elements()).map(|_| value(next())).collect();
-        // One in so many differs.
+        // One value in eight is drawn anew.
         let fresh: Vec<T> =
             kept.iter().map(|&kept| if next() % 8 == 0 { value(next()) } else { kept }).collect();
         let found = moved(form, &kept, &fresh, &at, limit);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the values of a tensor are stored, and what they stand for.
+//! The types in which values of a tensor are stored, and the real numbers that they stand for.
 
-/// Does something with the type of an [`Element`].
+/// Evaluates an expression with the Rust type of an [`Element`].
 macro_rules! typed {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {
@@ -25,7 +25,7 @@ macro_rules! typed {
     };
 }
 
-/// The same for an [`Element`] of 8 bits.
+/// Evaluates an expression with the Rust type of an [`Element`] of 8 bits.
 macro_rules! typed_byte {
     ($element:expr, $number:ident => $body:expr) => {
         match $element {
@@ -46,23 +46,23 @@ macro_rules! typed_byte {
 
 pub(crate) use {typed, typed_byte};
 
-/// How a value is stored.
+/// The type of a stored value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Element {
     /// A 32-bit floating-point value.
     F32,
-    /// An 8-bit integer without sign.
+    /// An unsigned 8-bit integer.
     U8,
-    /// An 8-bit integer with sign.
+    /// A signed 8-bit integer.
     I8,
-    /// A 32-bit integer with sign: a sum of products.
+    /// A signed 32-bit integer, which holds sums of products.
     I32,
 }
 
 impl Element {
     pub(crate) const ALL: [Self; 4] = [Self::F32, Self::U8, Self::I8, Self::I32];
 
-    /// Bytes of a value.
+    /// The bytes of a value.
     #[must_use]
     pub fn bytes(self) -> usize {
         match self {
@@ -71,17 +71,17 @@ impl Element {
         }
     }
 
-    /// Whether it has 8 bits.
+    /// Returns true for the types of 8 bits.
     pub(crate) fn is_byte(self) -> bool {
         self.bytes() == 1
     }
 
-    /// The lowest and the highest integer, of 8 bits.
+    /// The lowest and the highest integer of a type of 8 bits.
     pub(crate) fn range(self) -> (i32, i32) {
         typed_byte!(self, T => (T::MIN.into(), T::MAX.into()))
     }
 
-    /// What messages call many of them.
+    /// The name of such values in messages, in the plural.
     pub(crate) fn describe(self) -> &'static str {
         match self {
             Self::F32 => "32-bit floating-point values",
@@ -92,22 +92,23 @@ impl Element {
     }
 }
 
-/// How values are stored, and the real numbers that they stand for: `(value - zero) * scale`.
+/// The type of stored values, and the affine mapping to the real numbers that they stand for:
+/// `(value - zero) * scale`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Encoding {
-    /// How a value is stored.
+    /// The type of a stored value.
     pub element: Element,
-    /// What one step stands for.
+    /// The real number of one quantization step.
     pub scale: f32,
-    /// What stands for 0.
+    /// The zero point: the stored value that stands for 0.
     pub zero: i32,
 }
 
 impl Encoding {
-    /// Floating-point values, which stand for themselves.
+    /// Floating-point values that stand for themselves.
     pub const FLOAT: Self = Self::plain(Element::F32);
 
-    /// Values that stand for themselves, or of which nothing else is known.
+    /// Values that stand for themselves, or whose scale is not known.
     #[must_use]
     pub const fn plain(element: Element) -> Self {
         Self { element, scale: 1.0, zero: 0 }

@@ -1,49 +1,49 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a network cannot be read.
+//! Errors of reading a network.
 
 use std::path::{Path, PathBuf};
 
-/// Why a network cannot be read.
+/// The reason why a network cannot be read.
 #[derive(Debug, thiserror::Error)]
 pub enum NetworkError {
     /// A file cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Io {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The reason.
+        /// The error of the operating system.
         source: std::io::Error,
     },
     /// The file is not an ONNX model.
     #[error("`{}` is not an ONNX model: {problem}", path.display())]
     NotOnnx {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What is wrong.
+        /// The problem in words.
         problem: String,
     },
-    /// An operator is unknown.
+    /// An operator is not supported.
     #[error(
         "node `{}` has the operator `{}`, which is not supported{advice}",
         shown(node),
         shown(operator)
     )]
     Operator {
-        /// Its name.
+        /// The name of the node.
         node: String,
         /// The operator with its domain.
         operator: String,
-        /// Advice behind a semicolon; empty where it has been given.
+        /// Advice that begins with a semicolon; empty where it has been given before.
         advice: &'static str,
     },
     /// A node is not valid, or uses its operator in a way that is not supported.
     #[error("node `{}` ({}): {}", shown(node), shown(operator), shown(problem))]
     Node {
-        /// Its name.
+        /// The name of the node.
         node: String,
-        /// Its operator.
+        /// The operator of the node.
         operator: String,
-        /// What is wrong.
+        /// The problem in words.
         problem: String,
     },
     /// The network as a whole is not valid or not supported.
@@ -54,9 +54,9 @@ pub enum NetworkError {
         "the network takes pictures of {wanted} pixels, but the frames have {found}; give --resize {wanted}, or --framing letterbox to scale behind the camera"
     )]
     Size {
-        /// Width x height of the input.
+        /// The width x height of the input.
         wanted: String,
-        /// Width x height of the frames.
+        /// The width x height of the frames.
         found: String,
     },
 }
@@ -67,7 +67,8 @@ impl NetworkError {
     }
 }
 
-/// Text from a file for a message: without control characters, and not longer than a line or two.
+/// Makes text from a file fit for a message: removes control characters and cuts it after a line or
+/// two.
 fn shown(text: &str) -> String {
     const LONGEST: usize = 300;
     let mut shown: String =

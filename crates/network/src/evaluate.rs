@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network run once on arrays, without a camera, so that its outputs can be compared with those of other programs.
+//! Runs a network once on arrays, without a camera, so that its outputs can be compared with those
+//! of other programs.
 
 use crate::error::NetworkError;
 use crate::executor::{Executor, Mode};
@@ -10,24 +11,25 @@ use crate::read::read_for_arrays;
 use std::path::Path;
 use std::time::Duration;
 
-/// The outputs of a network for some arrays.
+/// The outputs of a network for some arrays, with the cost of computing them.
 #[derive(Debug)]
 pub struct NetworkEvaluation {
     /// The outputs in the order of the model, each with its name.
     pub outputs: Vec<(String, TensorProto)>,
-    /// Multiplications and additions.
+    /// The number of multiply-accumulate operations.
     pub macs: u64,
-    /// Bytes of all weights.
+    /// The bytes of all weights.
     pub weight_bytes: u64,
-    /// Time of the computation, without that of reading.
+    /// The time of the computation, without the time of reading the file.
     pub time: Duration,
 }
 
-/// Runs the network of a file on arrays, one for each of its inputs in their order, with values as bytes (`raw_data`), the lowest first.
-/// Outputs have the type that the model says. Values of 16 and 64 bits are computed with 32.
+/// Runs the network of a file on one array for each of its inputs, in the order of the inputs. The
+/// values of an array are in `raw_data`, in little-endian order. Outputs have the types that the
+/// model declares. Values of 16 and 64 bits are computed with 32 bits.
 ///
 /// # Errors
-/// When the network cannot be read, or an array has another type or shape than its input.
+/// Fails if the network cannot be read, or if an array has another type or shape than its input.
 pub fn evaluate(path: &Path, arrays: &[TensorProto]) -> Result<NetworkEvaluation, NetworkError> {
     let read = read_for_arrays(path, arrays)?;
     let network = &read.network;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a network frame by frame, and computes again only what may have changed.
+//! Runs a network frame by frame, and recomputes only what may have changed.
 
 use crate::compare::{copy, moved};
 use crate::element::{Element, typed};
@@ -12,57 +12,63 @@ use crate::tensor::Tensor;
 use crate::values::{Number, Values};
 use std::time::Duration;
 
-/// What is computed for a frame after the first. The first is always computed whole.
+/// The positions that are computed for each frame after the first. The first frame is always
+/// computed densely.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Mode {
-    /// Everything.
+    /// Every position is computed.
     Dense,
-    /// Every output whose window holds an input that may have changed. Equal to [`Mode::Dense`] bit for bit.
+    /// Every output whose window holds an input that may have changed is computed. Results are
+    /// equal to [`Mode::Dense`] bit for bit.
     Exact,
-    /// The same, but an output that came out equal has not changed. Equal to [`Mode::Dense`] bit for bit.
+    /// Computes what [`Mode::Exact`] does, but an output that is equal to its kept value does not
+    /// count as changed. Results are equal to [`Mode::Dense`] bit for bit.
     Compare,
-    /// A position keeps what it last passed on while each of its values is within this of it. Integers are compared as
-    /// the real numbers that they stand for, if their scale is known, else as they are.
+    /// A position keeps the values that it passed on last while each of its new values is within
+    /// this limit of them. Integers are compared as the real numbers that they stand for if their
+    /// scale is known, and as integers otherwise.
     Truncate(f32),
-    /// In every tensor only the positions that lie under a changed part of the picture. Wrong at its borders.
+    /// In every tensor only the positions are computed that lie under a changed part of the frame.
+    /// Results are wrong at the borders of these parts.
     Fixed,
 }
 
-/// What a node did for a frame, in positions of its output.
+/// The work of a node for a frame, in positions of its output.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Work {
-    /// Positions whose windows hold a change.
+    /// The positions whose windows hold a change.
     pub needed: usize,
-    /// Positions that were computed.
+    /// The positions that were computed.
     pub scheduled: usize,
-    /// Positions that were passed on as changed.
+    /// The positions that were passed on as changed.
     pub changed: usize,
 }
 
-/// A network with all tensors of the frame that it has seen last.
+/// The state of a network between frames: all tensors of the last frame.
 #[derive(Clone, Debug)]
 pub struct Executor<'a> {
     network: &'a Network,
     mode: Mode,
-    /// By value: by how much it must differ to have changed. Without a limit everything that was computed has.
+    /// The difference beyond which a value counts as changed, by tensor. Without a limit, every
+    /// computed value counts as changed.
     limits: Vec<Option<f32>>,
-    /// All values, as they were passed on.
+    /// All tensors, with the values that were passed on.
     kept: Vec<Tensor>,
-    /// What has changed of each.
+    /// The changed positions of each tensor.
     masks: Vec<Mask>,
-    /// By node: where it was computed.
+    /// The positions at which each node was computed.
     wanted: Vec<Mask>,
     work: Vec<Work>,
-    /// Where a node computes whose output is compared, for each kind of value.
+    /// The buffer for the output of a node before it is compared, one for each type of values.
     fresh: [Values; Element::ALL.len()],
     has_begun: bool,
-    /// Of the last step: time in the operator of each node, and in all else.
+    /// The time of the last step in the operator of each node.
     computing: Vec<Duration>,
     overhead: Duration,
 }
 
 impl<'a> Executor<'a> {
-    /// An executor that has seen no frame.
+    /// Returns an executor that has seen no frame.
     #[must_use]
     pub fn new(network: &'a Network, mode: Mode) -> Self {
         let forms = || (0..=network.nodes().len()).map(|value| network.form(value));
@@ -77,7 +83,7 @@ impl<'a> Executor<'a> {
             Values::zeros(element, own.map(Form::elements).max().unwrap_or(0))
         };
         let mut limits: Vec<_> = forms().map(|_| limit).collect();
-        // The picture is never cut.
+        // The limit of the frame is 0: its changes are never truncated.
         limits[0] = limit.map(|_| 0.0);
         Self {
             network,
@@ -94,10 +100,10 @@ impl<'a> Executor<'a> {
         }
     }
 
-    /// An executor in [`Mode::Truncate`] with a limit of its own for every node.
+    /// Returns an executor in [`Mode::Truncate`] with a separate limit for each node.
     ///
     /// # Panics
-    /// If there is not a limit per node.
+    /// Panics if the number of limits is not the number of nodes.
     #[must_use]
     pub fn truncating(network: &'a Network, limits: &[f32]) -> Self {
         assert_eq!(limits.len(), network.nodes().len(), "a limit per node");
@@ -108,11 +114,11 @@ impl<'a> Executor<'a> {
         executor
     }
 
-    /// Runs the network on the next picture, which differs from the one before at most at the positions `changed`. Returns what every node
-    /// did.
+    /// Runs the network on the next frame, which differs from the previous one at most at the
+    /// positions `changed`. Returns the work of every node.
     ///
     /// # Panics
-    /// If picture or mask have not the size of the network's input.
+    /// Panics if `picture` or `changed` does not have the size of the network's input.
     pub fn step(&mut self, picture: &[f32], changed: &Mask) -> &[Work] {
         let input = self.network.input();
         assert_eq!(picture.len(), input.elements(), "a picture has as many values as the input");
@@ -123,26 +129,28 @@ impl<'a> Executor<'a> {
         );
         let start = Moment::now();
         self.accept(picture, changed);
-        // In the pool, where an operator need not wait until a thread has taken over its work.
+        // The loop runs inside the thread pool, so that an operator need not wait until a thread
+        // has taken over its work.
         rayon::scope(|_| (0..self.work.len()).for_each(|node| self.run(node, changed)));
         self.has_begun = true;
         self.overhead = start.elapsed().saturating_sub(self.computing.iter().sum());
         &self.work
     }
 
-    /// Time that the last step took beside operators: for masks, comparisons and copies.
+    /// The time of the last step outside of operators: masks, comparisons and copies.
     #[must_use]
     pub fn overhead(&self) -> Duration {
         self.overhead
     }
 
-    /// Time that the last step took in the operator of a node.
+    /// The time of the last step in the operator of a node.
     #[must_use]
     pub fn time(&self, node: usize) -> Duration {
         self.computing[node]
     }
 
-    /// The positions of each input of a node that its outputs saw which were needed for the last picture.
+    /// Returns each input of a node with its positions that the needed outputs of the last frame
+    /// depend on.
     pub fn seen(&self, node: usize) -> impl Iterator<Item = (usize, Mask)> {
         let place = &self.network.nodes()[node];
         place.inputs().iter().map(move |&value| {
@@ -151,41 +159,43 @@ impl<'a> Executor<'a> {
         })
     }
 
-    /// A value as it was passed on.
+    /// The tensor `value` as it was passed on.
     #[must_use]
     pub fn value(&self, value: usize) -> &Tensor {
         &self.kept[value]
     }
 
-    /// What has changed of a value.
+    /// The changed positions of the tensor `value`.
     #[must_use]
     pub fn mask(&self, value: usize) -> &Mask {
         &self.masks[value]
     }
 
-    /// Where the output of a node was needed for the last picture.
+    /// The positions at which the output of a node was needed for the last frame.
     #[must_use]
     pub fn wanted(&self, node: usize) -> &Mask {
         &self.wanted[node]
     }
 
-    /// By how much a value must differ from what was passed on last to have changed, in the modes that compare.
+    /// The difference from the value that was passed on last beyond which a value counts as
+    /// changed, in the modes that compare.
     #[must_use]
     pub fn limit(&self, value: usize) -> Option<f32> {
         self.limits[value]
     }
 
-    /// Whether this frame is computed whole.
+    /// Returns true if this frame is computed densely.
     fn is_whole(&self) -> bool {
         !self.has_begun || self.mode == Mode::Dense
     }
 
-    /// The same for this frame: what is computed whole is not compared.
+    /// The limit of the tensor `value` for this frame. The first frame has none, because it is not
+    /// compared.
     fn compared(&self, value: usize) -> Option<f32> {
         self.limit(value).filter(|_| self.has_begun)
     }
 
-    /// Takes over the picture.
+    /// Stores the frame and its changed positions.
     fn accept(&mut self, picture: &[f32], changed: &Mask) {
         let kept = &self.kept[0];
         self.masks[0] = match self.compared(0) {
@@ -197,14 +207,15 @@ impl<'a> Executor<'a> {
         copy(form, picture, f32::of_mut(self.kept[0].stored_mut()), &self.masks[0]);
     }
 
-    /// The positions of a node's output that are to be computed.
+    /// Returns the positions of a node's output that are to be computed.
     fn wanting(&self, node: usize, camera: &Mask) -> Mask {
         let is_under = self.network.lies_under_picture(node + 1);
         let (node, form) = (&self.network.nodes()[node], self.network.form(node + 1));
         if self.is_whole() {
             return Mask::full(form.height(), form.width());
         }
-        // Rows that have become one, or none, lie under no part of the picture.
+        // If rows were merged into one axis or reduced away, the positions have no place in the
+        // frame.
         if self.mode == Mode::Fixed && is_under {
             return camera.under(form.height(), form.width());
         }
@@ -229,8 +240,9 @@ impl<'a> Executor<'a> {
             }
             *computing = start.elapsed();
         };
-        // Beside the positions that are wanted an operator writes what a whole computation would. In place that is what stands there,
-        // unless an input is not what it was.
+        // Outside of the needed positions an operator may write only the values that a dense
+        // computation would write. Those are in the kept tensor already, unless an input differs
+        // from that of a dense computation.
         let in_place = limit.is_none() && (self.mode != Mode::Fixed || !self.has_begun);
         let changed = if in_place {
             compute(kept.stored_mut());
@@ -261,15 +273,15 @@ mod tests {
     use crate::operator::{Operator, same_position};
     use std::sync::Arc;
 
-    /// Every second row and column.
+    /// A 3x3 window that moves by two rows and columns, with a padding of 1.
     const WINDOW: Window = Window { kernel: 3, stride: 2, dilation: 1, before: 1, after: 1 };
 
-    /// What the operators of these tests make of floating-point values in one plane.
+    /// The function of a test operator, on floating-point values of one channel.
     #[derive(Clone, Copy, Debug)]
     enum Kind {
-        /// The sum of what [`WINDOW`] sees, each tap with a weight of its own.
+        /// The weighted sum of a [`WINDOW`], in which each tap has a different weight.
         Window,
-        /// The value itself, which becomes 0.
+        /// The value multiplied by 0.
         Zero,
         /// The sum of both inputs.
         Sum,
@@ -297,13 +309,13 @@ mod tests {
         }
     }
 
-    /// What may be wrong with how a change spreads.
+    /// A fault in the way a change spreads.
     #[derive(Clone, Copy, Debug)]
     enum Fault {
         None,
-        /// The padding is one less than it is.
+        /// The padding is too small by one.
         Padding,
-        /// The outputs begin one input later.
+        /// The windows begin one input too early.
         Phase,
         /// Only the first of several inputs counts.
         MissedUnion,
@@ -311,7 +323,7 @@ mod tests {
         Kernel,
     }
 
-    /// An operator that may have a fault, in its spread alone.
+    /// An operator that computes correctly, but may have a fault in its spread.
     #[derive(Debug)]
     struct Faulty {
         kind: Kind,
@@ -350,7 +362,8 @@ mod tests {
         }
     }
 
-    /// Windows with stride 2 and the sum of two branches, of which one operator has a fault. The first branch never changes.
+    /// Returns a network of windows with stride 2 and the sum of two branches. The first window and
+    /// the sum have the given faults. The first branch never changes.
     fn network(in_window: Fault, in_sum: Fault) -> Network {
         let mut network = Network::new(Form::features(vec![1, 1, 24, 24]), Layout::Nchw).unwrap();
         let mut push = |kind, fault, inputs| {
@@ -364,7 +377,8 @@ mod tests {
         network
     }
 
-    /// Whether a single changed pixel, wherever it is, leaves all tensors as a whole computation has them.
+    /// Returns true if all tensors are equal to those of a dense computation after a single changed
+    /// pixel, for every pixel of the diagonal.
     fn is_exact(network: &Network) -> bool {
         (0..24).all(|at| {
             let mut picture = vec![0.5; 24 * 24];

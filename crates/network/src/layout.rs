@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! In which order models take the axes of their input.
+//! The axis order of the input of a model.
 
-/// In which order a model takes the axes of its input.
+/// The order in which a model takes the axes of its input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Layout {
     /// Channels, rows, columns.
     Nchw,
-    /// Rows, columns, channels, as models from TensorFlow do, which put the channels first before anything else. A network is read from there on.
+    /// Rows, columns, channels, as in models from TensorFlow. Such a model first transposes its
+    /// input to put the channels first. The network is read from behind that transposition.
     Nhwc,
 }
 
 impl Layout {
-    /// Its usual name.
+    /// The usual name of the layout.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Neural networks over frames of which only a part has changed.
+//! Reads ONNX networks and runs them over frames of which only a part has changed.
 //!
-//! A [`Network`] is read from an ONNX file. An [`Executor`] runs it frame by frame and keeps every tensor. From the positions of the picture that
-//! may have changed it derives, layer by layer, those of every tensor (a [`Mask`]), and computes these alone. In the exact [`Mode`]s the result
-//! is bit for bit that of a whole computation: every value is summed in one fixed order, whoever computes it.
+//! A [`Network`] is read from an ONNX file. An [`Executor`] runs it frame by frame and keeps every
+//! tensor. It takes the positions of the frame that may have changed, derives from them layer by
+//! layer the positions of each tensor that may have changed (a [`Mask`]), and computes only these.
+//! In the exact [`Mode`]s the result is equal to that of a dense computation bit for bit: each
+//! value is summed in one fixed order, whichever positions are computed.
 //!
-//! [`sight`] shows it frames, and reads what it says of them.
+//! [`sight`] converts frames to the input of a network and reads detections from its outputs.
 
 mod compare;
 mod element;

@@ -1,45 +1,46 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which positions of a tensor may have changed, a bit per position.
+//! Sets of positions of a tensor, such as those that may have changed, with one bit per position.
 
 use std::ops::Range;
 
-/// A set of positions.
+/// A set of positions of a tensor.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mask {
     height: usize,
     width: usize,
-    /// Words of a row; bit `x % 64` of word `x / 64` is position x.
+    /// The words of a row; bit `x % 64` of word `x / 64` is the position in column x.
     pitch: usize,
     words: Vec<u64>,
 }
 
-/// How the positions of an output depend on those of an input along one axis: output `o` sees the inputs
-/// `o * stride - before + k * dilation`, for `k` from 0 to `kernel - 1`, as far as they exist.
+/// The dependence of the positions of an output on those of an input along one axis: output `o`
+/// sees the inputs `o * stride - before + k * dilation`, for `k` from 0 to `kernel - 1`, as far as
+/// these inputs exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// Inputs that an output sees.
+    /// The number of inputs that an output sees.
     pub kernel: usize,
-    /// Inputs from one output to the next.
+    /// The distance of the windows of neighboring outputs, in inputs.
     pub stride: usize,
-    /// Inputs from one tap to the next.
+    /// The distance of neighboring taps, in inputs.
     pub dilation: usize,
-    /// Padding before the first input.
+    /// The padding before the first input.
     pub before: usize,
-    /// Padding after the last input.
+    /// The padding after the last input.
     pub after: usize,
 }
 
 impl Window {
-    /// The window in which an output sees the input of its own position alone.
+    /// The window of an output that sees only the input at its own position.
     pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, before: 0, after: 0 };
 
-    /// Inputs from the first tap to the last.
+    /// The number of inputs from the first tap to the last, both included.
     #[must_use]
     pub fn span(&self) -> usize {
         (self.kernel - 1) * self.dilation + 1
     }
 
-    /// The input of a tap, where it exists.
+    /// Returns the input of a tap, or `None` if the tap lies in the padding.
     #[inline(always)]
     pub(crate) fn input(&self, output: usize, tap: usize, inputs: usize) -> Option<usize> {
         let at = (output * self.stride + tap * self.dilation).checked_sub(self.before)?;
@@ -48,14 +49,14 @@ impl Window {
 }
 
 impl Mask {
-    /// No position.
+    /// Returns a mask without positions.
     #[must_use]
     pub fn empty(height: usize, width: usize) -> Self {
         let pitch = width.div_ceil(64);
         Self { height, width, pitch, words: vec![0; pitch * height] }
     }
 
-    /// Every position.
+    /// Returns a mask of all positions.
     #[must_use]
     pub fn full(height: usize, width: usize) -> Self {
         let mut mask = Self::empty(height, width);
@@ -63,7 +64,7 @@ impl Mask {
         mask
     }
 
-    /// The positions for which `is` holds; it takes x and y.
+    /// Returns the mask of the positions for which `is(x, y)` holds.
     #[must_use]
     pub fn from_fn(height: usize, width: usize, is: impl Fn(usize, usize) -> bool) -> Self {
         let mut mask = Self::empty(height, width);
@@ -77,42 +78,42 @@ impl Mask {
         mask
     }
 
-    /// Rows.
+    /// The number of rows.
     #[must_use]
     pub fn height(&self) -> usize {
         self.height
     }
 
-    /// Positions of a row.
+    /// The number of positions of a row.
     #[must_use]
     pub fn width(&self) -> usize {
         self.width
     }
 
-    /// How many positions are in it.
+    /// The number of positions in the mask.
     #[must_use]
     pub fn count(&self) -> usize {
         self.words.iter().map(|word| word.count_ones() as usize).sum()
     }
 
-    /// Whether no position is in it.
+    /// Returns true if no position is in the mask.
     #[must_use]
     pub fn is_empty(&self) -> bool {
         self.words.iter().all(|&word| word == 0)
     }
 
-    /// Whether a position is in it.
+    /// Returns true if the position in column `x` of row `y` is in the mask.
     #[must_use]
     pub fn contains(&self, x: usize, y: usize) -> bool {
         self.words[y * self.pitch + x / 64] >> (x % 64) & 1 == 1
     }
 
-    /// Adds a position.
+    /// Adds the position in column `x` of row `y`.
     pub fn insert(&mut self, x: usize, y: usize) {
         self.words[y * self.pitch + x / 64] |= 1 << (x % 64);
     }
 
-    /// Takes a position out.
+    /// Removes the position in column `x` of row `y`.
     pub fn remove(&mut self, x: usize, y: usize) {
         self.words[y * self.pitch + x / 64] &= !(1 << (x % 64));
     }
@@ -138,13 +139,14 @@ impl Mask {
         }
     }
 
-    /// Whether every position is in another mask, too.
+    /// Returns true if every position of this mask is in another mask of the same size, too.
     #[must_use]
     pub fn is_subset(&self, other: &Self) -> bool {
         self.words.iter().zip(&other.words).all(|(own, other)| own & !other == 0)
     }
 
-    /// The runs of neighboring positions of a row, as first position and length.
+    /// Returns the runs of neighboring positions of row `y`, each as its first column and its
+    /// length.
     pub fn runs(&self, y: usize) -> impl Iterator<Item = (usize, usize)> + '_ {
         let row = self.row(y);
         let mut from = 0;
@@ -156,7 +158,8 @@ impl Mask {
         })
     }
 
-    /// The runs of positions that follow each other in memory, row after row: those at the end of a row and at the beginning of the next are one.
+    /// Returns the runs of positions that follow each other in memory. A run at the end of a row
+    /// and a run at the beginning of the next row are one.
     pub(crate) fn ranges(&self) -> Vec<Range<usize>> {
         let mut ranges: Vec<Range<usize>> = Vec::new();
         for y in 0..self.height {
@@ -171,11 +174,12 @@ impl Mask {
         ranges
     }
 
-    /// Adds of the positions that follow each other in memory from `start` on those with a mark that is not 0.
+    /// Adds positions by marks: mark `i` belongs to memory index `start + i`, and adds its position
+    /// unless it is 0.
     pub(crate) fn insert_marked(&mut self, start: usize, mut marks: &[u32]) {
         let (mut x, mut y) = (start % self.width, start / self.width);
         while !marks.is_empty() {
-            // As far as a word of the row goes.
+            // One step sets bits of a single word of a row.
             let (own, rest) = marks.split_at(marks.len().min(64 - x % 64).min(self.width - x));
             let word = |word, (bit, &mark): (usize, &u32)| word | u64::from(mark != 0) << bit;
             let word = own.iter().enumerate().fold(0, word);
@@ -188,7 +192,8 @@ impl Mask {
         }
     }
 
-    /// The positions of `height` x `width` outputs that see a position of this mask through a window.
+    /// Returns the positions of `height` x `width` outputs that see a position of this mask through
+    /// a window.
     #[must_use]
     pub fn through(&self, rows: Window, columns: Window, height: usize, width: usize) -> Self {
         let mut seen = Self::empty(height, width);
@@ -209,7 +214,8 @@ impl Mask {
         seen
     }
 
-    /// The positions of `height` x `width` inputs that an output at a position of this mask sees through a window.
+    /// Returns the positions of `height` x `width` inputs that an output at a position of this mask
+    /// sees through a window.
     #[must_use]
     pub fn seen(&self, rows: Window, columns: Window, height: usize, width: usize) -> Self {
         let mut seen = Self::empty(height, width);
@@ -227,20 +233,21 @@ impl Mask {
         seen
     }
 
-    /// Adds to the only row the inputs that output `x` sees.
+    /// Adds the inputs that output `x` sees to this mask, which has a single row.
     fn see_inputs(&mut self, x: usize, columns: Window) {
         let inputs = (0..columns.kernel).filter_map(|tap| columns.input(x, tap, self.width));
         inputs.for_each(|input| self.words[input / 64] |= 1 << (input % 64));
     }
 
-    /// How many positions are not in another mask of the same size.
+    /// The number of positions that are not in another mask of the same size.
     #[must_use]
     pub fn count_outside(&self, other: &Self) -> usize {
         let words = self.words.iter().zip(&other.words);
         words.map(|(own, other)| (own & !other).count_ones() as usize).sum()
     }
 
-    /// The positions of a smaller or larger tensor that lie under the positions of this mask.
+    /// Scales the mask to a tensor of another size. A position of that tensor is in the result if
+    /// it covers a position of this mask.
     #[must_use]
     pub fn under(&self, height: usize, width: usize) -> Self {
         let range = |outputs: usize, inputs: usize| -> Vec<(usize, usize)> {
@@ -252,7 +259,8 @@ impl Mask {
         self.between(&range(height, self.height), &range(width, self.width))
     }
 
-    /// As [`Mask::through`], where an output sees the inputs from a first to a last one of each axis.
+    /// Returns the positions of outputs that see a position of this mask, if output `i` of an axis
+    /// sees the inputs of range `i`. A range is the first and the last input.
     #[must_use]
     pub fn between(&self, rows: &[(usize, usize)], columns: &[(usize, usize)]) -> Self {
         let mut seen = Self::empty(rows.len(), columns.len());
@@ -270,12 +278,12 @@ impl Mask {
         seen
     }
 
-    /// Whether a position of these rows and columns is in it.
+    /// Returns true if the mask has a position in these rows and columns.
     pub(crate) fn any(&self, mut rows: Range<usize>, columns: Range<usize>) -> bool {
         rows.any(|y| next(self.row(y), columns.start, columns.end, false).is_some())
     }
 
-    /// Adds to row `y` the outputs that see a position of `line`.
+    /// Adds to row `y` the outputs that see a position of `line`, a row of `inputs` positions.
     fn see_row(&mut self, y: usize, line: &[u64], inputs: usize, columns: Window) {
         let row = &mut self.words[y * self.pitch..][..self.pitch];
         if columns.stride == 1 {
@@ -308,7 +316,8 @@ impl Mask {
     }
 }
 
-/// The first position from `from` on, before `end`, that is in the row; or that is not, where `is_gap`.
+/// Returns the first position in `from..end` that is in the row, or the first that is not in it if
+/// `is_gap`.
 fn next(row: &[u64], from: usize, end: usize, is_gap: bool) -> Option<usize> {
     let mut at = from;
     while at < end {
@@ -323,11 +332,11 @@ fn next(row: &[u64], from: usize, end: usize, is_gap: bool) -> Option<usize> {
     None
 }
 
-/// Adds the bits of `line`, moved up by `up` and down by `down`.
+/// Adds the bits of `line`, shifted up by `up` and down by `down`.
 fn shifted_into(row: &mut [u64], line: &[u64], up: usize, down: usize) {
     let word =
         |at: isize| usize::try_from(at).ok().and_then(|at| line.get(at)).copied().unwrap_or(0);
-    // Bit x of the result is bit x - up + down of the line.
+    // Bit x of the result is bit `x - up + down` of the line.
     let by = down.cast_signed() - up.cast_signed();
     let (words, bits) = (by.div_euclid(64), by.rem_euclid(64));
     for (at, row) in row.iter_mut().enumerate() {
@@ -370,7 +379,7 @@ mod tests {
                 })
             });
             prop_assert_eq!(seen, naive);
-            // The other way round, the mask is one of outputs.
+            // In the other direction, the mask holds positions of outputs.
             let (in_height, in_width) = (height * rows.stride + 2, width * columns.stride + 3);
             let inputs = mask.seen(rows, columns, in_height, in_width);
             let mut naive = Mask::empty(in_height, in_width);

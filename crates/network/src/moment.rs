@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When something happened, as far as there is a clock.
+//! A start time that also exists where there is no clock.
 
 use std::time::{Duration, Instant};
 
-/// A moment. WebAssembly alone has no clock, and asking it for one would stop the program: there all spans are 0.
+/// A point in time. WebAssembly without an operating system has no clock, and asking for the time
+/// would stop the program. On that target all durations are 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Moment(Option<Instant>);
 
@@ -13,7 +14,7 @@ impl Moment {
         Self(has_clock.then(Instant::now))
     }
 
-    /// How long ago that is.
+    /// The time since this point.
     pub(crate) fn elapsed(self) -> Duration {
         self.0.map_or(Duration::ZERO, |start| start.elapsed())
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network: operators in an order in which each comes after those whose outputs it takes.
+//! A network: operators in topological order, so that each comes after those whose outputs it
+//! takes.
 
 use crate::element::Encoding;
 use crate::error::NetworkError;
@@ -9,68 +10,70 @@ use crate::mask::Mask;
 use crate::operator::{Operator, Products};
 use std::sync::Arc;
 
-/// Values of the largest tensor.
+/// The largest number of values of a tensor.
 const MAX_ELEMENTS: usize = 1 << 28;
-/// Values of all tensors together, which a run keeps.
+/// The largest number of values of all tensors together, which a run keeps in memory.
 const MAX_KEPT: usize = 1 << 30;
-/// Bytes of the weights of all nodes.
+/// The largest number of bytes of the weights of all nodes.
 const MAX_WEIGHTS: u64 = 1 << 32;
 
-/// A network whose shapes are known. Value 0 is its input, value `i + 1` the output of node `i`.
+/// A network whose shapes are known. Tensor 0 is its input, tensor `i + 1` is the output of node
+/// `i`.
 #[derive(Clone, Debug)]
 pub struct Network {
     layout: Layout,
     forms: Vec<Form>,
-    /// Of each value whose positions are those of the picture, in its rows or all in a row: their rows and columns.
+    /// The rows and columns of each tensor whose positions are those of the frame, either as two
+    /// axes or flattened into one.
     grids: Vec<Option<(usize, usize)>>,
     nodes: Vec<Node>,
     outputs: Vec<usize>,
-    /// What the model calls them.
+    /// The names of the outputs in the model.
     output_names: Vec<String>,
-    /// Names of weights that hold infinite values or such that are no numbers, and how many.
+    /// The names of weights that hold infinite values or NaN, with the number of such values.
     not_finite: Vec<(String, usize)>,
-    /// Values of all tensors.
+    /// The number of values of all tensors.
     kept: usize,
     weight_bytes: u64,
 }
 
-/// An operator at its place.
+/// An operator with its place in the network.
 #[derive(Clone, Debug)]
 pub struct Node {
     name: String,
     kind: String,
     pub(crate) operator: Arc<dyn Operator>,
     inputs: Vec<usize>,
-    /// Positions that are computed for a whole output.
+    /// The positions that are computed for a complete output.
     scheduled: usize,
 }
 
 impl Node {
-    /// Its name in the model, or one made from its operator.
+    /// The name in the model, or a name made from the operator if the model gives none.
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
     }
 
-    /// What its operator is called.
+    /// The name of the operator.
     #[must_use]
     pub fn kind(&self) -> &str {
         &self.kind
     }
 
-    /// The values that it takes.
+    /// The numbers of the tensors that the node takes.
     #[must_use]
     pub fn inputs(&self) -> &[usize] {
         &self.inputs
     }
 
-    /// The sums of products that it computes.
+    /// The kind of sums of products that the node computes.
     #[must_use]
     pub fn products(&self) -> Products {
         self.operator.products()
     }
 
-    /// Bytes of its weights.
+    /// The bytes of the node's weights.
     #[must_use]
     pub fn weight_bytes(&self) -> u64 {
         self.operator.weight_bytes()
@@ -78,7 +81,7 @@ impl Node {
 }
 
 impl Network {
-    /// A network that has only an input so far.
+    /// Returns a network that has only an input so far.
     pub(crate) fn new(input: Form, layout: Layout) -> Result<Self, NetworkError> {
         limit(&input).map_err(NetworkError::Network)?;
         let kept = input.elements();
@@ -95,7 +98,7 @@ impl Network {
         })
     }
 
-    /// Adds a node, and returns its value.
+    /// Adds a node, and returns the number of its output tensor.
     pub(crate) fn push(
         &mut self,
         name: &str,
@@ -133,12 +136,13 @@ impl Network {
         Ok(self.nodes.len())
     }
 
-    /// The rows and columns of the picture that are the positions of what is made of these inputs.
+    /// The rows and columns of the frame to which the positions of a tensor made of these inputs
+    /// belong.
     fn grid(&self, form: &Form, inputs: &[usize]) -> Option<(usize, usize)> {
         let own = (form.height(), form.width());
         let of = |&value: &usize| match (form.axes().len(), self.forms[value].axes().len()) {
             (2, 2) => self.grids[value].map(|_| own),
-            // What stood in a row stands in rows again, if these are the same.
+            // A flattened axis becomes rows and columns again if their numbers are those of before.
             (2, _) => self.grids[value].filter(|&grid| grid == own),
             (1, _) => self.grids[value].filter(|&(height, width)| height * width == form.places()),
             _ => None,
@@ -146,12 +150,13 @@ impl Network {
         inputs.iter().find_map(of)
     }
 
-    /// Whether the rows and columns of a value's positions lie under those of the picture.
+    /// Returns true if the tensor has rows and columns of positions that belong to those of the
+    /// frame.
     pub(crate) fn lies_under_picture(&self, value: usize) -> bool {
         self.grids[value].is_some() && self.forms[value].axes().len() == 2
     }
 
-    /// Says which values are the outputs, with their names, and which weights are not finite.
+    /// Sets the outputs with their names, and the weights that are not finite.
     pub(crate) fn finish(
         &mut self,
         outputs: Vec<(String, usize)>,
@@ -161,14 +166,14 @@ impl Network {
         self.not_finite = not_finite;
     }
 
-    /// Lets the last node do something else with the same inputs and the same form.
+    /// Replaces the operator of the last node by one with the same inputs and the same form.
     pub(crate) fn replace_last(&mut self, kind: &str, operator: Arc<dyn Operator>) {
         let last = self.nodes.last_mut().expect("there is a node to replace");
         last.operator = operator;
         kind.clone_into(&mut last.kind);
     }
 
-    /// Takes the last node away, which no other takes.
+    /// Removes the last node. No other node may take its output.
     pub(crate) fn remove_last(&mut self) {
         let (node, form) = (self.nodes.pop(), self.forms.pop());
         self.grids.pop();
@@ -182,7 +187,8 @@ impl Network {
         &self.nodes
     }
 
-    /// In which layout the model takes its input; here its channels are always first.
+    /// The layout in which the model takes its input. The network itself always takes the channels
+    /// first.
     #[must_use]
     pub fn layout(&self) -> Layout {
         self.layout
@@ -194,31 +200,32 @@ impl Network {
         &self.forms[0]
     }
 
-    /// The form of a value.
+    /// The form of a tensor.
     #[must_use]
     pub fn form(&self, value: usize) -> &Form {
         &self.forms[value]
     }
 
-    /// The values that are outputs of the network.
+    /// The numbers of the tensors that are outputs of the network.
     #[must_use]
     pub fn outputs(&self) -> &[usize] {
         &self.outputs
     }
 
-    /// What the model calls its outputs, in the same order.
+    /// The names of the outputs in the model, in the order of [`Network::outputs`].
     #[must_use]
     pub fn output_names(&self) -> &[String] {
         &self.output_names
     }
 
-    /// The weights that hold infinite values or such that are no numbers, by their names in the model, with how many.
+    /// The weights that hold infinite values or NaN: the name in the model, and the number of such
+    /// values.
     #[must_use]
     pub fn not_finite(&self) -> &[(String, usize)] {
         &self.not_finite
     }
 
-    /// Multiplications and additions of a node for a whole frame.
+    /// The multiply-accumulate operations of a node for a complete frame.
     #[must_use]
     pub fn macs(&self, node: usize) -> u64 {
         let (node, form) = (&self.nodes[node], &self.forms[node + 1]);
@@ -232,32 +239,33 @@ impl Network {
         (form.elements() * of_each) as u64
     }
 
-    /// Multiplications and additions of all nodes for a whole frame.
+    /// The multiply-accumulate operations of all nodes for a complete frame.
     #[must_use]
     pub fn total_macs(&self) -> u64 {
         (0..self.nodes.len()).map(|node| self.macs(node)).sum()
     }
 
-    /// Bytes of the weights of all nodes.
+    /// The bytes of the weights of all nodes.
     #[must_use]
     pub fn weight_bytes(&self) -> u64 {
         self.weight_bytes
     }
 
-    /// Positions that are computed for a whole output of a node: whole blocks, so that there may be more than it has.
+    /// The positions that are computed for a complete output of a node. Blocks are computed as a
+    /// whole, so there may be more than the output has.
     #[must_use]
     pub fn scheduled(&self, node: usize) -> usize {
         self.nodes[node].scheduled
     }
 
-    /// Bytes of all tensors of a frame, which are kept from frame to frame.
+    /// The bytes of all tensors of a frame, which are kept from frame to frame.
     #[must_use]
     pub fn kept_bytes(&self) -> u64 {
         self.forms.iter().map(Form::bytes).sum()
     }
 }
 
-/// Refuses a tensor that is too large.
+/// Fails if a tensor is empty, has too many axes or has too many values.
 fn limit(form: &Form) -> Result<(), String> {
     if form.shape().len() > MAX_AXES {
         return Err(format!("a tensor has {} axes, more than {MAX_AXES}", form.shape().len()));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The messages of an ONNX file, as far as they are read: names and tags are those of `onnx.proto3` (ONNX 1.23).
+//! The protocol buffer messages of an ONNX file, with the fields that are read. Names and tags are
+//! those of `onnx.proto3` (ONNX 1.23).
 #![allow(missing_docs, reason = "the fields are those of the ONNX standard")]
 
 use prost::Message;
 
-/// A file.
+/// An ONNX file.
 #[derive(Clone, PartialEq, Message)]
 pub struct ModelProto {
     #[prost(int64, optional, tag = "1")]
@@ -24,7 +25,7 @@ pub struct OperatorSetIdProto {
     pub version: Option<i64>,
 }
 
-/// Nodes in order, constants, inputs and outputs.
+/// The nodes in order, with constants, inputs and outputs.
 #[derive(Clone, PartialEq, Message)]
 pub struct GraphProto {
     #[prost(message, repeated, tag = "1")]
@@ -54,7 +55,7 @@ pub struct NodeProto {
     pub domain: Option<String>,
 }
 
-/// A named value of a node.
+/// A named attribute of a node.
 #[derive(Clone, PartialEq, Message)]
 pub struct AttributeProto {
     #[prost(string, optional, tag = "1")]
@@ -103,7 +104,7 @@ pub struct TensorProto {
 }
 
 impl TensorProto {
-    /// `data_location` of a tensor whose data is in another file.
+    /// The `data_location` of a tensor whose data is in another file.
     pub const EXTERNAL: i32 = 1;
 }
 
@@ -116,7 +117,7 @@ pub struct StringStringEntryProto {
     pub value: Option<String>,
 }
 
-/// An input or an output.
+/// An input or an output of the graph.
 #[derive(Clone, PartialEq, Message)]
 pub struct ValueInfoProto {
     #[prost(string, optional, tag = "1")]
@@ -125,14 +126,14 @@ pub struct ValueInfoProto {
     pub r#type: Option<TypeProto>,
 }
 
-/// The type of a value, if it is a tensor.
+/// The type of a value, if the value is a tensor.
 #[derive(Clone, PartialEq, Message)]
 pub struct TypeProto {
     #[prost(message, optional, tag = "1")]
     pub tensor_type: Option<TensorTypeProto>,
 }
 
-/// The type and the shape of a tensor.
+/// The element type and the shape of a tensor.
 #[derive(Clone, PartialEq, Message)]
 pub struct TensorTypeProto {
     #[prost(int32, optional, tag = "1")]
@@ -148,14 +149,14 @@ pub struct TensorShapeProto {
     pub dim: Vec<Dimension>,
 }
 
-/// The length of an axis; without one it is open.
+/// The length of an axis. Without a value the length is open.
 #[derive(Clone, PartialEq, Message)]
 pub struct Dimension {
     #[prost(int64, optional, tag = "1")]
     pub dim_value: Option<i64>,
 }
 
-/// Types of values, by their numbers in `data_type`.
+/// The element types of tensors, by their numbers in `data_type`.
 pub mod data_type {
     pub const FLOAT: i32 = 1;
     pub const UINT8: i32 = 2;
@@ -198,7 +199,8 @@ pub mod data_type {
         "INT2",
     ];
 
-    /// The name of a type in the standard; of a number that it does not have, the number.
+    /// Returns the name of a type in the standard, or a phrase with the number if the standard has
+    /// no such type.
     #[must_use]
     pub fn name(kind: i64) -> String {
         let known = usize::try_from(kind).ok().and_then(|kind| NAMES.get(kind));
@@ -207,7 +209,7 @@ pub mod data_type {
     }
 }
 
-/// Types of attributes, by their numbers.
+/// The types of attributes, by their numbers.
 pub mod attribute_type {
     /// The names of all types, in the order of their numbers.
     const NAMES: [&str; 15] = [
@@ -228,7 +230,7 @@ pub mod attribute_type {
         "TYPE_PROTOS",
     ];
 
-    /// The name of a type in the standard, if it has the number.
+    /// Returns the name of a type in the standard, if there is one with this number.
     #[must_use]
     pub fn name(kind: i32) -> Option<&'static str> {
         usize::try_from(kind).ok().and_then(|kind| NAMES.get(kind)).copied()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A tensor: a form, and values for it.
+//! A tensor: a form with its values.
 
 use crate::element::{Element, typed};
 use crate::form::Form;
@@ -7,7 +7,7 @@ use crate::mask::Mask;
 use crate::values::{Number, Values};
 use std::borrow::Cow;
 
-/// A tensor.
+/// A tensor: a form with its values.
 #[derive(Clone, Debug)]
 pub struct Tensor {
     form: Form,
@@ -15,26 +15,26 @@ pub struct Tensor {
 }
 
 impl Tensor {
-    /// A tensor of zeros.
+    /// Returns a tensor of zeros.
     #[must_use]
     pub fn zeros(form: Form) -> Self {
         Self { values: Values::zeros(form.encoding().element, form.elements()), form }
     }
 
-    /// A tensor of these floating-point values, in the order of memory.
+    /// Returns a tensor of floating-point values, given in row-major order.
     ///
     /// # Panics
-    /// If there are not as many as the form has elements.
+    /// Panics if the number of values is not the number of elements of the form.
     #[must_use]
     pub fn new(form: Form, values: Vec<f32>) -> Self {
         assert_eq!(form.elements(), values.len(), "a tensor has as many values as its form says");
         Self { form, values: Values::F32(values) }
     }
 
-    /// A tensor of these integers, which its values can be.
+    /// Returns a tensor of integers, given in row-major order, in the integer type of the form.
     ///
     /// # Errors
-    /// When they cannot.
+    /// Fails, with a message, if a value is outside of the range of the type.
     pub(crate) fn of_integers(form: Form, values: &[i64]) -> Result<Self, String> {
         fn all<T: TryFrom<i64>>(values: &[i64]) -> Result<Vec<T>, String> {
             let own = |&value: &i64| {
@@ -52,23 +52,23 @@ impl Tensor {
         Ok(Self { form, values })
     }
 
-    /// Its form.
+    /// The form of the tensor.
     #[must_use]
     pub fn form(&self) -> &Form {
         &self.form
     }
 
-    /// The values in the order of memory.
+    /// The values in row-major order.
     pub(crate) fn values<T: Number>(&self) -> &[T] {
         T::of(&self.values)
     }
 
-    /// The values as they are stored, to be changed.
+    /// The stored values, for writing.
     pub(crate) fn stored_mut(&mut self) -> &mut Values {
         &mut self.values
     }
 
-    /// The real numbers that the values stand for, in the order of memory.
+    /// The real numbers that the values stand for, in row-major order.
     #[must_use]
     pub fn reals(&self) -> Cow<'_, [f32]> {
         let encoding = self.form.encoding();
@@ -82,7 +82,8 @@ impl Tensor {
         }
     }
 
-    /// The positions at which a value differs from that of another tensor of the same form, bit by bit.
+    /// Returns the positions at which any bit of a value differs from that of another tensor of the
+    /// same form.
     #[must_use]
     pub fn differences(&self, other: &Self) -> Mask {
         let (height, width) = (self.form.height(), self.form.width());
@@ -101,7 +102,7 @@ impl Tensor {
     }
 }
 
-/// Calls `visit` with the range in memory of every run of positions of `at`, for every outer index.
+/// Calls `visit` with the memory range of every run of positions of `at`, for every outer index.
 pub(crate) fn for_each_run(form: &Form, at: &Mask, mut visit: impl FnMut(std::ops::Range<usize>)) {
     let (places, inner, ranges) = (form.places(), form.inner(), at.ranges());
     for outer in 0..form.outer() {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Values as they are stored, and the types of numbers that they have.
+//! Stored values of a tensor, and the traits of their number types.
 
 use crate::element::Element;
 use std::fmt::Debug;
 
-/// Values as they are stored.
+/// The stored values of a tensor.
 #[derive(Clone, Debug)]
 pub(crate) enum Values {
     F32(Vec<f32>),
@@ -24,29 +24,29 @@ impl Values {
     }
 }
 
-/// A value of one of the [`Element`]s.
+/// A number of the type of an [`Element`].
 pub(crate) trait Number:
     Copy + Default + Debug + PartialOrd + Send + Sync + 'static
 {
-    /// What is not more than any other.
+    /// The value that is not greater than any other.
     const LOWEST: Self;
 
     fn of(values: &Values) -> &[Self];
     fn of_mut(values: &mut Values) -> &mut [Self];
 
-    /// By how many steps it differs from another.
+    /// The absolute difference from another value, in quantization steps for integers.
     fn distance(self, other: Self) -> f32;
 
-    /// The value in floating point.
+    /// The value as a floating-point number.
     fn float(self) -> f32;
 
-    /// Whether it has the same bits.
+    /// Returns true if all bits are equal.
     #[inline(always)]
     fn is_same(self, other: Self) -> bool {
         self == other
     }
 
-    /// Whether it is more than another; a value that is no number is more than any.
+    /// Returns true if the value is greater than another. NaN is greater than any value.
     #[inline(always)]
     fn is_more(self, than: Self) -> bool {
         self > than
@@ -55,14 +55,14 @@ pub(crate) trait Number:
 
 /// A value of 8 bits.
 pub(crate) trait Byte: Number + Into<i32> + Into<f32> {
-    /// The nearest value to an integer.
+    /// Returns the value of this type that is nearest to an integer.
     fn saturated(value: i32) -> Self;
 
-    /// How many values are below.
+    /// The number of values of the type that are lower.
     fn index(self) -> usize;
 }
 
-/// Where values of a type are stored.
+/// Implements access to the stored values of a type.
 macro_rules! stored {
     ($variant:ident) => {
         fn of(values: &Values) -> &[Self] {
