@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Time of a part of a frame beside that of the whole, for more and more regions of 8x8 positions at random places, on one thread:
+//! Measures the time of computing a part of a frame against that of the whole frame, for growing
+//! shares of regions of 8x8 positions at random places, on one thread:
 //!
 //!     cargo run --release -p foveate-network --example break_even -- networks/denoiser.onnx
 //!
-//! Regions far from each other are the worst case: they share the least inputs.
+//! Scattered regions are the worst case, because they share the fewest inputs.
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
@@ -11,9 +12,9 @@ use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Frames of each measurement, of which the fastest counts.
+/// The frames of each measurement; the fastest one counts.
 const FRAMES: usize = 12;
-/// The sizes that are tried for a network.
+/// The frame sizes that are tried for a network.
 const SIZES: [(usize, usize); 4] = [(640, 360), (224, 224), (640, 384), (28, 28)];
 
 fn main() {
@@ -37,13 +38,14 @@ fn main() {
     }
 }
 
-/// A number from 0 to 99 that looks random.
+/// Returns a pseudo-random number from 0 to 99.
 fn region(x: usize, y: usize) -> usize {
     let mixed = (x * 0x9e37_79b9 + y * 0x85eb_ca6b) & 0xffff_ffff;
     (((mixed ^ (mixed >> 15)) * 0xc2b2_ae35) >> 12) % 100
 }
 
-/// The shares of the whole's blocks, weighed by the products in them, and of its time.
+/// Returns the share of blocks that a part computes, weighted by their products, and its share of
+/// the time.
 fn measure(network: &Network, mask: &Mask) -> (f64, f64) {
     let input = network.input();
     let picture = vec![0.5; input.elements()];
@@ -61,7 +63,7 @@ fn measure(network: &Network, mask: &Mask) -> (f64, f64) {
     (part_products / whole_products, part_time.as_secs_f64() / whole_time.as_secs_f64())
 }
 
-/// Products that are computed for a frame, and its time.
+/// Returns the number of products that are computed for a frame, and the time.
 #[allow(clippy::cast_precision_loss, reason = "shares are shown as percents")]
 fn step(
     network: &Network,

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a network once, and over pictures of which a part changes, for `scripts/compare_networks.py`:
+//! Runs a network once, and then over frames of which a part changes, for
+//! `scripts/compare_networks.py`:
 //!
 //!     outputs NETWORK WIDTHxHEIGHT PICTURE OUTPUTS
 //!
-//! PICTURE holds the values of the input, 32-bit floating-point, lowest byte first. OUTPUTS becomes those of all outputs, one after the other.
-//! Prints where the modes that promise the bits of a whole computation miss them, the time of a whole picture on one thread, and the share of
-//! all multiplications that the changed pictures needed.
+//! PICTURE holds the values of the input as 32-bit floating-point values in little-endian order.
+//! The values of all outputs are written to OUTPUTS, one output after the other. The program prints
+//! whether the exact modes have the bits of a dense computation and where they first differ, the
+//! time of a complete frame in milliseconds on one thread, and the share of all multiplications
+//! that the changed frames needed.
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
@@ -13,7 +16,7 @@ use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Pictures after the first, and those that are timed.
+/// The number of changed frames, and the number of frames that are timed.
 const CHANGED: usize = 3;
 const TIMED: usize = 5;
 
@@ -55,7 +58,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// The products that changed pictures needed, of all; and the first value that has not the bits of a whole computation.
+/// Returns the products that the changed frames needed and those of dense computations, with a
+/// description of the first tensor that differs from a dense computation.
 #[allow(clippy::cast_precision_loss, reason = "shares")]
 fn changed(network: &Network, mode: Mode, picture: &[f32]) -> ((f64, f64), Option<String>) {
     let (height, width) = (network.input().height(), network.input().width());

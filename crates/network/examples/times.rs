@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where the time of a whole picture goes, on one thread:
+//! Measures the time of a complete frame by kinds of operators, on one thread:
 //!
 //!     cargo run --release -p foveate-network --example times -- NETWORK WIDTHxHEIGHT
 //!
-//! Prints the time of mode `dense`, that of mode `exact` where every pixel has changed, and that of each kind of operator in mode `dense`, all in
-//! milliseconds. The best of some pictures counts.
+//! The program prints the time of mode `dense`, that of mode `exact` if every pixel has changed,
+//! and that of each kind of operator in mode `dense`, all in milliseconds. The best of several
+//! frames counts.
 
 #![allow(clippy::print_stdout, reason = "what it is for")]
 
@@ -13,7 +14,7 @@ use std::collections::BTreeMap;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// Pictures are computed for so long.
+/// The time for which frames are computed.
 const BUDGET: Duration = Duration::from_secs(1);
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -63,7 +64,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-/// What the nodes of a kind take together.
+/// The totals of the nodes of a kind.
 #[derive(Default)]
 struct Kind {
     time: Duration,
@@ -72,14 +73,14 @@ struct Kind {
 }
 
 impl Kind {
-    /// In 10^9 multiplications and additions per second.
+    /// The speed in 10^9 multiply-accumulate operations per second.
     #[allow(clippy::cast_precision_loss, reason = "shown with one digit behind the point")]
     fn speed(&self) -> f64 {
         self.macs as f64 / self.time.as_secs_f64() / 1e9
     }
 }
 
-/// What a node is called, of convolutions with the window.
+/// Returns the operator of a node, with the window if it is a convolution.
 fn describe(network: &Network, node: usize) -> String {
     let node = &network.nodes()[node];
     match node.products() {

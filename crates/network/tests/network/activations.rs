@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Functions of one value against the formulas of the ONNX standard, in double precision.
+//! Activations are compared with the formulas of the ONNX standard, in double precision.
 
 use crate::model::{Model, Value};
 use foveate_network::{Executor, Mask, Mode};
 
-/// What a node makes of values from -30 to 30.
+/// Runs a node on values from -30 to 30, and returns pairs of input and output.
 fn found(model: Model, name: &str) -> Vec<(f64, f64)> {
     const SIDE: usize = 35;
     let mut model = model;
@@ -22,7 +22,7 @@ fn model() -> Model {
     Model::new(&[1, 1, 35, 35])
 }
 
-/// By its series, which converges everywhere.
+/// Returns the error function from its series, which converges everywhere.
 fn erf(x: f64) -> f64 {
     if x.abs() > 4.5 {
         return x.signum();
@@ -90,7 +90,8 @@ fn activations_are_those_of_the_standard() {
     }
 }
 
-/// A value times its sigmoid becomes one activation of the operator before, unless another takes one of them.
+/// The product of a tensor with its sigmoid becomes an activation of the operator before, unless
+/// another node takes the tensor or the sigmoid.
 #[test]
 fn a_sigmoid_that_gates_its_own_input_is_joined_to_it() {
     let kinds = |others: &[&str]| {

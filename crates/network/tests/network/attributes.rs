@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Attributes of nodes: each is one of its operator in the version that the model uses, and is looked at.
+//! Each attribute of a node must be one of its operator in the version that the model uses, and
+//! must be read.
 
 use crate::model::{Model, Value, noise};
 use foveate_network::onnx::{TensorProto, attribute_type, data_type};
@@ -7,7 +8,7 @@ use foveate_network::{Executor, Mask, Mode, Network, NetworkError};
 
 const SIDE: usize = 4;
 
-/// A model of one node on a picture of one channel.
+/// Returns a model of one node on an input of one channel.
 fn one_node(opset: Option<i64>, kind: &str, attributes: &[(&str, Value)]) -> Model {
     let mut model = Model::new(&[1, 1, 4, 4]);
     model.opset = opset;
@@ -58,7 +59,8 @@ fn attributes_belong_to_versions() {
     assert!(refusal(one_node(Some(19), "Gelu", &[])).contains(says));
 }
 
-/// Each order of `SpaceToDepth`, by hand: a picture of two channels and one square becomes eight channels of one place.
+/// Both orders of `SpaceToDepth` are checked by hand: an input of two channels and 2x2 positions
+/// becomes eight channels of one position.
 #[test]
 fn space_to_depth_has_two_orders() {
     for (mode, order) in [
@@ -105,7 +107,7 @@ fn attributes_are_of_their_type_and_there_once() {
     );
 }
 
-/// A writer may leave out the field of a value that is 0.
+/// A writer may leave out a field whose value is 0.
 #[test]
 fn a_number_that_is_not_written_is_zero() {
     let network = |axis: Option<i64>| {
@@ -120,7 +122,7 @@ fn a_number_that_is_not_written_is_zero() {
     assert_ne!(network(None), network(Some(-1)));
 }
 
-/// Only what changes nothing may be left unread.
+/// An attribute may be left unread only if it changes nothing.
 #[test]
 fn an_attribute_that_says_something_is_looked_at() {
     let quantize = |attribute: (&str, Value)| {
@@ -182,7 +184,7 @@ fn constants_of_every_way_to_write_them_are_read() {
     assert!(refusal(model).contains("it has none of the attributes value, value_float"));
 }
 
-/// The weights of the light networks of ONNX are written so.
+/// The weights of the light networks of ONNX are written in this way.
 #[test]
 fn constants_of_a_shape_may_be_large() {
     let mut model = Model::new(&[1, 1, 4, 4]);

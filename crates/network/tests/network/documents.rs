@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page says which operators there are, and the network that is shipped can be read.
+//! The documentation lists the supported operators, and the networks of the project can be read.
 
 use foveate_network::{FrameSize, Network, operators};
 use std::path::Path;

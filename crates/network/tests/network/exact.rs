@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is computed anew is enough: every tensor of every frame has the bits of a whole computation.
+//! The recomputed positions suffice: every tensor of every frame has the bits of a dense
+//! computation.
 
 use crate::integer_layers::{self, IntegerLayer, integer_layer};
 use crate::model::{Model, Value, noise};
@@ -41,7 +42,7 @@ enum Layer {
         start: i64,
         step: i64,
     },
-    /// Of rows and columns at once.
+    /// A slice of rows and columns in one node.
     Crop {
         start: [i64; 2],
         step: [i64; 2],
@@ -49,17 +50,17 @@ enum Layer {
     Pad {
         around: [i64; 4],
     },
-    /// To so many halves of the size.
+    /// A resize by `halves` / 2.
     Resize {
         linear: bool,
         halves: u8,
     },
     Softmax,
-    /// Channels to the end and back.
+    /// A transposition that puts the channels last, and one that puts them first again.
     Turn,
-    /// A factor per channel that depends on the whole picture.
+    /// A factor per channel that depends on the whole frame.
     Squeeze,
-    /// What inputs reach, so many places apart.
+    /// A transposed convolution.
     Transposed {
         channels: usize,
         kernel: i64,
@@ -68,47 +69,47 @@ enum Layer {
         pad: i64,
         more: i64,
     },
-    /// Channels in another order, through other shapes.
+    /// A permutation of the channels by way of other shapes.
     Shuffle,
-    /// Squares to channels and back, or the other way round.
+    /// `DepthToSpace` if `up`, and `SpaceToDepth` otherwise.
     Blocks {
         up: bool,
     },
-    /// Rows and columns and channels, in one of the modes.
+    /// Padding of rows, columns and channels in one of the modes.
     Around {
         mode: &'static str,
         pads: [i64; 8],
     },
     Backwards,
-    /// A constant channel.
+    /// A concatenation with a constant channel.
     Beside,
-    /// Means along some axes, taken away.
+    /// The difference from the means along some axes.
     Centre {
         axes: Vec<i64>,
     },
     Normal {
         kind: &'static str,
     },
-    /// Places in a row, by places in a row.
+    /// A product of positions with positions, after flattening.
     Attention,
-    /// Places in a row behind each other.
+    /// A concatenation of flattened positions.
     Behind,
-    /// One channel, repeated.
+    /// A tensor of one channel, broadcast.
     Repeat,
     Choose,
-    /// Values times their own sigmoid, which another may take, too.
+    /// The product of a tensor with its sigmoid, which another node takes, too, unless `alone`.
     Gate {
         alone: bool,
     },
     Cubic,
-    /// Layers of 8-bit values, with a sign or without.
+    /// Layers of signed or unsigned 8-bit values.
     Integers {
         signed: bool,
         layers: Vec<IntegerLayer>,
     },
 }
 
-/// A convolution that keeps the size, or halves it.
+/// Returns a 3x3 convolution that keeps the size with stride 1.
 fn three_by_three(channels: usize, stride: i64) -> Layer {
     Layer::Conv { channels, kernel: [3, 3], strides: [stride; 2], dilations: [1, 1], pads: [1; 4] }
 }
@@ -154,7 +155,8 @@ fn layer() -> impl Strategy<Value = Layer> {
     ]
 }
 
-/// The network of these layers, those left out that do not fit; the sizes are followed here by hand.
+/// Returns the network of these layers, without those that do not fit. The sizes are computed here
+/// independently of the crate.
 fn network(channels: usize, [height, width]: [usize; 2], layers: &[Layer]) -> Network {
     let mut model = Model::new(&[1, signed(channels), signed(height), signed(width)]);
     let mut now = State {
@@ -168,7 +170,7 @@ fn network(channels: usize, [height, width]: [usize; 2], layers: &[Layer]) -> Ne
             now = next;
         }
     }
-    // Something that depends on everything, and something that does not.
+    // The last output depends on every position of the last layer.
     let mean = model.node("GlobalAveragePool", &[&now.name], &[]);
     let flat = model.node("Flatten", &[&mean], &[]);
     model.output(&flat);
@@ -254,7 +256,7 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
                 ("ceil_mode", Value::Int(ceil.into())),
                 ("count_include_pad", Value::Int(i64::from(seed.is_multiple_of(2)))),
             ];
-            // The largest of a window has no padding to count.
+            // A maximum has no attribute for counting padding.
             let name = match max {
                 true => model.node("MaxPool", &[&name], &attributes[..attributes.len() - 1]),
                 false => model.node("AveragePool", &[&name], &attributes),
@@ -306,7 +308,7 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
             Some(next)
         }
         Layer::Crop { start, step } => {
-            // To before the last element.
+            // The slice ends before the last element.
             let count = |length: i64, at: usize| (length - 1 - start[at] + step[at] - 1) / step[at];
             let (height, width) = (count(height, 0), count(width, 1));
             if height < 1 || width < 1 {
@@ -522,7 +524,8 @@ fn add(model: &mut Model, now: &State, layer: &Layer, seed: u64) -> Option<State
     }
 }
 
-/// Frames of which each differs from the one before at the positions of its mask, and mostly only there.
+/// Returns frames, each with the mask of the positions at which it may differ from the previous
+/// one.
 pub(crate) fn clip(
     channels: usize,
     [height, width]: [usize; 2],
@@ -539,7 +542,7 @@ pub(crate) fn clip(
         let mask = Mask::from_fn(height, width, is);
         let fresh = noise(number as u64 + 50, picture.len());
         for (at, value) in picture.iter_mut().enumerate() {
-            // Not every pixel of a changed region has changed.
+            // Some pixels of a changed region keep their values.
             if is(at % width, at / width % height) && at % 5 != 0 {
                 *value = fresh[at];
             }
@@ -549,7 +552,7 @@ pub(crate) fn clip(
     frames
 }
 
-/// The first value of a frame that differs from a whole computation, in words.
+/// Describes the first tensor of a frame that differs from a dense computation, or returns `None`.
 pub(crate) fn difference(
     network: &Network,
     mode: Mode,
@@ -568,7 +571,7 @@ pub(crate) fn difference(
             if !differences.is_empty() {
                 return Some(format!("{mode:?}: frame {number}, value {value} ({})", what()));
             }
-            // What has really changed is in the mask.
+            // The positions that have really changed must be in the mask.
             if let Some(before) = before.get(value)
                 && !dense.value(value).differences(before).is_subset(other.mask(value))
             {
@@ -603,7 +606,7 @@ proptest! {
     }
 }
 
-/// Few chunks, many, and those at borders: a row of every length.
+/// Rows of many lengths have few chunks, many chunks, and chunks at borders.
 #[test]
 fn rows_of_every_length_have_the_bits_of_the_whole() {
     for width in 6..30 {
@@ -618,7 +621,7 @@ fn rows_of_every_length_have_the_bits_of_the_whole() {
     }
 }
 
-/// The negative control: a mask that misses a changed pixel is found.
+/// A mask that misses a changed pixel is detected, as the negative control of these tests.
 #[test]
 fn a_change_outside_of_the_mask_is_found() {
     let layers = [three_by_three(4, 1)];
@@ -628,7 +631,7 @@ fn a_change_outside_of_the_mask_is_found() {
     assert!(difference(&network, Mode::Exact, &frames).unwrap().contains("frame 1, value 0"));
 }
 
-/// Little is passed on, so that little is computed; and the output stays near.
+/// Truncation passes on few changes, so that little is computed, and the output stays close.
 #[test]
 fn truncation_computes_less_and_stays_near() {
     let layers = [three_by_three(6, 1), Layer::Relu, three_by_three(6, 1)];
@@ -652,7 +655,8 @@ fn truncation_computes_less_and_stays_near() {
     assert!(worst > 0.0 && worst < 0.1 * 54.0, "{worst}");
 }
 
-/// Limits of 0 are those of a comparison, equal ones those of a truncation, and a limit cuts at its own node alone.
+/// Limits of 0 are equivalent to a comparison, and equal limits to a truncation. A limit acts only
+/// at its own node.
 #[test]
 fn every_node_has_a_limit_of_its_own() {
     let layers = [three_by_three(6, 1), Layer::Sigmoid, three_by_three(6, 1)];
@@ -675,7 +679,8 @@ fn every_node_has_a_limit_of_its_own() {
     }
 }
 
-/// Threads share rows of large pictures and channels of small ones; the bits are the same.
+/// Threads share the rows of large inputs and the channels of small ones. The bits must be the
+/// same.
 #[test]
 fn any_number_of_threads_gives_the_same_bits() {
     let layers = [
@@ -706,7 +711,8 @@ fn any_number_of_threads_gives_the_same_bits() {
     }
 }
 
-/// Blocks do not overlap, so a part never costs more than the whole, however scattered it is.
+/// Blocks do not overlap, so a part never costs more than a dense computation, however scattered it
+/// is.
 #[test]
 fn a_part_is_never_more_than_the_whole() {
     let network = network(
@@ -729,7 +735,8 @@ fn a_part_is_never_more_than_the_whole() {
     }
 }
 
-/// In a row of boxes of all scales no place has a part of the picture: it is computed where the places that it sees are.
+/// Flattened positions of several scales have no place in the frame, so they are computed where the
+/// positions that they depend on are.
 #[test]
 fn the_fixed_mode_follows_places_in_a_row() {
     let mut model = Model::new(&[1, 1, 16, 16]);
@@ -747,7 +754,7 @@ fn the_fixed_mode_follows_places_in_a_row() {
     assert_eq!(difference(&network, Mode::Fixed, &frames), None);
 }
 
-/// The fixed mode copies what lies outside of the camera's mask.
+/// The fixed mode keeps the values outside of the camera's mask.
 #[test]
 fn the_fixed_mode_is_wrong_at_borders_only() {
     let layers = [three_by_three(2, 1)];
@@ -768,7 +775,7 @@ fn the_fixed_mode_is_wrong_at_borders_only() {
     assert!(!wrong.is_empty() && wrong.is_subset(&Mask::from_fn(16, 16, is_ring)));
 }
 
-/// A value that has a second name is not changed by an activation of that name.
+/// A tensor that has a second name is not changed by an activation of that name.
 #[test]
 fn an_activation_leaves_what_others_use() {
     let mut model = Model::new(&[1, 1, 4, 4]);
@@ -785,7 +792,7 @@ fn an_activation_leaves_what_others_use() {
     assert_eq!(*executor.value(output).reals(), [-2.0; 16]);
 }
 
-/// Positions on other axes of equal lengths are other positions.
+/// Positions on other axes of equal lengths are different positions.
 #[test]
 fn a_sum_with_its_own_transpose_is_exact() {
     let mut model = Model::new(&[1, 1, 8, 8]);
@@ -800,7 +807,7 @@ fn a_sum_with_its_own_transpose_is_exact() {
     assert_eq!(difference(&network, Mode::Exact, &frames), None);
 }
 
-/// Squeeze and excitation with convolutions, as in MobileNetV3.
+/// Squeeze and excitation with convolutions, as in MobileNetV3, are exact.
 #[test]
 fn convolutions_of_a_pooled_tensor_are_exact() {
     let mut model = Model::new(&[1, 1, 8, 8]);

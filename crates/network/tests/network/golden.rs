@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The quantized network that is shipped, against onnxruntime 1.31: `scripts/quantize.py` wrote both files of `golden`.
+//! The quantized network of the project is compared with onnxruntime 1.31. `scripts/quantize.py`
+//! wrote both files of `golden`.
 
 use foveate_network::{Element, Executor, FrameSize, Mask, Mode, Network};
 use std::path::Path;
@@ -22,7 +23,9 @@ fn the_quantized_denoiser_is_that_of_onnxruntime() {
     executor.step(&picture, &Mask::full(32, 48));
     let &[output] = network.outputs() else { panic!("one output") };
     assert_eq!(*executor.value(output).reals(), right);
-    // The picture, four tensors of 12, 12, 12 and 1 channels, and the two last of floating-point values: what is kept has its real size.
+    // The tensors are the input, the quantized input, four quantized tensors of 12, 12, 12 and 1
+    // channels, and the last two of floating-point values. The number of kept bytes must be their
+    // real size.
     let elements: Vec<Element> =
         (0..=network.nodes().len()).map(|value| network.form(value).encoding().element).collect();
     assert_eq!(elements[0], Element::F32);

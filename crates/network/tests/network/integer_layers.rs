@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Layers of 8-bit values in a random network.
+//! Layers of 8-bit values for random networks.
 
 use crate::exact::{State, signed};
 use crate::model::{Model, Value, noise};
@@ -23,7 +23,7 @@ pub(crate) enum IntegerLayer {
         stride: i64,
         pads: [i64; 4],
     },
-    /// The sums of a convolution as floating-point values, and back.
+    /// A convolution whose sums become floating-point values and are then quantized.
     Sums,
     Residual,
     Gate,
@@ -43,9 +43,9 @@ pub(crate) enum IntegerLayer {
     },
     Double,
     Turn,
-    /// Every second column.
+    /// A slice that takes every second column.
     Cut,
-    /// A convolution of floating-point values between two of 8 bits.
+    /// A convolution of floating-point values between two tensors of 8-bit values.
     ThroughFloats,
     Product,
 }
@@ -77,7 +77,7 @@ pub(crate) fn integer_layer() -> impl Strategy<Value = IntegerLayer> {
     ]
 }
 
-/// Integers that look random.
+/// Returns pseudo-random integers in a range.
 pub(crate) fn integers(seed: u64, count: usize, range: std::ops::RangeInclusive<i32>) -> Vec<i32> {
     let (low, high) = (f64::from(*range.start()), f64::from(*range.end()));
     let place = |value: f32| low + (f64::from(value) + 1.0) / 2.0 * (high - low + 0.999);
@@ -86,12 +86,12 @@ pub(crate) fn integers(seed: u64, count: usize, range: std::ops::RangeInclusive<
     noise(seed, count).into_iter().map(whole).collect()
 }
 
-/// Constants of a tensor of 8-bit values: its scale and its zero point.
+/// The names of the constants of a tensor of 8-bit values: its scale and its zero point.
 #[derive(Clone)]
 struct Bytes {
     scale: String,
     zero: String,
-    /// Of ONNX.
+    /// The element type of ONNX.
     kind: i32,
 }
 
@@ -104,7 +104,7 @@ impl Bytes {
     }
 }
 
-/// Weights with a scale and a zero point, as inputs of a node.
+/// Returns the names of weights, their scale and their zero point, as inputs of a node.
 fn weights(
     model: &mut Model,
     shape: &[i64],
@@ -128,7 +128,7 @@ fn weights(
     ]
 }
 
-/// Adds a block: to 8 bits, the layers that fit, and back.
+/// Adds a block: quantization, the layers that fit, and dequantization.
 pub(crate) fn add(
     model: &mut Model,
     now: &State,
@@ -158,7 +158,7 @@ struct Block {
 }
 
 impl Block {
-    /// The inputs of this tensor as operators of onnxruntime take them.
+    /// The inputs of this tensor for operators of onnxruntime: values, scale and zero point.
     fn inputs(&self) -> [&str; 3] {
         [&self.state.name, &self.bytes.scale, &self.bytes.zero]
     }
@@ -168,7 +168,7 @@ impl Block {
         Some(Self { state, bytes: bytes.clone(), ..self.clone() })
     }
 
-    /// A tensor with the same scale, and another height and width.
+    /// Returns a tensor with the same scale and another height and width.
     fn sized(&self, name: String, height: i64, width: i64) -> Option<Self> {
         let state = State { name, height, width, ..self.state.clone() };
         (height > 0 && width > 0).then(|| Self { state, ..self.clone() })
@@ -376,7 +376,7 @@ impl Block {
                 ]
                 .concat();
                 let name = model.node("QLinearMatMul", &inputs, &[]);
-                // The last axis is no position any more, so nothing may follow that needs one.
+                // The last axis is no longer a position, so no layer may follow that needs one.
                 model.output(&name);
                 None
             }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Operators of 8-bit values against the ONNX specification, in plain loops over 64-bit integers.
+//! Operators on 8-bit values are compared with the ONNX specification, in plain loops over 64-bit
+//! integers.
 #![allow(
     clippy::cast_precision_loss,
     reason = "all integers here are below 2^24, or are rounded as sums are"
@@ -11,14 +12,14 @@ use foveate_network::onnx::data_type;
 use foveate_network::{Executor, Mask, Mode};
 use proptest::prelude::*;
 
-/// A number divided by a power of two, rounded to the nearest, or to the even one of two.
+/// Divides a number by a power of two, and rounds halves to even.
 fn divided(number: i64, shift: u32) -> i64 {
     let (floor, rest) = (number >> shift, number & ((1 << shift) - 1));
     let half = 1 << shift >> 1;
     floor + i64::from(shift > 0 && (rest > half || (rest == half && floor & 1 == 1)))
 }
 
-/// The type of ONNX of 8-bit values, and their range.
+/// Returns the ONNX type of 8-bit values, and their range.
 fn bytes(is_signed: bool) -> (i32, [i64; 2]) {
     if is_signed { (data_type::INT8, [-128, 127]) } else { (data_type::UINT8, [0, 255]) }
 }
@@ -31,12 +32,12 @@ fn two_to(exponent: u32) -> f32 {
     f32::powi(2.0, exponent.cast_signed())
 }
 
-/// A convolution as ONNX describes it. Where an input is padding, it is the zero point, and adds nothing.
+/// A convolution as ONNX defines it. Padding has the value of the zero point, so it adds nothing.
 struct Naive<'a> {
     inputs: &'a [i64],
     zero: i64,
     size: [usize; 2],
-    /// Input channels of a group, and output channels of one.
+    /// The numbers of input and output channels of a group.
     inner: usize,
     outer: usize,
     weights: &'a [i32],
@@ -89,7 +90,8 @@ impl Naive<'_> {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 300, ..ProptestConfig::default() })]
 
-    /// All scales are powers of two, so that every quotient is exact and many lie halfway.
+    /// All scales are powers of two, so that every quotient is exact and many quotients lie
+    /// halfway.
     #[test]
     fn convolution_is_that_of_the_standard(
         (groups, inner, outer) in (1..4usize, prop_oneof![4 => 1..5usize, 1 => 30..40usize], 1..16usize),
@@ -118,7 +120,8 @@ proptest! {
         let scale = model.floats(&[], &[1.0]);
         let zero = model.typed(data_type::UINT8, &[], &[0]);
         let quantized = model.node("QuantizeLinear", &["picture", &scale, &zero], &[]);
-        // As many channels as are wanted: products with the factors, divided by 128.
+        // A first convolution makes the required number of channels: products with the factors,
+        // divided by 128.
         let spread = model.typed(data_type::INT8, &dims(&[inputs, 1, 1, 1]), &factors);
         let spread_zero = model.typed(data_type::INT8, &[], &[0]);
         let (to, to_zero) = (model.floats(&[], &[128.0]), model.typed(x_type, &[], &[x_zero]));
@@ -134,7 +137,7 @@ proptest! {
         let output = if is_integer {
             model.node("ConvInteger", &[&x, &w, &to_zero, &w_zeros], &attributes)
         } else {
-            // Of sums in steps of 128 x 2^-shift.
+            // The sums are in steps of 128 x 2^-shift.
             let w_scales: Vec<f32> = shifts.iter().map(|&shift| 1.0 / two_to(shift)).collect();
             let w_scales = model.floats(along, &w_scales);
             let y_zero = model.typed(y_type, &[], &[y_zero]);
@@ -154,7 +157,7 @@ proptest! {
         let network = model.read(size[1], size[0]).unwrap();
         let mut executor = Executor::new(&network, Mode::Dense);
         executor.step(&picture.iter().map(|&pixel| pixel as f32).collect::<Vec<_>>(), &Mask::full(size[0], size[1]));
-        // What values stand for is exact, too.
+        // The real numbers of the first convolution are exact, too.
         let spread: Vec<f32> = spread.iter().map(|&value| (value - i64::from(x_zero)) as f32 * 128.0).collect();
         prop_assert_eq!(&*executor.value(2).reals(), spread.as_slice());
         let found = executor.value(3);
@@ -173,7 +176,7 @@ proptest! {
         }
     }
 
-    /// Products with a matrix, of every kind.
+    /// All matrix products are compared with the standard.
     #[test]
     fn products_are_those_of_the_standard(
         inputs in 1..700usize, outputs in 1..20usize, kind in 0..3usize, (x_signed, w_signed, per_column) in any::<(bool, bool, bool)>(), seed in 0..1000u64,
@@ -230,7 +233,8 @@ proptest! {
             if kind == 2 {
                 sum += i64::from(bias[column]);
             }
-            // Only a sum of fewer bits is exact in floating point, in which it is divided.
+            // The comparison needs a sum below 2^24, because larger sums are not exact in floating
+            // point, in which they are divided.
             let in_steps = (divided(sum, shifts[column % columns]) + 3).clamp(-128, 127) - 3;
             let right = if kind == 0 { sum as f32 } else { in_steps as f32 };
             prop_assert!(sum.abs() >= 1 << 24 || found == right, "{found} for {right}");
@@ -238,7 +242,7 @@ proptest! {
     }
 }
 
-/// Outputs of a network whose picture becomes 8-bit values with these constants first.
+/// Returns the outputs of a network whose input is first quantized with these constants.
 fn run(
     picture: &[f32],
     (is_signed, scale, zero): (bool, f32, i32),
@@ -258,7 +262,7 @@ fn run(
     executor.value(output).reals().to_vec()
 }
 
-/// Halves go to the even integer, and what is too large to the largest.
+/// Halves are rounded to even, and values out of range saturate.
 #[test]
 fn quantization_rounds_as_the_standard_says() {
     let picture = [0.5, 1.5, 2.5, -0.5, -1.5, 200.0, -300.0, f32::INFINITY];
@@ -274,10 +278,11 @@ fn quantization_rounds_as_the_standard_says() {
     assert_eq!(run(&[0.5, -0.75], (true, 0.5, 7), same), [0.5, -1.0]);
 }
 
-/// A node of a picture with a scale and a zero point, to another scale and zero point.
+/// A function that adds a node on the quantized input with another scale and zero point.
 type Node<'a> = dyn Fn(&mut Model, [&str; 3], [&str; 2]) -> String + 'a;
 
-/// Operators of onnxruntime, computed by hand. The picture is 1, 2, 3 and -4 in steps of 0.5, with 10 for 0.
+/// Operators of onnxruntime are computed by hand. The input is 1, 2, 3 and -4 with a scale of 0.5
+/// and a zero point of 10.
 #[test]
 fn operators_of_onnxruntime_are_as_it_says() {
     let of = |rest: &Node<'_>| {
@@ -300,16 +305,16 @@ fn operators_of_onnxruntime_are_as_it_says() {
     assert_eq!(of(&twice("com.microsoft.QLinearAdd")), [2.0, 4.0, 6.0, -8.0]);
     assert_eq!(of(&twice("com.microsoft.QLinearMul")), [1.0, 4.0, 9.0, 16.0]);
     assert_eq!(of(&with("com.microsoft.QLinearGlobalAveragePool", &[])), [0.5]);
-    // -0.04, in steps of 0.25; and with the default, 0.01.
+    // With the default alpha of 0.01 the last value is -0.04, which is 0 in steps of 0.25.
     assert_eq!(of(&with("com.microsoft.QLinearLeakyRelu", &[])), [1.0, 2.0, 3.0, 0.0]);
     let steep = [("alpha", Value::Float(0.5))];
     let leaky = |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
         model.node("com.microsoft.QLinearLeakyRelu", &[x[0], x[1], x[2], y[0], y[1]], &steep)
     };
     assert_eq!(of(&leaky), [1.0, 2.0, 3.0, -2.0]);
-    // 0.73, 0.88, 0.95 and 0.02.
+    // The exact values are 0.73, 0.88, 0.95 and 0.02.
     assert_eq!(of(&with("com.microsoft.QLinearSigmoid", &[])), [0.75, 1.0, 1.0, 0.0]);
-    // 0.09, 0.24, 0.66 and 0.0006.
+    // The exact values are 0.09, 0.24, 0.66 and 0.0006.
     let shares = with("com.microsoft.QLinearSoftmax", &[("opset", Value::Int(13))]);
     assert_eq!(of(&shares), [0.0, 0.25, 0.75, 0.0]);
     let pairs = |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
@@ -317,7 +322,7 @@ fn operators_of_onnxruntime_are_as_it_says() {
             [("kernel_shape", Value::Ints(vec![1, 2])), ("pads", Value::Ints(vec![0, 1, 0, 0]))];
         model.node("com.microsoft.QLinearAveragePool", &[x[0], x[1], x[2], y[0], y[1]], &attributes)
     };
-    // The first window holds a value of padding, which does not count.
+    // The first window holds one value of padding, which does not count.
     assert_eq!(of(&pairs), [1.0, 1.5, 2.5, -0.5]);
     let joined = |model: &mut Model, x: [&str; 3], y: [&str; 2]| {
         let axis = [("axis", Value::Int(1))];
@@ -330,7 +335,7 @@ fn operators_of_onnxruntime_are_as_it_says() {
     assert_eq!(of(&joined), [1.0, 2.0, 3.0, -4.0, 1.0, 2.0, 3.0, -4.0]);
 }
 
-/// A scale for each index of an axis.
+/// A scale is given for each index of an axis.
 #[test]
 fn axes_have_scales_of_their_own() {
     let mut model = Model::new(&[1, 1, 1, 3]);
@@ -343,12 +348,13 @@ fn axes_have_scales_of_their_own() {
     let network = model.read(3, 1).unwrap();
     let mut executor = Executor::new(&network, Mode::Dense);
     executor.step(&[3.4, -1.6, 1.6], &Mask::full(1, 3));
-    // In steps, because no scale is that of all.
+    // The values are in steps, because no single scale is that of the whole tensor.
     assert_eq!(*executor.value(1).reals(), [3.0, 7.0, 26.0]);
     assert_eq!(*executor.value(2).reals(), [3.0, -1.5, 1.5]);
 }
 
-/// A change that rounding to 8 bits takes away is no change, and a limit counts in what the values stand for.
+/// A change that rounding to 8 bits removes is no change, and a limit is compared with the real
+/// numbers that values stand for.
 #[test]
 fn what_rounds_away_is_not_passed_on() {
     let mut model = Model::new(&[1, 1, 8, 8]);

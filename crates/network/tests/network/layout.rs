@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Networks from TensorFlow: the channels of the input are last, and are put first before anything else.
+//! Networks from TensorFlow take the channels last, and first transpose them to the front.
 
 use crate::model::{Model, Value, noise};
 use foveate_network::{Executor, Layout, Mask, Mode, Network};
@@ -11,7 +11,8 @@ fn turned(model: &mut Model, name: &str, order: [i64; 4]) -> String {
     model.node("Transpose", &[name], &[("perm", Value::Ints(order.to_vec()))])
 }
 
-/// Two convolutions of the same picture, joined. With `turn` from and to channels last, in which case each takes a Transpose of its own.
+/// Returns a network of two convolutions of the same input, multiplied. With `turn` its input and
+/// its output have the channels last, and each convolution takes a separate Transpose.
 fn network(turn: bool, shape: &[i64]) -> Network {
     let mut model = Model::new(shape);
     let weights = model.floats(&[2, 3, 3, 3], &noise(1, 54));
@@ -31,7 +32,7 @@ fn network(turn: bool, shape: &[i64]) -> Network {
     model.read(6, 4).unwrap()
 }
 
-/// The outputs of a network for two pictures, of which the second differs in a corner.
+/// Returns the outputs of a network for two frames, the second of which differs in a corner.
 fn outputs(network: &Network) -> Vec<Vec<f32>> {
     let mut executor = Executor::new(network, Mode::Exact);
     let mut picture = noise(2, 72);
@@ -46,7 +47,8 @@ fn outputs(network: &Network) -> Vec<Vec<f32>> {
     vec![first, step(&picture, &corner)]
 }
 
-/// The Transposes behind the input are gone, the one in front of the output is there, and values are those of channels first.
+/// The Transposes behind the input are removed, the one in front of the output remains, and the
+/// values are those of the network with the channels first.
 #[test]
 fn channels_that_are_put_first_are_read_as_such() {
     let first = network(false, &[1, 3, 4, 6]);

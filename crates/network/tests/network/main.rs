@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Networks from ONNX bytes, run in every mode.
+//! Networks are built as ONNX bytes and run in every mode.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod activations;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Makes ONNX models.
+//! A builder of ONNX models for tests.
 
 use foveate_network::onnx::{
     AttributeProto, Dimension, GraphProto, ModelProto, NodeProto, OperatorSetIdProto, TensorProto,
@@ -9,11 +9,11 @@ use foveate_network::{FrameSize, Network, NetworkError};
 use prost::Message as _;
 use std::path::Path;
 
-/// A model under way. Its input is `picture`.
+/// A model under construction. Its input is named `picture`.
 #[derive(Default)]
 pub(crate) struct Model {
     pub(crate) graph: GraphProto,
-    /// The version of the operators; the newest one without.
+    /// The version of the operators; without one it is the newest.
     pub(crate) opset: Option<i64>,
     count: usize,
 }
@@ -25,7 +25,7 @@ impl Model {
         model
     }
 
-    /// A constant of floating-point values; returns its name.
+    /// Adds a constant of floating-point values, and returns its name.
     pub(crate) fn floats(&mut self, shape: &[i64], values: &[f32]) -> String {
         let tensor = TensorProto {
             data_type: Some(data_type::FLOAT),
@@ -35,7 +35,7 @@ impl Model {
         self.constant(shape, tensor)
     }
 
-    /// A constant of integers; returns its name.
+    /// Adds a constant list of 64-bit integers, and returns its name.
     pub(crate) fn ints(&mut self, values: &[i64]) -> String {
         let tensor = TensorProto {
             data_type: Some(data_type::INT64),
@@ -45,7 +45,7 @@ impl Model {
         self.constant(&[values.len().cast_signed() as i64], tensor)
     }
 
-    /// A constant integer; returns its name.
+    /// Adds a constant 64-bit integer, and returns its name.
     pub(crate) fn index(&mut self, value: i64) -> String {
         let tensor = TensorProto {
             data_type: Some(data_type::INT64),
@@ -55,7 +55,7 @@ impl Model {
         self.constant(&[], tensor)
     }
 
-    /// A constant of integers of a type of ONNX; returns its name.
+    /// Adds a constant of integers of an ONNX type, and returns its name.
     pub(crate) fn typed(&mut self, data_type: i32, shape: &[i64], values: &[i32]) -> String {
         let tensor = TensorProto {
             data_type: Some(data_type),
@@ -76,7 +76,8 @@ impl Model {
         name
     }
 
-    /// A node, of onnxruntime's operators if its kind begins with their domain; returns the name of its output.
+    /// Adds a node, and returns the name of its output. The operator is one of onnxruntime if
+    /// `kind` begins with its domain.
     pub(crate) fn node(
         &mut self,
         kind: &str,
@@ -97,7 +98,7 @@ impl Model {
         output
     }
 
-    /// Says that a value is an output.
+    /// Declares a tensor as an output.
     pub(crate) fn output(&mut self, name: &str) {
         self.graph.output.push(value(name, &[]));
     }
@@ -152,14 +153,14 @@ fn value(name: &str, shape: &[i64]) -> ValueInfoProto {
     }
 }
 
-/// Values that look random, and are the same every time.
+/// Returns pseudo-random values from -1 to 1 that are the same in every run.
 pub(crate) fn noise(seed: u64, count: usize) -> Vec<f32> {
     let mut state = seed.wrapping_mul(0x9e37_79b9_7f4a_7c15) | 1;
     let mut next = || {
         state ^= state << 13;
         state ^= state >> 7;
         state ^= state << 17;
-        // 24 bits, from -1 to 1.
+        // The upper 16 bits become a value from -1 to below 1.
         (u16::try_from(state >> 48).unwrap() as f32) / 32768.0 - 1.0
     };
     (0..count).map(|_| next()).collect()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Convolution and pooling against the formulas of the ONNX standard, in double precision.
+//! Convolution and pooling are compared with the formulas of the ONNX standard, in double
+//! precision.
 
 use crate::model::{Model, Value, noise};
 use foveate_network::{Executor, Mask, Mode};
@@ -14,7 +15,7 @@ proptest! {
         kernel in (1..4usize, 1..4usize), stride in (1..4usize, 1..4usize), dilation in (1..3usize, 1..3usize), pads in prop::array::uniform4(0..3usize),
     ) {
         let (inputs, outputs) = (groups * inner, groups * outer);
-        // The picture has one channel; a first convolution makes as many as are wanted.
+        // The input has one channel; a first convolution makes the required number.
         let spread = noise(11, inputs);
         let weights = noise(12, outputs * inner * kernel.0 * kernel.1);
         let bias = noise(13, outputs);
@@ -68,7 +69,7 @@ proptest! {
 proptest! {
     #![proptest_config(ProptestConfig { cases: 64, ..ProptestConfig::default() })]
 
-    /// Every input is added, by its weights, to the outputs that it reaches.
+    /// Every input is added, with its weights, to the outputs that it reaches.
     #[test]
     fn transposed_convolution_is_that_of_the_standard(
         groups in 1..3usize, inner in 1..3usize, outer in 1..4usize, size in (1..6usize, 1..7usize), kernel in (1..5usize, 1..5usize),
@@ -122,7 +123,7 @@ proptest! {
     }
 }
 
-/// A value of every pooling, computed by hand.
+/// One value of every pooling is computed by hand.
 #[test]
 fn pooling_is_that_of_the_standard() {
     let picture: Vec<f32> = (0..25u8).map(f32::from).collect();
@@ -154,7 +155,7 @@ fn pooling_is_that_of_the_standard() {
     assert_eq!(run("GlobalMaxPool", &[]), [24.0]);
 }
 
-/// Of an even number of channels one more counts behind than before.
+/// With an even size, one channel more counts behind than before.
 #[test]
 fn local_responses_are_those_of_the_standard() {
     const CHANNELS: usize = 7;
@@ -187,7 +188,8 @@ fn local_responses_are_those_of_the_standard() {
     }
 }
 
-/// Rows 1 and 2 and columns 1 and 3 of four rows and five columns; and, of a network without such a slice, the same in two steps.
+/// The slice takes rows 1 and 2 and columns 1 and 3 of four rows and five columns, once in one node
+/// and once in two nodes.
 #[test]
 fn slices_are_those_of_the_standard() {
     let picture: Vec<f32> = (0..20u8).map(f32::from).collect();

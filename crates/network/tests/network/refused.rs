@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Models that are damaged, hostile, or of a kind that is not supported: each is a line that says what is wrong.
+//! Models that are damaged, hostile or not supported are rejected with a message of one line that
+//! names the problem.
 
 use crate::exact::signed;
 use crate::model::{Model, Value};
@@ -129,7 +130,8 @@ fn a_length_that_no_picture_has_is_not_an_open_one() {
     assert!(lengths([Some(1), Some(-1), None, None]).unwrap_err().contains("channels are open"));
 }
 
-/// What would be computed in another way than the standard says, or would take the memory of the machine.
+/// Models are rejected that would be computed differently from the standard, or that would take the
+/// memory of the machine.
 #[test]
 fn what_is_not_as_it_seems_is_refused() {
     let with = |kind: &str, constants: &[&[i64]], attributes: &[(&str, Value)]| {
@@ -211,10 +213,10 @@ fn what_is_not_as_it_seems_is_refused() {
     }
 }
 
-/// Every way in which a quantized network can be wrong, or of a kind that is not supported.
+/// Quantized networks that are invalid or not supported are rejected.
 #[test]
 fn quantized_networks_are_checked() {
-    // A convolution of 8 bits: what it takes may be changed.
+    // The closure builds a quantized convolution whose inputs a test case may change.
     let conv = |change: &dyn Fn(&mut Model, &mut Vec<String>)| {
         let mut model = Model::new(&[1, 1, 8, 8]);
         let (scale, zero) = (model.floats(&[], &[0.5]), model.typed(data_type::UINT8, &[], &[3]));
@@ -335,7 +337,7 @@ fn quantized_networks_are_checked() {
     }
 }
 
-/// The version of the operators says what a softmax is over.
+/// The version of the operators determines the axes of a softmax.
 #[test]
 fn operators_have_versions() {
     use foveate_network::onnx::{ModelProto, OperatorSetIdProto};
@@ -360,7 +362,7 @@ fn operators_have_versions() {
     }
 }
 
-/// Messages without a field have two bytes in a file, and hundreds in memory.
+/// An empty message has two bytes in a file, and hundreds in memory.
 #[test]
 fn what_grows_in_memory_is_refused() {
     let length = |length: usize| {
@@ -376,7 +378,8 @@ fn what_grows_in_memory_is_refused() {
         Network::parse(&bytes, Path::new("test.onnx"), size).unwrap_err().to_string()
     };
     let many = |tag: u8, count: usize| [tag << 3 | 2, 0].repeat(count);
-    // Nodes, constants, inputs; names and attributes of a node, and integers of one; axes of an input; values of a constant.
+    // The graphs have many nodes, constants and inputs; many names and attributes of a node, and
+    // integers of an attribute; many axes of an input; and many values of a constant.
     let graphs = [
         many(1, 9 << 20),
         many(5, 9 << 20),
@@ -411,7 +414,7 @@ fn data_outside_of_the_folder_is_refused() {
     }
 }
 
-/// A small network with a bit of everything.
+/// Returns a small valid network of common operators.
 fn valid() -> Vec<u8> {
     let mut model = Model::new(&[1, 1, 8, 8]);
     let weights = model.floats(&[4, 1, 3, 3], &[0.5; 36]);
@@ -423,7 +426,7 @@ fn valid() -> Vec<u8> {
     model.bytes()
 }
 
-/// The same of 8-bit integers.
+/// Returns a small valid network of 8-bit integers.
 fn quantized() -> Vec<u8> {
     let mut model = Model::new(&[1, 1, 8, 8]);
     let (scale, zero) = (model.floats(&[], &[0.5]), model.typed(data_type::UINT8, &[], &[3]));
@@ -438,7 +441,7 @@ fn quantized() -> Vec<u8> {
     model.bytes()
 }
 
-/// A part of a detector, with shapes that are computed.
+/// Returns a part of a detector with computed shapes.
 fn detector() -> Vec<u8> {
     let mut model = Model::new(&[1, 1, 8, 8]);
     let weights = model.floats(&[1, 2, 2, 2], &[0.5; 8]);
@@ -464,7 +467,7 @@ fn detector() -> Vec<u8> {
     model.bytes()
 }
 
-/// Normalizations, choices and joints.
+/// Returns a network of normalizations, selections and slices.
 fn choices() -> Vec<u8> {
     let mut model = Model::new(&[1, 1, 8, 8]);
     let scale = model.floats(&[1], &[0.5]);
@@ -486,7 +489,7 @@ fn choices() -> Vec<u8> {
     model.bytes()
 }
 
-/// What is damaged.
+/// The valid networks that are damaged.
 const VALID: [fn() -> Vec<u8>; 4] = [valid, quantized, detector, choices];
 
 proptest! {

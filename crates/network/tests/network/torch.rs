@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small networks against torch, and so against onnxruntime: `scripts/golden_networks.py`, which has made the files, has compared the two.
+//! Small networks are compared with torch. `scripts/golden_networks.py`, which wrote the files, has
+//! compared torch with onnxruntime.
 
 use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
 use std::path::Path;
 
-/// Of the largest output. Sums run in another order, and there are two ways to compute an exponential.
+/// The tolerance as a share of the largest output. Sums are added in another order, and
+/// exponentials are computed differently.
 const TOLERANCE: f32 = 4e-6;
 
-/// Name, width and height of each.
+/// The name, width and height of each network.
 const NETWORKS: [(&str, usize, usize); 13] = [
     ("activations", 9, 7),
     ("attention", 7, 6),

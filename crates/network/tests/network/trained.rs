@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Trained networks of others, where the environment variable FOVEATE_DATA names their folder: each is read, and parts have the bits of the
-//! whole. `scripts/compare_networks.py` compares them with onnxruntime.
+//! Trained networks of other projects, in the folder that the environment variable FOVEATE_DATA
+//! names, are read, and a part has the bits of a dense computation. `scripts/compare_networks.py`
+//! compares the networks with onnxruntime.
 
 use crate::exact::{clip, difference};
 use foveate_network::{FrameSize, Mode, Network};
 use foveate_toolchain::testing::data_folder;
 
-/// Name, width and height of each.
+/// The name, width and height of each network.
 const NETWORKS: [(&str, usize, usize); 7] = [
     ("FastestDet", 352, 352),
     ("RFB-320", 320, 240),
