@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Buffers that start at a cache line, so that a block is one line and not two.
+//! Buffers that start at a cache line, so that each block lies in one cache line.
 
 use std::ops::{Deref, DerefMut};
 
 use crate::lane::{BLOCK, Block};
 
-/// Values in a row, the first of them at the start of a cache line.
+/// A buffer whose first value is at the start of a cache line.
 #[derive(Debug)]
 pub struct Aligned<T> {
     store: Vec<T>,
@@ -14,7 +14,7 @@ pub struct Aligned<T> {
 }
 
 impl<T: Copy + Default> Aligned<T> {
-    /// `len` values, each the default.
+    /// Returns a buffer of `len` default values.
     pub fn new(len: usize) -> Self {
         let store = vec![T::default(); len + BLOCK];
         let start = store.as_ptr().align_offset(64).min(BLOCK);
@@ -23,19 +23,19 @@ impl<T: Copy + Default> Aligned<T> {
 }
 
 impl<T> Aligned<T> {
-    /// The values block by block; what is left after the last whole block is left out.
+    /// The values as blocks. A remainder that fills no whole block is left out.
     pub fn blocks(&self) -> &[Block<T>] {
         self.as_chunks().0
     }
 
-    /// The same, to be written.
+    /// The values as mutable blocks. A remainder that fills no whole block is left out.
     pub fn blocks_mut(&mut self) -> &mut [Block<T>] {
         self.as_chunks_mut().0
     }
 }
 
 impl<T: Copy + Default> Clone for Aligned<T> {
-    /// A copy at an aligned place of its own.
+    /// Copies the values into a new aligned buffer.
     fn clone(&self) -> Self {
         let mut copy = Self::new(self.len);
         copy.copy_from_slice(self);

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The two widths in which pixels are held, and the types their sums need.
+//! The two lane types of a pixel, and the types of their sums.
 //!
-//! Up to 8 bits a pixel is a byte, beyond that a 16-bit word; one set of kernels serves both. Loops
-//! run over blocks of [`BLOCK`] lanes, so that no loop has a remainder.
+//! A pixel of up to 8 bits is a byte, a wider one is a 16-bit word. The kernels are generic over
+//! both. Loops run over blocks of [`BLOCK`] lanes, so that no loop has a remainder.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitXor, Neg, Sub};
 
-/// Lanes per block: a full AVX-512 register of bytes.
+/// The lanes of a block: as many as a full AVX-512 register holds bytes.
 pub const BLOCK: usize = 64;
 
-/// A block of values.
+/// One value per lane of a block.
 pub type Block<T> = [T; BLOCK];
 
-/// A pixel as the kernels hold it.
+/// A pixel in the type in which the kernels compute.
 pub trait Lane:
     Copy
     + Debug
@@ -29,7 +29,7 @@ pub trait Lane:
     + Into<u64>
     + 'static
 {
-    /// Sums of three differences of pixels.
+    /// The sum of three differences of pixels, with sign.
     type Signed: Copy
         + Debug
         + Ord
@@ -40,27 +40,27 @@ pub trait Lane:
         + Neg<Output = Self::Signed>
         + From<Self>
         + TryFrom<u32>;
-    /// A column of pixels of one region, added up: 64 pixels at most.
+    /// The sum of a column of pixels of one region: 64 pixels at most.
     type Sum: Copy + Debug + Default + Send + Sync + AddAssign + From<Self> + Into<u32> + Into<u64>;
-    /// The same of squares.
+    /// The sum of the squares of a column of pixels of one region: 64 pixels at most.
     type Square: Copy + Debug + Default + Send + Sync + AddAssign + Into<u64>;
 
-    /// One.
+    /// The value 1.
     const ONE: Self;
-    /// Every bit set.
+    /// The largest value: every bit is set.
     const MAX: Self;
 
-    /// `self - other`, at least 0.
+    /// Returns `self - other`, at least 0.
     fn minus(self, other: Self) -> Self;
-    /// `self + other`, at most [`Lane::MAX`].
+    /// Returns `self + other`, at most [`Lane::MAX`].
     fn plus(self, other: Self) -> Self;
-    /// `|self - other|`.
+    /// Returns `|self - other|`.
     fn distance(self, other: Self) -> Self;
-    /// The square.
+    /// Returns the square of the pixel.
     fn square(self) -> Self::Square;
-    /// One for true.
+    /// Returns 1 for true and 0 for false.
     fn hit(hit: bool) -> Self;
-    /// The low bits of a number, of which there are no others.
+    /// Converts a number that fits into the type; higher bits would be cut off.
     fn low(value: u32) -> Self;
 }
 
@@ -111,8 +111,8 @@ macro_rules! lane {
 lane!(u8, signed i16, sum u16, square u32);
 lane!(u16, signed i32, sum u32, square u64);
 
-/// A threshold that the design has checked against its pixel range, as lane type. What does not fit
-/// cannot be exceeded, and the largest value of the type stands for it.
+/// Converts a threshold that the design has checked against its pixel range. A threshold that does
+/// not fit into the lane type cannot be exceeded, so the largest value of the type replaces it.
 pub fn threshold<T: Lane>(value: u32) -> T {
     T::try_from(value).unwrap_or(T::MAX)
 }

@@ -1,29 +1,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which vector instructions the inner loops are compiled for, chosen when the program runs.
+//! The vector instruction sets for which the inner loops are compiled; one is chosen at run time.
 //!
-//! The kernels are plain loops over fixed blocks of lanes; what makes them fast is the instruction
-//! set the compiler may use for them. A [`Task`] is compiled once per [`Level`] and entered through
-//! a function that has the level's target features, into which everything below is inlined.
+//! The kernels are plain loops over blocks of a fixed number of lanes. They are fast because the
+//! compiler may use vector instructions for them. A [`Task`] is compiled once per [`Level`]. It is
+//! entered through a function that has the level's target features, into which everything that the
+//! task calls is inlined.
 //!
 //! This is the only module with `unsafe`: calling a function with target features is sound only on
-//! a processor that has them, which [`Level::detect`] has asked and a private constructor protects.
+//! a processor that has them. [`Level::available`] asks the processor, and the private field of
+//! [`Level`] makes sure that no other code can create a level.
 #![allow(unsafe_code, reason = "entering code compiled for an instruction set that was detected")]
 
-/// Work whose `run` (and everything it calls) is marked `#[inline(always)]`, so that it is compiled
-/// for the instruction set from which it is called.
+/// Work whose `run` (with everything that it calls) is marked `#[inline(always)]`, so that it is
+/// compiled for the instruction set from which it is called.
 pub trait Task {
     /// Does the work.
     fn run(self);
 }
 
-/// Work over panels of 32-bit values, as many as two vector registers hold. It is inlined like a [`Task`], and compiled for each level with the
-/// panels of that level alone.
+/// Work over panels of 32-bit values, each as wide as two vector registers. It is inlined like a
+/// [`Task`]. For each level it is compiled only with the panel size of that level.
 pub trait PanelTask {
-    /// Does the work. `FUSED`: a product is added in the same instruction, which rounds once.
+    /// Does the work on panels of `LANES` values. `FUSED` says that a product is multiplied and
+    /// added in one instruction, which rounds once.
     fn run<const LANES: usize, const FUSED: bool>(self);
 }
 
-/// A [`PanelTask`] whose panels have a size.
+/// A [`PanelTask`] with a fixed panel size.
 struct Panels<T, const LANES: usize, const FUSED: bool>(T);
 
 impl<T: PanelTask, const LANES: usize, const FUSED: bool> Task for Panels<T, LANES, FUSED> {
@@ -47,16 +50,16 @@ enum Set {
 }
 
 impl Level {
-    /// What every processor of the target has.
+    /// The instruction set that every processor of the target has.
     pub const PORTABLE: Self = Self(Set::Portable);
 
-    /// The best that this processor has.
+    /// Returns the widest instruction set that this processor has.
     #[must_use]
     pub fn detect() -> Self {
         Self::available().last().copied().unwrap_or(Self::PORTABLE)
     }
 
-    /// Everything that this processor has, the best last.
+    /// Returns all instruction sets that this processor has, the widest last.
     #[must_use]
     pub fn available() -> Vec<Self> {
         #[allow(unused_mut, reason = "only x86-64 has more than one")]
@@ -80,7 +83,7 @@ impl Level {
         levels
     }
 
-    /// The name as reports show it.
+    /// The name in reports.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self.0 {
@@ -92,7 +95,7 @@ impl Level {
         }
     }
 
-    /// Bits of a vector register.
+    /// The bits of a vector register.
     #[must_use]
     pub fn register_bits(self) -> usize {
         match self.0 {
@@ -108,30 +111,30 @@ impl Level {
     pub fn run(self, task: impl Task) {
         match self.0 {
             Set::Portable => task.run(),
-            // SAFETY: the field is private and only `available` makes this value, after asking the
-            // processor for every feature that the function enables.
+            // SAFETY: the field is private. Only `available` makes this value, and only after the
+            // processor has reported every feature that the function enables.
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 => unsafe { run_avx2(task) },
-            // SAFETY: as above.
+            // SAFETY: only `available` makes this value, as for AVX2.
             #[cfg(target_arch = "x86_64")]
             Set::Avx512 => unsafe { run_avx512(task) },
         }
     }
 
-    /// Values of a panel: 32-bit ones in two vector registers.
+    /// The number of values in a panel: the 32-bit values of two vector registers.
     #[must_use]
     pub fn panel_lanes(self) -> usize {
         2 * self.register_bits() / 32
     }
 
-    /// Runs a task with these instructions, and panels of [`Level::panel_lanes`].
+    /// Runs a task with these instructions and with panels of [`Level::panel_lanes`] values.
     pub fn run_panels(self, task: impl PanelTask) {
         match self.0 {
             Set::Portable => Panels::<_, 8, false>(task).run(),
-            // SAFETY: as in `run`.
+            // SAFETY: only `available` makes this value, as in `run`.
             #[cfg(target_arch = "x86_64")]
             Set::Avx2 => unsafe { run_avx2(Panels::<_, 16, true>(task)) },
-            // SAFETY: as in `run`.
+            // SAFETY: only `available` makes this value, as in `run`.
             #[cfg(target_arch = "x86_64")]
             Set::Avx512 => unsafe { run_avx512(Panels::<_, 32, true>(task)) },
         }
@@ -150,14 +153,14 @@ fn run_avx512(task: impl Task) {
     task.run();
 }
 
-/// Asks for a value to be brought near the processor, without waiting for it.
+/// Asks the processor to load a value into its nearest cache, without waiting for it.
 #[inline(always)]
 pub fn prefetch<T>(value: &T) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        // SAFETY: a prefetch is a hint that neither faults nor changes anything, and every x86-64
-        // has it.
+        // SAFETY: a prefetch is a hint that neither faults nor changes memory, and every x86-64
+        // processor has the instruction.
         unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::from_ref(value).cast()) };
     }
     #[cfg(not(target_arch = "x86_64"))]

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! FAST 5/8 as a network of minima and maxima.
 //!
-//! The best arc of five of the ring is the largest of eight minima. Two arcs that share four pixels
-//! are `min(four, max(pixel before, pixel after))`, so four groups of four serve all eight arcs.
+//! The score of an arc is the minimum of its five pixels, and the best arc has the largest of the
+//! eight minima. Two arcs that share four pixels have the maximum
+//! `min(four, max(pixel before, pixel after))`, so four groups of four pixels serve all eight arcs.
 
 use crate::Lane;
 
-/// The best over the eight arcs of five neighbors in a ring, of the worst pixel of each.
+/// Returns the score of the best of the eight arcs of five neighbors in a ring. The score of an arc
+/// is its worst pixel by `worse`; `better` chooses among scores.
 #[inline(always)]
 pub fn best_arc<T: Lane>(x: [T; 8], worse: impl Fn(T, T) -> T, better: impl Fn(T, T) -> T) -> T {
     let pair = [worse(x[0], x[1]), worse(x[2], x[3]), worse(x[4], x[5]), worse(x[6], x[7])];
-    // Pixels k..k+4, with k - 1 or k + 4 as the fifth.
+    // An arc is the four pixels k to k + 3 with a fifth, k - 1 or k + 4.
     let arcs = |four: T, before: T, after: T| worse(four, better(before, after));
     let a = arcs(worse(pair[0], pair[1]), x[7], x[4]);
     let b = arcs(worse(pair[1], pair[2]), x[1], x[6]);
