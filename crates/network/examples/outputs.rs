@@ -16,8 +16,9 @@ use foveate_network::{Executor, FrameSize, Mask, Mode, Network};
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// The number of changed frames, and the number of frames that are timed.
+/// The number of changed frames.
 const CHANGED: usize = 3;
+/// The number of frames that are timed.
 const TIMED: usize = 5;
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {

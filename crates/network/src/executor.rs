@@ -64,6 +64,7 @@ pub struct Executor<'a> {
     has_begun: bool,
     /// The time of the last step in the operator of each node.
     computing: Vec<Duration>,
+    /// The time of the last step outside of operators.
     overhead: Duration,
 }
 

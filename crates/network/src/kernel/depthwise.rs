@@ -81,13 +81,14 @@ impl Planes {
 /// The arrangement of the inputs and outputs of an area in memory.
 pub(crate) struct Layout {
     area: Area,
-    /// The rows of a plane of inputs, and the length of a row of inputs or outputs in values. The
-    /// values behind the outputs of a row are not used.
+    /// The rows of a plane of inputs.
     height: usize,
+    /// The length of a row of inputs or outputs, in values. The values behind the outputs of a row
+    /// are not used.
     pitch: usize,
-    /// The number of values of all input planes, and the number of values from the first output to
-    /// the last.
+    /// The number of values of all planes of inputs.
     inputs: usize,
+    /// The number of values from the first output to the last.
     places: usize,
     /// The offset of the inputs of each tap.
     taps: Vec<usize>,

@@ -50,8 +50,9 @@ impl Layout {
 #[derive(Clone, Debug)]
 struct Stretch {
     first: Chunk,
-    /// The offset of the stretch's inputs in each strand, and their number.
+    /// The offset of the inputs of the run in each strand.
     place: usize,
+    /// The number of inputs of the run in each strand.
     length: usize,
 }
 

@@ -23,7 +23,8 @@ pub(crate) struct Pool {
     pub(crate) kind: PoolKind,
     pub(crate) rows: Window,
     pub(crate) columns: Window,
-    /// True if a window counts that begins inside the input but reaches beyond its padding.
+    /// True if a window counts that begins inside the input, or in the padding before it, but
+    /// reaches beyond the padding behind it.
     pub(crate) ceil: bool,
 }
 

@@ -31,8 +31,9 @@ pub(crate) struct Reach {
 struct Phase {
     remainder: usize,
     window: Window,
-    /// The tap that meets the first input, and the distance to the tap that meets the next one.
+    /// The tap that meets the first input.
     last: usize,
+    /// The distance from a tap to the tap that meets the next input.
     step: usize,
 }
 

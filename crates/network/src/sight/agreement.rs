@@ -55,11 +55,11 @@ pub struct DetectionsKept {
     pub detector: String,
     /// The detections of all sizes.
     pub all: Found,
-    /// The detections below 32x32 pixels.
+    /// The detections with an area below 32x32 pixels.
     pub small: Found,
-    /// The detections from 32x32 to below 96x96 pixels.
+    /// The detections with an area from 32x32 to below 96x96 pixels.
     pub medium: Found,
-    /// The detections of 96x96 pixels and more.
+    /// The detections with an area of 96x96 pixels or more.
     pub large: Found,
     /// The share of the detections in input frames that are kept.
     pub kept_share: f64,
@@ -238,7 +238,8 @@ impl Sums {
 
     /// The agreement as one number from 0 to 1. For detections it is the smaller of the share that
     /// is kept and the precision. For classes it is the share of frames, or of positions, with the
-    /// same class. For other outputs it is 1 less the relative RMS error, at least 0.
+    /// same class, and the smaller one if a network has both kinds of outputs. For other outputs it
+    /// is 1 less the relative RMS error, at least 0.
     #[must_use]
     pub fn agreement(&self) -> f64 {
         if let Some(found) = self.found() {

@@ -40,9 +40,9 @@ pub(super) fn suppressed(mut found: Vec<Detection>, most: f64) -> Vec<Detection>
     kept
 }
 
-/// Matches every detection of `found`, in descending order of score, with the one of `right` that
-/// it overlaps most. They must overlap by at least `least`, and one of `right` is matched at most
-/// once. `same` tells which pairs may match.
+/// Matches every detection of `found`, in their order, with the one of `right` that it overlaps
+/// most. The order should be that of descending scores. A pair must overlap by at least `least`,
+/// and one of `right` is matched at most once. `same` tells which pairs may match.
 #[must_use]
 pub fn matched<T>(
     found: &[Detection],

@@ -8,13 +8,15 @@ pub struct Distance {
     pub largest: f64,
     /// The sum of the squared differences.
     difference: f64,
-    /// The sums of the squares of the right values, of the squares of the found values, and of
-    /// their products.
+    /// The sum of the squares of the right values.
     right: f64,
+    /// The sum of the squares of the found values.
     found: f64,
+    /// The sum of the products of the right and the found values.
     product: f64,
-    /// The range of the right values.
+    /// The lowest of the right values.
     lowest: f64,
+    /// The highest of the right values.
     highest: f64,
     values: u64,
 }

@@ -136,8 +136,9 @@ struct Tap {
 pub(super) struct Lens {
     columns: Vec<Tap>,
     rows: Vec<Tap>,
-    /// The width of the frame, and that of the input.
+    /// The width of the frame.
     width: usize,
+    /// The width of the input.
     input_width: usize,
     /// The pixels of the frame per pixel of the input, along x and y.
     scale: (f64, f64),

@@ -24,8 +24,9 @@ pub struct Frames {
 /// The input of the network, and the frame from which it was made.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    /// The width of the frame, and the side of a region, in pixels.
+    /// The width of the frame, in pixels.
     width: usize,
+    /// The side of a region, in pixels.
     side: usize,
     /// The number of regions of a row.
     columns: usize,
@@ -102,8 +103,8 @@ impl Picture {
     /// Stores the next frame, and updates the input and its changed positions.
     ///
     /// # Panics
-    /// Panics if the frame is smaller than the format says, or if a pixel is larger than the
-    /// largest value.
+    /// Panics if the frame is smaller than the format says. Without scaling it also panics if a
+    /// pixel is larger than the largest value of the format.
     pub fn show(&mut self, frame: Plane<'_>) {
         match frame {
             Plane::Bytes(pixels) => self.update(pixels),

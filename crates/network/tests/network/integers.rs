@@ -37,8 +37,9 @@ struct Naive<'a> {
     inputs: &'a [i64],
     zero: i64,
     size: [usize; 2],
-    /// The numbers of input and output channels of a group.
+    /// The number of input channels of a group.
     inner: usize,
+    /// The number of output channels of a group.
     outer: usize,
     weights: &'a [i32],
     zeros: &'a [i32],
