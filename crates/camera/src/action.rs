@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a decision does to a region on the screen.
+//! The effect of a decision on a region of the screen.
 
-/// What happens to a region on the screen.
+/// The effect of a decision on a region of the screen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Action {
-    /// Active: its current pixels are forwarded and shown.
+    /// The region is active: its current pixels are forwarded and shown.
     Forward,
-    /// Its previous rendered pixels stay.
+    /// The screen keeps the pixels that it shows of the region.
     Hold,
-    /// It becomes black.
+    /// The region becomes black on the screen.
     Blank,
-    /// Its summary is sent: every block of it shows its mean.
+    /// The summary of the region is sent: the screen shows every block as its mean.
     Summarize,
 }
 
 impl Action {
-    /// Its name in tables.
+    /// Returns the name that tables use.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the keys may be whose range depends on others, for whoever offers them one at a time.
+//! The valid values of keys whose range depends on other keys, for tools that offer one key at a
+//! time.
 
 use crate::periphery::blocks_for;
 use crate::ranges::largest_level;
 use crate::width::index_bits;
 use crate::{Camera, Decimal};
 
-/// What a key may be while all others stay as they are.
+/// The valid values of one key while all other keys stay as they are.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Bound {
-    /// A number from 0 on, whole numbers only or decimal ones as well.
+    /// The numbers from 0 to `largest`: whole numbers only, or decimal numbers too.
     UpTo {
-        /// The largest.
+        /// The largest valid number.
         largest: Decimal,
-        /// Whether it must be whole.
+        /// True if the number must be whole.
         whole: bool,
     },
-    /// One of these.
+    /// The listed values.
     OneOf(Vec<u32>),
 }
 
@@ -27,8 +28,8 @@ impl Bound {
 }
 
 impl Camera {
-    /// The keys of this camera whose range depends on other keys, as overrides name them (`spatial.0.level`), and what they
-    /// may be.
+    /// Returns the keys of this camera whose range depends on other keys, with their valid values.
+    /// Keys are written as overrides name them (`spatial.0.level`).
     #[must_use]
     pub fn bounds(&self) -> Vec<(String, Bound)> {
         let (max, pixels) = (self.pixel_max(), self.region_pixels());
@@ -69,7 +70,7 @@ mod tests {
     use super::*;
     use crate::CameraConfig;
 
-    /// Every end is taken, and what lies beyond it is refused.
+    /// Validation accepts both ends of every bound and refuses the next value beyond the upper end.
     #[test]
     fn bounds_are_what_is_taken() {
         const FOUR: &str = "spatial=[{feature=\"edge\"},{feature=\"corner\"},{feature=\"mad\",mean_fraction_bits=1},{feature=\"variance\"}]";
@@ -91,7 +92,8 @@ mod tests {
                     |value: &dyn std::fmt::Display| camera(&format!("{key}={value}")).is_ok();
                 match bound {
                     Bound::UpTo { largest, whole } => {
-                        // The largest decimal is cut after four digits.
+                        // The largest decimal number is cut off after four digits, so `beyond` is
+                        // the next whole number.
                         let beyond = largest.ceil_times(1)
                             + u128::from(whole || largest.as_whole().is_some());
                         assert!(

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The validated configuration of what is computed: one immutable value from which everything else is derived.
+//! The validated camera: one immutable value from which all other numbers are derived.
 
 use crate::{
     CameraConfig, Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery,
     Reference, SpatialFeature,
 };
 
-/// A camera: what is computed of which frames. A configuration that has been checked, with every number that
-/// follows from it.
+/// A region-based event camera: a configuration that has been checked, with every number that
+/// follows from it. It says what is computed, and nothing about the hardware.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Camera {
     config: CameraConfig,
@@ -18,19 +18,21 @@ pub struct Camera {
     periphery: Option<Periphery>,
 }
 
-/// The temporal score with its thresholds.
+/// The thresholds and the reference of the temporal score.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Temporal {
-    /// A pixel has changed when it differs by more than this.
+    /// The per-pixel threshold in grey levels: a pixel has changed when it differs by more than
+    /// this.
     pub level: u32,
-    /// TRS from this count on.
+    /// The per-region threshold in pixels: TRS is 1 when at least this many pixels have changed.
     pub min_count: u32,
-    /// What a frame is compared with.
+    /// The reference that a frame is compared with.
     pub reference: Reference,
 }
 
 impl Camera {
-    /// What [`CameraConfig::validate`] has found valid, every key filled in.
+    /// Makes a camera from a configuration that [`CameraConfig::validate`] has checked and
+    /// completed.
     pub(crate) fn new(
         config: CameraConfig,
         (width, height): (u32, u32),
@@ -41,7 +43,8 @@ impl Camera {
         Self { config, width, height, features, temporal, periphery }
     }
 
-    /// The configuration with every key filled in.
+    /// Returns the configuration with every key that applies filled in. `periphery` is empty unless
+    /// irrelevant regions send means.
     #[must_use]
     pub fn config(&self) -> &CameraConfig {
         &self.config
@@ -71,7 +74,7 @@ impl Camera {
         self.config.region.size
     }
 
-    /// What windows see beyond a region's border.
+    /// Returns the rule for pixels of a window that lie beyond the border of a region.
     #[must_use]
     pub fn neighborhood(&self) -> Neighborhood {
         self.config.region.neighborhood
@@ -89,37 +92,38 @@ impl Camera {
         &self.features
     }
 
-    /// Their kinds, in that order.
+    /// Returns the kinds of the spatial features, in the order of the configuration.
     #[must_use]
     pub fn kinds(&self) -> Vec<FeatureKind> {
         self.features.iter().map(SpatialFeature::kind).collect()
     }
 
-    /// How their votes become SRS.
+    /// Returns the rule by which the votes of the features become SRS.
     #[must_use]
     pub fn combine(&self) -> Combine {
         self.config.decision.combine
     }
 
-    /// The temporal score.
+    /// Returns the parameters of the temporal score.
     #[must_use]
     pub fn temporal(&self) -> &Temporal {
         &self.temporal
     }
 
-    /// What is shown where SRS is 0.
+    /// Returns the pixels that the screen shows where SRS is 0.
     #[must_use]
     pub fn irrelevant(&self) -> Irrelevant {
         self.config.render.irrelevant
     }
 
-    /// What irrelevant regions send; none where they send nothing.
+    /// Returns the parameters of the summaries that irrelevant regions send, or `None` if they send
+    /// none.
     #[must_use]
     pub fn periphery(&self) -> Option<&Periphery> {
         self.periphery.as_ref()
     }
 
-    /// Which pixels an active region forwards.
+    /// Returns the choice of the pixels that an active region forwards: denoised or raw.
     #[must_use]
     pub fn payload(&self) -> Payload {
         self.config.render.payload

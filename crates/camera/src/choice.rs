@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The keys of a configuration whose value is one of a few names.
+//! The types of keys whose value is one of a few names.
 
-/// `"a", "b" or "c"`.
+/// Returns the quoted names as a list in words: `"a", "b" or "c"`.
 pub(crate) fn listed(names: &[&str]) -> String {
     let quoted: Vec<_> = names.iter().map(|name| format!("\"{name}\"")).collect();
     match quoted.split_last() {
@@ -25,10 +25,10 @@ macro_rules! choice {
             /// Every value, in the order of the documentation.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
 
-            /// Every value as it is written in a configuration, in that order.
+            /// The name of every value in a configuration, in the order of `ALL`.
             pub const NAMES: &'static [&'static str] = &[$($text),+];
 
-            /// The value as it is written in a configuration.
+            /// Returns the name of the value in a configuration.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $text),+ }
@@ -44,11 +44,11 @@ macro_rules! choice {
 }
 
 choice! {
-    /// What a window sees beyond the border of its region.
+    /// The pixels that a window sees beyond the border of its region.
     Neighborhood {
         /// The region's own border pixel, repeated.
         Isolated = "isolated",
-        /// The real neighbors; only the frame's border repeats.
+        /// The real neighbors. Pixels are repeated only at the border of the frame.
         Shared = "shared",
     }
 }
@@ -58,13 +58,13 @@ choice! {
     Filter {
         /// No filter.
         None = "none",
-        /// The fifth of the nine sorted values of a 3x3 window.
+        /// The median: the fifth of the nine sorted values of a 3x3 window.
         #[default]
         Median3x3 = "median3x3",
     }
 }
 choice! {
-    /// A spatial feature.
+    /// A kind of spatial feature.
     #[derive(Default)]
     FeatureKind {
         /// 3x3 Sobel: pixels with |Gx| + |Gy| > level.
@@ -79,7 +79,7 @@ choice! {
     }
 }
 choice! {
-    /// How the votes of several features become SRS.
+    /// The rule by which the votes of several features become SRS.
     #[derive(Default)]
     Combine {
         /// One vote is enough.
@@ -90,7 +90,7 @@ choice! {
     }
 }
 choice! {
-    /// What the temporal score compares a frame with.
+    /// The reference of the temporal score: the pixels that a frame is compared with.
     Reference {
         /// The previous frame.
         Previous = "previous",
@@ -99,26 +99,26 @@ choice! {
     }
 }
 choice! {
-    /// What is shown where SRS is 0.
+    /// The pixels that the screen shows where SRS is 0.
     #[derive(Default)]
     Irrelevant {
-        /// Zero.
+        /// Black: every pixel is 0.
         #[default]
         Zero = "zero",
         /// The previous rendered pixels.
         Hold = "hold",
-        /// The means of its blocks, as they were last sent.
+        /// The means of the blocks of the region that were sent last.
         Mean = "mean",
     }
 }
 choice! {
-    /// Which pixels an active region forwards.
+    /// The pixels that an active region forwards.
     #[derive(Default)]
     Payload {
-        /// The pixels that were scored.
+        /// The denoised pixels, which the scores are made of.
         #[default]
         Denoised = "denoised",
-        /// The pixels as they came in.
+        /// The pixels of the input frame.
         Raw = "raw",
     }
 }

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The part of a configuration file that says what is computed, as serde types: one struct per table, one default
-//! per key.
+//! The tables of a configuration file that say what is computed, as serde types: one struct per
+//! table, one default per key.
 //!
-//! The defaults are the paper's camera. Unknown keys are refused before serde sees them, by
-//! [`crate::keys`], so that the message can name the nearest known key.
+//! The defaults are those of the paper's camera. [`crate::keys`] refuses unknown keys before serde
+//! sees them, so that the message can name the nearest known key.
 
 use crate::depth::{self, DEFAULT_BITS};
 use crate::{Combine, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Reference};
 use serde::{Deserialize, Serialize};
 
-/// The tables of a configuration that say what is computed; see [`CameraConfig::validate`].
+/// The tables of a configuration that say what is computed. [`CameraConfig::validate`] checks them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct CameraConfig {
     /// Size and depth of a frame.
     pub frame: FrameConfig,
-    /// Size of a region and what its windows see at its border.
+    /// Size of a region, and the pixels that its windows see beyond its border.
     pub region: RegionConfig,
     /// The filter in front of every score.
     pub denoise: DenoiseConfig,
     /// One or more spatial features, each at most once.
     pub spatial: Vec<SpatialConfig>,
-    /// How the votes of several features become SRS.
+    /// The rule by which the votes of several features become SRS.
     pub decision: DecisionConfig,
     /// The temporal score and its reference.
     pub temporal: TemporalConfig,
-    /// What becomes of a region on the screen.
+    /// The pixels that the screen shows of a region, and those that an active region forwards.
     pub render: RenderConfig,
-    /// What irrelevant regions send, with `render.irrelevant = "mean"`.
+    /// The summaries that irrelevant regions send, with `render.irrelevant = "mean"`.
     #[serde(skip_serializing_if = "PeripheryConfig::is_empty")]
     pub periphery: PeripheryConfig,
 }
@@ -48,8 +48,9 @@ impl Default for CameraConfig {
 }
 
 impl CameraConfig {
-    /// The same camera at `bits` bits per pixel, 1..=16: thresholds that are written are scaled from the
-    /// configuration's own depth, those that are left out stay so.
+    /// Returns the configuration of the same camera at `bits` bits per pixel, 1..=16. Thresholds
+    /// that are written are scaled from the depth of this configuration. Thresholds that are left
+    /// out stay left out.
     #[must_use]
     pub fn at_depth(&self, bits: u32) -> Self {
         let from = self.frame.pixel_bits;
@@ -62,14 +63,16 @@ impl CameraConfig {
     }
 }
 
-/// `[frame]`: size in pixels and bits per pixel.
+/// The table `[frame]`: size in pixels and bits per pixel.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct FrameConfig {
-    /// Width in pixels, 1..=16384; left out it is 224, or the input's when simulating.
+    /// Width in pixels, 1..=16384. If it is left out, it is 224, or the width of the input in a
+    /// simulation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<u32>,
-    /// Height in pixels, 1..=16384; left out it is 224, or the input's when simulating.
+    /// Height in pixels, 1..=16384. If it is left out, it is 224, or the height of the input in a
+    /// simulation.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height: Option<u32>,
     /// Bits per pixel P, 1..=16.
@@ -82,13 +85,13 @@ impl Default for FrameConfig {
     }
 }
 
-/// `[region]`: side length N and neighborhood.
+/// The table `[region]`: side length N and neighborhood.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RegionConfig {
     /// Side of a region N in pixels, 2..=64.
     pub size: u32,
-    /// What a window sees beyond the region's border.
+    /// The pixels that a window sees beyond the border of its region.
     pub neighborhood: Neighborhood,
 }
 
@@ -98,47 +101,49 @@ impl Default for RegionConfig {
     }
 }
 
-/// `[denoise]`.
+/// The table `[denoise]`: the filter in front of every score.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DenoiseConfig {
-    /// The filter.
+    /// The filter in front of every score.
     pub filter: Filter,
 }
 
-/// `[[spatial]]`: one feature and its thresholds.
+/// An entry of `[[spatial]]`: one feature and its thresholds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpatialConfig {
-    /// Which feature.
+    /// The kind of the feature.
     pub feature: FeatureKind,
-    /// Per-pixel threshold of `edge` (default 100) and `corner` (default 20), in grey levels. Defaults in
-    /// grey levels are those of 8 bits, scaled to the depth.
+    /// Per-pixel threshold of `edge` (default 100) and `corner` (default 20), in grey levels. The
+    /// defaults are those of 8 bits, and are scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// Per-region threshold: hits for `edge` and `corner` (default 5), grey levels for `mad`
-    /// (default 5), squared grey levels for `variance` (default 50); the last two may be decimal.
+    /// (default 5), squared grey levels for `variance` (default 50). That of `mad` and `variance`
+    /// may be decimal; its default is that of 8 bits, and is scaled to the depth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub min_score: Option<Decimal>,
-    /// Fraction bits of the mean of `mad`, 0..=ceil(log2 n); 0 by default.
+    /// Fraction bits of the mean of `mad`, 0..=ceil(log2 n). The default is 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub mean_fraction_bits: Option<u32>,
 }
 
 impl SpatialConfig {
-    /// The feature with every threshold left at its default.
+    /// Makes an entry for the feature with every threshold at its default.
     #[must_use]
     pub fn new(feature: FeatureKind) -> Self {
         Self { feature, level: None, min_score: None, mean_fraction_bits: None }
     }
 
-    /// Whether `mean_fraction_bits` applies to the feature.
+    /// Returns true if `mean_fraction_bits` applies to the feature.
     #[must_use]
     pub fn has_mean(&self) -> bool {
         self.feature.defaults().mean_fraction_bits.is_some()
     }
 
-    /// The entry with every key that applies to its feature filled in, for pixels of `bits` bits.
+    /// Returns the entry with every key that applies to its feature filled in, for pixels of `bits`
+    /// bits.
     #[must_use]
     pub fn with_defaults(&self, bits: u32) -> Self {
         let defaults = self.feature.defaults();
@@ -153,7 +158,8 @@ impl SpatialConfig {
         }
     }
 
-    /// The entry of a configuration of `from` bits for one of `to` bits.
+    /// Returns the entry with the thresholds that are written scaled from `from` bits to `to` bits
+    /// per pixel.
     fn at_depth(&self, from: u32, to: u32) -> Self {
         let min_score = |value| depth::min_score(self.feature, value, from, to);
         Self {
@@ -164,30 +170,30 @@ impl SpatialConfig {
     }
 }
 
-/// `[decision]`.
+/// The table `[decision]`: how SRS is derived from the features.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct DecisionConfig {
-    /// How the votes of several features are combined.
+    /// The rule by which the votes of several features become SRS.
     pub combine: Combine,
 }
 
-/// `[temporal]`.
+/// The table `[temporal]`: the thresholds and the reference of the temporal score.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TemporalConfig {
-    /// A pixel has changed when it differs by more than this many grey levels, 0..2^P-1; left out it is 8
-    /// at 8 bits, scaled to the depth.
+    /// A pixel has changed when it differs by more than this many grey levels, 0..2^P-1. If the key
+    /// is left out, it is 8 at 8 bits, scaled to the depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
     /// TRS is 1 when at least this many pixels have changed, 0..=n.
     pub min_count: u32,
-    /// What a frame is compared with.
+    /// The reference that a frame is compared with.
     pub reference: Reference,
 }
 
 impl TemporalConfig {
-    /// The level, its default filled in for pixels of `bits` bits.
+    /// Returns the level, or its default for pixels of `bits` bits.
     #[must_use]
     pub fn level_at(&self, bits: u32) -> u32 {
         self.level.unwrap_or_else(|| depth::level(8, DEFAULT_BITS, bits))
@@ -200,42 +206,45 @@ impl Default for TemporalConfig {
     }
 }
 
-/// `[render]`.
+/// The table `[render]`: the pixels that are shown and forwarded.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RenderConfig {
-    /// What is shown where SRS is 0.
+    /// The pixels that the screen shows where SRS is 0.
     pub irrelevant: Irrelevant,
-    /// Which pixels an active region forwards.
+    /// The pixels that an active region forwards.
     pub payload: Payload,
 }
 
-/// `[periphery]`: the summaries of irrelevant regions. It is there only with `render.irrelevant = "mean"`.
+/// The table `[periphery]`: the summaries of irrelevant regions. It is valid only with
+/// `render.irrelevant = "mean"`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PeripheryConfig {
-    /// Blocks per side q of a region, 1, 2 or 4, which divides N; left out it is 2 where that divides N, else 1.
+    /// Blocks per side q of a region, 1, 2 or 4. It divides N. If the key is left out, it is 2
+    /// where 2 divides N, else 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub blocks: Option<u32>,
-    /// A summary is sent again when a mean differs by more than this many grey levels, 0..2^P-1; left out it is 4 at
-    /// 8 bits, scaled to the depth.
+    /// A summary is sent again when a mean differs from the mean that was sent last by more than
+    /// this many grey levels, 0..2^P-1. If the key is left out, it is 4 at 8 bits, scaled to the
+    /// depth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
 }
 
 impl PeripheryConfig {
-    /// Whether it says nothing.
+    /// Returns true if no key of the table is written.
     fn is_empty(&self) -> bool {
         *self == Self::default()
     }
 
-    /// The blocks per side, their default filled in for regions of `side` pixels a side.
+    /// Returns the blocks per side, or their default for regions of `side` pixels a side.
     #[must_use]
     pub fn blocks_of(&self, side: u32) -> u32 {
         self.blocks.unwrap_or(if side.is_multiple_of(2) { 2 } else { 1 })
     }
 
-    /// The level, its default filled in for pixels of `bits` bits.
+    /// Returns the level, or its default for pixels of `bits` bits.
     #[must_use]
     pub fn level_at(&self, bits: u32) -> u32 {
         self.level.unwrap_or_else(|| depth::level(4, DEFAULT_BITS, bits))

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Non-negative decimal numbers, kept exactly.
+//! Non-negative decimal numbers without rounding.
 //!
-//! Thresholds in grey levels may be decimal and become one integer compare, rounded up. Doing that
-//! in binary floating point would round 0.1 * 640 to 65; doing it on the decimal digits gives 64.
+//! A threshold in grey levels may be decimal. It becomes one integer comparison, rounded up. Binary
+//! floating point would round 0.1 * 640 up to 65; the decimal digits give 64.
 
 use serde::de::{Error, Unexpected, Visitor};
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -11,7 +11,7 @@ use std::fmt;
 /// The most digits after the point that a threshold may have.
 const MAX_SCALE: u32 = 9;
 
-/// `digits / 10^scale`, at most nine digits after the point.
+/// The number `digits / 10^scale`, with at most nine digits after the point.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub struct Decimal {
     digits: u64,
@@ -19,14 +19,14 @@ pub struct Decimal {
 }
 
 impl Decimal {
-    /// A whole number.
+    /// Makes a whole number.
     #[must_use]
     pub const fn whole(value: u64) -> Self {
         Self { digits: value, scale: 0 }
     }
 
-    /// The shortest decimal that reads back as `value`; `None` if it is negative, not finite, too
-    /// large, or has more than nine digits after the point.
+    /// Returns the shortest decimal number that reads back as `value`, or `None` if `value` is
+    /// negative, not finite, too large, or has more than nine digits after the point.
     #[must_use]
     pub fn from_f64(value: f64) -> Option<Self> {
         if !value.is_finite() || value.is_sign_negative() && value != 0.0 {
@@ -41,7 +41,7 @@ impl Decimal {
         Some(Self { digits: format!("{whole}{fraction}").parse().ok()?, scale })
     }
 
-    /// `billionths / 10^9`.
+    /// Returns `billionths / 10^9`, with as few digits as possible.
     #[must_use]
     pub const fn billionths(billionths: u64) -> Self {
         let (mut digits, mut scale) = (billionths, MAX_SCALE);
@@ -52,13 +52,13 @@ impl Decimal {
         Self { digits, scale }
     }
 
-    /// The smallest integer that is at least `self * factor`.
+    /// Returns the smallest integer that is at least `self * factor`.
     #[must_use]
     pub fn ceil_times(self, factor: u64) -> u128 {
         (u128::from(self.digits) * u128::from(factor)).div_ceil(10u128.pow(self.scale))
     }
 
-    /// The value as a whole number, if it is one.
+    /// Returns the value as a whole number, or `None` if it has a fraction.
     #[must_use]
     pub fn as_whole(self) -> Option<u64> {
         let unit = 10u64.pow(self.scale);
@@ -81,7 +81,7 @@ impl Serialize for Decimal {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         match self.as_whole() {
             Some(whole) => serializer.serialize_u64(whole),
-            // Reading the shortest form back gives the same digits.
+            // The shortest text of the parsed number has the same digits again.
             None => match self.to_string().parse() {
                 Ok(value) => serializer.serialize_f64(value),
                 Err(_) => serializer.serialize_str(&self.to_string()),

@@ -1,25 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds in grey levels at another depth. One rule for defaults, files, overrides, spaces and fits:
+//! Conversion of thresholds in grey levels to another depth. Defaults, files, overrides, design
+//! spaces and searches for a design all follow these rules:
 //!
 //! * Defaults are those of 8 bits, scaled to the depth of the design.
-//! * What is written is in grey levels of the depth that it is written with. An override of
-//!   `frame.pixel_bits` alone scales what the file says; a threshold that is overridden too is taken as it is.
+//! * A threshold that is written is in grey levels of the depth that it is written with. An
+//!   override of `frame.pixel_bits` alone scales the thresholds of the file. A threshold that is
+//!   overridden too is not scaled.
 //! * A level that no pixel can exceed is refused.
 //!
-//! Fewer bits drop low bits, x' = floor(x / 2^k), and a difference of pixels shrinks by 2^k. Hits are
-//! differences above a level; as whole numbers m' > L / 2^k exactly when m' > floor(L / 2^k), so levels are
-//! divided and rounded down. `min_score` of `mad` is a mean of differences, divided by 2^k; that of
-//! `variance` is a mean of their squares, divided by 4^k; both are rounded up at the ninth digit. Counts of
-//! pixels stay as they are.
+//! At a smaller depth the k low bits are dropped, x' = floor(x / 2^k), and a difference of pixels
+//! shrinks by 2^k. Hits are differences above a level L. For a whole number m', m' > L / 2^k
+//! exactly when m' > floor(L / 2^k), so levels are divided and rounded down. `min_score` of `mad`
+//! is a mean of differences and is divided by 2^k. `min_score` of `variance` is a mean of their
+//! squares and is divided by 4^k. Both are rounded up at the ninth digit. Counts of pixels stay as
+//! they are.
 
 use std::fmt::Display;
 
 use crate::{Decimal, FeatureKind};
 
-/// The depth of which defaults are.
+/// The depth, in bits per pixel, that default thresholds are given for.
 pub(crate) const DEFAULT_BITS: u32 = 8;
 
-/// A level of `from` bits at `to` bits.
+/// Converts a level from `from` bits to `to` bits per pixel.
 pub(crate) fn level(value: u32, from: u32, to: u32) -> u32 {
     if to >= from {
         u32::try_from(u64::from(value) << (to - from)).unwrap_or(u32::MAX)
@@ -28,7 +31,7 @@ pub(crate) fn level(value: u32, from: u32, to: u32) -> u32 {
     }
 }
 
-/// A minimum score of `from` bits at `to` bits.
+/// Converts a minimum score from `from` bits to `to` bits per pixel.
 pub(crate) fn min_score(feature: FeatureKind, value: Decimal, from: u32, to: u32) -> Decimal {
     match feature.measure().power() {
         0 => value,
@@ -36,7 +39,7 @@ pub(crate) fn min_score(feature: FeatureKind, value: Decimal, from: u32, to: u32
     }
 }
 
-/// `value * 2^(power * (to - from))`, to nine digits after the point, rounded up.
+/// Returns `value * 2^(power * (to - from))`, rounded up at the ninth digit after the point.
 fn times_power_of_two(value: Decimal, from: u32, to: u32, power: u32) -> Decimal {
     const UNIT: u64 = 1_000_000_000;
     let billionths = value.ceil_times(UNIT);
@@ -48,8 +51,9 @@ fn times_power_of_two(value: Decimal, from: u32, to: u32, power: u32) -> Decimal
     Decimal::billionths(u64::try_from(scaled).unwrap_or(u64::MAX))
 }
 
-/// What a threshold of 8 bits is at `bits`, as the end of a message about one that is out of range at
-/// fewer bits; empty where that would not help.
+/// Returns the end of a message about a threshold that is out of range at fewer than 8 bits: the
+/// value that a threshold of 8 bits has at `bits` bits. The text is empty where that value would
+/// not be valid either.
 pub(crate) fn hint(value: &dyn Display, scaled: &dyn Display, fits: bool, bits: u32) -> String {
     if bits >= DEFAULT_BITS || !fits {
         return String::new();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with a configuration. Every message names the key, the value and what would
-//! be valid.
+//! The errors of configurations. Every message names the key, the value and the valid values.
 
 use thiserror::Error;
 
-/// A configuration that is no camera or no design.
+/// An error that keeps a configuration from becoming a camera or a design.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ConfigError {
@@ -19,12 +18,12 @@ pub enum ConfigError {
         /// The nearest key that exists.
         nearest: Option<String>,
     },
-    /// A value of the wrong type or not one of the names that the key takes.
+    /// A value of the wrong type, or a name that the key does not take.
     #[error("`{}`: {}", printable(key), printable(problem))]
     Type {
         /// Dotted path of the key.
         key: String,
-        /// What is wrong and what would be valid.
+        /// Description of the error, with the valid values.
         problem: String,
     },
     /// A value outside its range.
@@ -40,29 +39,29 @@ pub enum ConfigError {
     /// Keys that are valid alone but not together.
     #[error("`{key}` = {value} cannot be combined with {with}; {remedy}")]
     Combination {
-        /// Dotted path of the key.
+        /// Dotted path of the first key.
         key: String,
-        /// Its value.
+        /// Value of the first key.
         value: String,
-        /// What it clashes with.
+        /// The key or the property that the value cannot be combined with.
         with: String,
-        /// What to do.
+        /// Advice to the user.
         remedy: String,
     },
     /// An override that is not `KEY=TOML_VALUE`.
     #[error("`--set {}`: {}", printable(text), printable(problem))]
     Override {
-        /// The override as given.
+        /// The override as the user wrote it.
         text: String,
-        /// What is wrong with it.
+        /// Description of the error in the override.
         problem: String,
     },
     /// A preset that does not exist.
     #[error("unknown preset `{}`; presets are {known}", printable(name))]
     UnknownPreset {
-        /// The name as given.
+        /// The name as the user wrote it.
         name: String,
-        /// The names that exist.
+        /// The names of all presets.
         known: String,
     },
 }
@@ -71,8 +70,8 @@ fn hint(nearest: &Option<String>) -> String {
     nearest.as_ref().map(|key| format!("; did you mean `{key}`?")).unwrap_or_default()
 }
 
-/// What a user wrote, with control characters made visible: a message stays one line and cannot steer
-/// the terminal.
+/// Returns text of the user with control characters escaped, so that a message stays one line and
+/// cannot steer the terminal.
 fn printable(text: &str) -> String {
     let shown = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
     text.chars().map(shown).collect()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A spatial feature with its thresholds as integers and its widths. What sets features apart is in
-//! [`crate::kind`].
+//! Spatial features with their thresholds as integers, and the widths of their scores. The
+//! differences between kinds of features are in [`crate::kind`].
 
 use std::fmt::Display;
 
@@ -8,7 +8,7 @@ use crate::depth::{self, DEFAULT_BITS};
 use crate::ranges::largest_level;
 use crate::{ConfigError, Decimal, FeatureKind, Reciprocal, SpatialConfig, bits_for};
 
-/// One feature of a design.
+/// One spatial feature of a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SpatialFeature {
     kind: FeatureKind,
@@ -21,7 +21,7 @@ pub struct SpatialFeature {
     variance: Option<Variance>,
 }
 
-/// How the mean of `mad` is formed: `floor((2^f * sum + floor(n/2)) / n)`.
+/// The arithmetic of the mean of `mad`: `floor((2^f * sum + floor(n/2)) / n)`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Mean {
     /// Fraction bits f of the mean.
@@ -34,19 +34,20 @@ pub struct Mean {
     pub reciprocal: Reciprocal,
 }
 
-/// The accumulators of `variance`.
+/// The widths of the accumulators of `variance`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Variance {
     /// Bits of the square of a pixel.
     pub square_bits: u32,
-    /// Bits of the sum of their squares.
+    /// Bits of the sum of the squares of the pixels of a region.
     pub square_sum_bits: u32,
     /// Bits of `n * sum(x^2)`, the minuend of the score.
     pub product_bits: u32,
 }
 
 impl SpatialFeature {
-    /// The feature of entry `index`, defaults filled in, for regions of `n` pixels of `bits` bits.
+    /// Checks entry `index`, whose defaults are filled in, for regions of `n` pixels of `bits`
+    /// bits.
     pub(crate) fn resolve(
         config: &SpatialConfig,
         index: usize,
@@ -73,68 +74,71 @@ impl SpatialFeature {
         })
     }
 
-    /// Which feature.
+    /// Returns the kind of the feature.
     #[must_use]
     pub fn kind(&self) -> FeatureKind {
         self.kind
     }
 
-    /// The per-pixel threshold, for `edge` and `corner`.
+    /// Returns the per-pixel threshold of `edge` and `corner`, or `None` for other features.
     #[must_use]
     pub fn level(&self) -> Option<u32> {
         self.level
     }
 
-    /// Bits of the per-pixel threshold; 0 where there is none.
+    /// Returns the bits of the per-pixel threshold, or 0 if the feature has none.
     #[must_use]
     pub fn level_bits(&self) -> u32 {
         self.level_max.map_or(0, |max| bits_for(max.into()))
     }
 
-    /// The largest per-pixel threshold that a window can reach, where there is one.
+    /// Returns the largest value that the per-pixel threshold is compared with, or `None` if the
+    /// feature has no such threshold.
     #[must_use]
     pub fn level_max(&self) -> Option<u32> {
         self.level_max
     }
 
-    /// Units of the score that are one unit of `min_score` in the configuration, a pixel, a grey level or
-    /// its square.
+    /// Returns the number of score units in one unit of `min_score`. The unit of `min_score` is a
+    /// pixel, a grey level or a squared grey level.
     #[must_use]
     pub fn unit(&self) -> u64 {
         self.unit
     }
 
-    /// The per-region threshold in units of the score: the feature votes when score >= this.
+    /// Returns the per-region threshold in units of the score: the feature votes when score >=
+    /// this.
     #[must_use]
     pub fn min_score(&self) -> u64 {
         self.min_score
     }
 
-    /// The largest score that any region can have.
+    /// Returns the largest score that any region can have.
     #[must_use]
     pub fn score_max(&self) -> u64 {
         self.score_max
     }
 
-    /// The largest `min_score` of the configuration that some region can reach, rounded down to four digits after the point.
+    /// Returns the largest valid `min_score` of the configuration, rounded down to four digits
+    /// after the point.
     #[must_use]
     pub fn largest_min_score(&self) -> Decimal {
         largest_threshold(self.score_max, self.unit)
     }
 
-    /// Bits of the score and of its threshold.
+    /// Returns the bits of the score and of its threshold.
     #[must_use]
     pub fn score_bits(&self) -> u32 {
         bits_for(self.score_max)
     }
 
-    /// The mean, for `mad`.
+    /// Returns the arithmetic of the mean, for `mad` only.
     #[must_use]
     pub fn mean(&self) -> Option<&Mean> {
         self.mean.as_ref()
     }
 
-    /// The accumulators, for `variance`.
+    /// Returns the widths of the accumulators, for `variance` only.
     #[must_use]
     pub fn variance(&self) -> Option<&Variance> {
         self.variance.as_ref()
@@ -163,7 +167,7 @@ impl Variance {
     }
 }
 
-/// One entry of `[[spatial]]`, to name its keys in errors.
+/// One entry of `[[spatial]]` with its index, which errors name.
 struct Entry<'a> {
     config: &'a SpatialConfig,
     index: usize,
@@ -176,8 +180,9 @@ impl Entry<'_> {
         format!("spatial[{}].{name}", self.index)
     }
 
-    /// The level, below `max`, the largest magnitude that it is compared with: it must be exceeded by some
-    /// pixel, unless a region without one votes too.
+    /// Checks the level against `max`, the largest magnitude that it is compared with. Some pixel
+    /// must be able to exceed the level, unless the minimum score is 0, so that the feature votes
+    /// without hits too.
     fn level(&self, max: Option<u32>) -> Result<Option<u32>, ConfigError> {
         let (level, max) = match (self.config.level, max) {
             (None, _) => return Ok(None),
@@ -212,7 +217,8 @@ impl Entry<'_> {
         }
     }
 
-    /// The integer threshold; `unit` score units are one unit of the configuration.
+    /// Returns the threshold as an integer. `unit` units of the score are one unit of the
+    /// configuration.
     fn min_score(&self, unit: u64, score_max: u64) -> Result<u64, ConfigError> {
         let minimum = self.config.min_score.expect("the defaults are filled in before");
         let counts = self.config.feature.measure().is_count();
@@ -253,7 +259,8 @@ impl Entry<'_> {
     }
 }
 
-/// `score_max / unit` as people read it, rounded down to four digits after the point.
+/// Returns `score_max / unit` in the unit of the configuration, rounded down to four digits after
+/// the point.
 fn largest_threshold(score_max: u64, unit: u64) -> Decimal {
     let billionths = u128::from(score_max) * 10_000 / u128::from(unit) * 100_000;
     Decimal::billionths(u64::try_from(billionths).unwrap_or(u64::MAX))

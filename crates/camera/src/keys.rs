@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The keys of a configuration, to refuse unknown ones by name and with the nearest known one.
+//! The keys of a configuration. An unknown key is refused by name, and the message suggests the
+//! nearest known key.
 
 use crate::choice::listed;
 use crate::{
@@ -10,12 +11,12 @@ use Takes::{Names, Text, Whole};
 use std::{fmt, ops::RangeInclusive};
 use toml::{Table, Value};
 
-/// What a key takes.
+/// The values that a key takes, for messages and documentation.
 #[derive(Clone, Debug)]
 pub enum Takes {
-    /// A whole number of this range.
+    /// A whole number in this range.
     Whole(RangeInclusive<u32>),
-    /// In these words.
+    /// Values that are described by this text.
     Text(&'static str),
     /// One of these names.
     Names(&'static [&'static str]),
@@ -31,7 +32,8 @@ impl fmt::Display for Takes {
     }
 }
 
-/// A key, dotted, and what it takes; `spatial` is an array of tables.
+/// A dotted key and the values that it takes. The array of tables `spatial` is written without an
+/// index.
 pub type Key = (&'static str, Takes);
 
 /// Every key of a camera.
@@ -56,7 +58,8 @@ pub const CAMERA_KEYS: &[Key] = &[
     ("periphery.level", Text("a whole number >= 0, in grey levels")),
 ];
 
-/// What the key at `path`, such as `spatial[0].level`, takes.
+/// Returns a description of the values that the key at `path` takes. A path has indices, such as
+/// `spatial[0].level`.
 pub(crate) fn takes(mut known: impl Iterator<Item = &'static Key>, path: &str) -> String {
     let dotted: String = path
         .split('[')
@@ -73,7 +76,7 @@ pub(crate) fn takes(mut known: impl Iterator<Item = &'static Key>, path: &str) -
     }
 }
 
-/// Refuses the first key of `table` that is not one of those `known`.
+/// Refuses the first key of `table` that is not in `known`.
 pub(crate) fn refuse_unknown(known: &[&Key], table: &Table) -> Result<(), ConfigError> {
     for (section, value) in table {
         if !sections(known).any(|one| one == section) {
@@ -115,9 +118,10 @@ fn sections(known: &[&Key]) -> impl Iterator<Item = &'static str> {
     known.iter().filter_map(|(key, _)| key.split_once('.')).map(|(section, _)| section)
 }
 
-/// The error for `shown`; the nearest key is looked for under the name `plain`.
+/// Returns the error for the key `shown`. The suggestion is the candidate that is most similar to
+/// `plain`, the key without indices.
 fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -> ConfigError {
-    /// Below this similarity a suggestion would only confuse.
+    /// A candidate below this similarity would only confuse.
     const SIMILAR: f64 = 0.6;
     let nearest = candidates
         .map(|key| (strsim::jaro_winkler(&key, plain).max(same_leaf(&key, plain)), key))
@@ -127,7 +131,7 @@ fn unknown(shown: &str, plain: &str, candidates: impl Iterator<Item = String>) -
     ConfigError::UnknownKey { key: shown.to_owned(), nearest }
 }
 
-/// A key that stands in the wrong table is nearest to the key of that name.
+/// Returns a high similarity for keys of the same name in different tables, else 0.
 fn same_leaf(a: &str, b: &str) -> f64 {
     let leaf = |key: &str| key.rsplit('.').next().map(str::to_owned);
     if leaf(a) == leaf(b) { 0.95 } else { 0.0 }

@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What sets a feature apart. Adding one starts here: every match below has to say what is new.
+//! The differences between kinds of features. Every match in this file must be extended for a new
+//! kind.
 
 use crate::feature::{Mean, Variance};
 use crate::width::{edge_magnitude_max, variance_score_max};
 use crate::{FeatureKind, mad_score_max};
 
-/// What a score counts or measures, and hence how it scales with the pixels.
+/// The unit of a score, which says how the score scales with the pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Measure {
     /// Pixels of the region that are hits.
     Pixels,
-    /// Grey levels.
+    /// Differences of pixels in grey levels.
     Levels,
-    /// Their squares.
+    /// Squares of differences of pixels.
     SquaredLevels,
 }
 
 impl Measure {
-    /// What becomes of the score when every difference of pixels doubles: times 2 to this power.
+    /// Returns the exponent e of the scaling: when every difference of pixels doubles, the score is
+    /// multiplied by 2^e.
     #[must_use]
     pub fn power(self) -> u32 {
         match self {
@@ -27,7 +29,8 @@ impl Measure {
         }
     }
 
-    /// Whether it is a count: a whole number, which no scaling of pixels changes.
+    /// Returns true if the score is a count of pixels: a whole number that does not depend on the
+    /// scale of pixels.
     #[must_use]
     pub fn is_count(self) -> bool {
         match self {
@@ -36,7 +39,7 @@ impl Measure {
         }
     }
 
-    /// The unit of `min_score`.
+    /// Returns the name of the unit of `min_score`.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -47,8 +50,8 @@ impl Measure {
     }
 }
 
-/// The keys of a feature where the configuration leaves them out, for pixels of 8 bits; `None` where a
-/// key does not apply.
+/// The values of keys that a configuration leaves out, for pixels of 8 bits. A key that does not
+/// apply to the feature is `None`.
 pub(crate) struct Defaults {
     pub(crate) level: Option<u32>,
     pub(crate) min_score: u64,
@@ -56,10 +59,10 @@ pub(crate) struct Defaults {
 }
 
 impl FeatureKind {
-    /// How many features there are: the size of whatever has a place for each.
+    /// Number of kinds, which is the length of arrays with one element per kind.
     pub const COUNT: usize = Self::ALL.len();
 
-    /// Whether the feature looks at 3x3 windows, and counts those that are hits.
+    /// Returns true if the feature uses a 3x3 window and counts the pixels whose window is a hit.
     #[must_use]
     pub fn has_window(self) -> bool {
         match self {
@@ -68,7 +71,8 @@ impl FeatureKind {
         }
     }
 
-    /// Whether the score needs the region a second time, once its mean is known.
+    /// Returns true if the score needs the pixels of the region a second time, once their mean is
+    /// known.
     #[must_use]
     pub fn has_second_pass(self) -> bool {
         match self {
@@ -77,7 +81,7 @@ impl FeatureKind {
         }
     }
 
-    /// What the score counts or measures.
+    /// Returns the unit of the score.
     #[must_use]
     pub fn measure(self) -> Measure {
         match self {
@@ -87,8 +91,8 @@ impl FeatureKind {
         }
     }
 
-    /// Per-pixel thresholds of pixels of 8 bits that are worth a try, the mildest first; none for a feature
-    /// that has no such threshold.
+    /// Returns per-pixel thresholds, for pixels of 8 bits, that a search tries, from the lowest to
+    /// the highest. The list is empty for a feature without such a threshold.
     #[must_use]
     pub fn trial_levels(self) -> &'static [u32] {
         match self {
@@ -108,7 +112,8 @@ impl FeatureKind {
         Defaults { level, min_score, mean_fraction_bits }
     }
 
-    /// The largest per-pixel threshold, where the feature has one.
+    /// Returns the largest value that the per-pixel threshold is compared with, or `None` if the
+    /// feature has no such threshold.
     pub(crate) fn level_max(self, pixel_max: u32) -> Option<u32> {
         match self {
             Self::Edge => Some(edge_magnitude_max(pixel_max)),
@@ -117,7 +122,7 @@ impl FeatureKind {
         }
     }
 
-    /// Units of the score that are one unit of `min_score`, for regions of `n` pixels.
+    /// Returns the number of score units in one unit of `min_score`, for regions of `n` pixels.
     pub(crate) fn unit(self, n: u64, fraction_bits: u32) -> u64 {
         match self {
             Self::Edge | Self::Corner => 1,
@@ -126,7 +131,7 @@ impl FeatureKind {
         }
     }
 
-    /// The largest score that a region of `n` pixels can have.
+    /// Returns the largest score that a region of `n` pixels can have.
     pub(crate) fn score_max(self, n: u64, pixel_max: u64, fraction_bits: u32) -> u64 {
         match self {
             Self::Edge | Self::Corner => n,
@@ -135,7 +140,8 @@ impl FeatureKind {
         }
     }
 
-    /// How the mean is formed, where the feature has one; and its accumulators of squares.
+    /// Returns the arithmetic of the mean of `mad` and the accumulators of `variance`, each for
+    /// that feature only.
     pub(crate) fn sums(
         self,
         n: u64,
@@ -154,7 +160,7 @@ impl FeatureKind {
 mod tests {
     use super::*;
 
-    /// What asks only one of the two would forget the other.
+    /// Code that tests only one of these properties would miss a feature in which they differ.
     #[test]
     fn levels_belong_to_features_that_count_hits() {
         for kind in FeatureKind::ALL {

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a Foveate camera computes, as one validated value: of which frames, by which scores and thresholds, against
-//! which reference, and what is shown. Knows nothing of what computes it.
+//! The region-based event camera as one validated value: which frames it takes, by which scores,
+//! thresholds and reference it decides, and what the screen shows. The value does not depend on the
+//! hardware that computes it.
 //!
-//! A [`CameraConfig`] is what a user writes; [`CameraConfig::validate`] turns it into a [`Camera`], which is
-//! immutable and answers every question about itself: grid, score widths, thresholds. Nothing downstream validates
-//! again or derives a width again. This crate does no I/O.
+//! A [`CameraConfig`] holds the keys that a user writes. [`CameraConfig::validate`] turns it into a
+//! [`Camera`], which is immutable and gives the grid, the thresholds and the widths of scores. No
+//! other crate validates a configuration or derives a width again. This crate does no I/O.
 
 mod action;
 mod bounds;

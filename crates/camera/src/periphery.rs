@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What irrelevant regions send in place of their pixels: the means of their blocks.
+//! The summaries that irrelevant regions send in place of their pixels: the means of their blocks.
 
 use crate::ranges::largest_level;
 use crate::{CameraConfig, ConfigError, Irrelevant, Reciprocal, bits_for};
 use crate::{SUMMARY_BLOCKS, in_range};
 
-/// How summaries are formed and when they are sent: q x q means per region, of blocks of b x b pixels.
+/// The parameters of summaries: q x q means per region, of blocks of b x b pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Periphery {
     /// Blocks per side q.
     pub blocks: u32,
     /// Side of a block b in pixels, N / q.
     pub block_side: u32,
-    /// A summary is sent again when a mean differs from the one last sent by more than this.
+    /// A summary is sent again when a mean differs from the mean that was sent last by more than
+    /// this many grey levels.
     pub level: u32,
-    /// Bits of the sum of a block's pixels and half of their number.
+    /// Bits of the sum of the pixels of a block plus half of their number, which rounds the mean.
     pub sum_bits: u32,
     /// The division by b * b.
     pub reciprocal: Reciprocal,
 }
 
 impl Periphery {
-    /// The periphery of a configuration of which frame and region have been checked; none where irrelevant regions
-    /// send nothing.
+    /// Checks the periphery of a configuration whose frame and region have been checked. Returns
+    /// `None` if irrelevant regions send no summaries.
     pub(crate) fn resolve(config: &CameraConfig) -> Result<Option<Self>, ConfigError> {
         let asked = &config.periphery;
         match config.render.irrelevant {
@@ -66,20 +67,20 @@ impl Periphery {
         }
     }
 
-    /// Means of a region, q * q.
+    /// Returns the number of means of a region, q * q.
     #[must_use]
     pub fn means(&self) -> u32 {
         self.blocks * self.blocks
     }
 
-    /// Pixels of a block, b * b.
+    /// Returns the number of pixels of a block, b * b.
     #[must_use]
     pub fn block_pixels(&self) -> u32 {
         self.block_side * self.block_side
     }
 }
 
-/// The blocks per side that regions of `side` pixels a side can have.
+/// Returns the valid numbers of blocks per side for regions of `side` pixels a side.
 pub(crate) fn blocks_for(side: u32) -> impl Iterator<Item = u32> {
     SUMMARY_BLOCKS.iter().copied().filter(move |&blocks| side.is_multiple_of(blocks))
 }

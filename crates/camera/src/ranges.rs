@@ -1,30 +1,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ranges of keys that depend on no other key. Checks, messages and lists of keys take them from here.
+//! The ranges of keys that do not depend on other keys. Checks, messages and lists of keys use
+//! these constants.
 
 use std::ops::RangeInclusive;
 
 use crate::ConfigError;
 
-/// Largest frame side in pixels; keeps every count of regions and pixels far inside 32 bits.
+/// Largest side of a frame in pixels. It keeps every count of regions and pixels far below 2^32.
 pub const MAX_SIDE: u32 = 16_384;
-/// Bits per pixel P.
+/// Valid bits per pixel P.
 pub const PIXEL_BITS: RangeInclusive<u32> = 1..=16;
-/// Sides of a region N in pixels.
+/// Valid sides of a region N in pixels.
 pub const REGION_SIZES: RangeInclusive<u32> = 2..=64;
-/// Blocks per side q of a region's summary.
+/// Valid numbers of blocks per side q of the summary of a region.
 pub const SUMMARY_BLOCKS: &[u32] = &[1, 2, 4];
-/// Fraction bits of the mean of `mad`, for the largest region.
+/// Valid fraction bits of the mean of `mad`, for the largest region.
 pub const MEAN_FRACTION_BITS: RangeInclusive<u32> = 0..=12;
 
-/// The largest level where differences reach `max`: one that is exceeded by some, unless what has none `always` passes.
+/// Returns the largest level that a difference of at most `max` can exceed, or `max` if the score
+/// passes its minimum without hits too (`always`).
 pub(crate) fn largest_level(max: u32, always: bool) -> u32 {
     if always { max } else { max - 1 }
 }
 
-/// Refuses the `value` of a `key` that is not in its range; `why` follows the range in the message.
+/// Refuses the `value` of a `key` that is not in `range`. The message has `why` behind the range.
 ///
 /// # Errors
-/// [`ConfigError::Range`].
+/// Returns [`ConfigError::Range`] if the value is outside the range.
 pub fn in_range(
     key: &str,
     value: u32,

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Division by a constant as a multiplication, proven exact over its whole input range.
+//! Division by a constant as a multiplication and a shift, proven exact over its whole input range.
 
 use crate::bits_for;
 
-/// `floor(x / divisor) == (x * multiplier) >> shift` for every `x` in `0..=x_max`.
+/// Division by a constant: `floor(x / divisor) == (x * multiplier) >> shift` for every `x` in
+/// `0..=x_max`.
 ///
 /// With `multiplier = ceil(2^shift / divisor)` and `e = multiplier * divisor - 2^shift` the product
 /// is `x / divisor + e * x / (divisor * 2^shift)`. The floor stays right as long as the second term
 /// is below `1 / divisor` at the worst remainder, which is `divisor - 1`: `e * x < 2^shift` for
 /// every `x` (Granlund and Montgomery, "Division by Invariant Integers using Multiplication",
-/// 1994). The smallest such shift is taken. A power of two gives `multiplier = 1`: a mere shift.
+/// 1994). The smallest such shift is used. A power of two has `multiplier = 1`, so only the shift
+/// remains.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Reciprocal {
     divisor: u64,
@@ -19,14 +21,14 @@ pub struct Reciprocal {
 }
 
 impl Reciprocal {
-    /// The reciprocal of `divisor` (1..=4096) for dividends up to `x_max` (below 2^48).
+    /// Makes the reciprocal of `divisor` (1..=4096) for dividends up to `x_max` (below 2^48).
     pub(crate) fn new(divisor: u64, x_max: u64) -> Self {
         let holds = |shift: u32| {
             let power = 1u128 << shift;
             let excess = power.div_ceil(u128::from(divisor)) * u128::from(divisor) - power;
             excess * u128::from(x_max) < power
         };
-        // At 2^shift > divisor * x_max the condition always holds, so the search ends.
+        // At 2^shift > divisor * x_max the condition always holds, so the search finds a shift.
         let shift = (0..=bits_for(x_max) + bits_for(divisor)).find(|&shift| holds(shift));
         let shift = shift.expect("2^shift is above divisor * x_max at the end");
         let multiplier = (1u128 << shift).div_ceil(u128::from(divisor));
@@ -34,31 +36,32 @@ impl Reciprocal {
         Self { divisor, x_max, multiplier, shift }
     }
 
-    /// The divisor.
+    /// Returns the divisor.
     #[must_use]
     pub fn divisor(self) -> u64 {
         self.divisor
     }
 
-    /// The largest dividend for which the division is exact.
+    /// Returns the largest dividend for which the division is exact.
     #[must_use]
     pub fn x_max(self) -> u64 {
         self.x_max
     }
 
-    /// The constant factor.
+    /// Returns the constant factor.
     #[must_use]
     pub fn multiplier(self) -> u64 {
         self.multiplier
     }
 
-    /// The shift to the right of the product.
+    /// Returns the number of bits by which the product is shifted to the right.
     #[must_use]
     pub fn shift(self) -> u32 {
         self.shift
     }
 
-    /// The quotient by the hardware's way; exact for `x <= x_max`.
+    /// Divides as the hardware does, by multiplication and shift. The quotient is exact for `x <=
+    /// x_max`.
     #[must_use]
     pub fn divide(self, x: u64) -> u64 {
         let product = u128::from(x) * u128::from(self.multiplier);
@@ -70,7 +73,8 @@ impl Reciprocal {
 mod tests {
     use super::*;
 
-    /// The floor can only go wrong just below a multiple or on one, and worst at the largest.
+    /// The quotient can be wrong only at a multiple of the divisor or just below it, and the error
+    /// grows with the dividend.
     #[test]
     fn equals_floor_division_for_every_region_size() {
         for side in 2..=64u64 {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a reference asks of the hardware that keeps it. A new one answers here first; what is computed with it each
-//! implementation says for itself.
+//! The demands of a reference on the hardware that stores it. A new reference must be added to
+//! every match here. Each implementation of the camera defines what it computes with the reference.
 
 use crate::Reference;
 
-/// When the reference of a region is written.
+/// The time at which the reference of a region is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Written {
-    /// With every frame, whatever becomes of the region.
+    /// The reference is written with every frame, whatever the decision for the region is.
     WithEveryFrame,
-    /// When pixels of the region leave, and at no other time.
+    /// The reference is written when pixels of the region leave, and at no other time.
     WhenSent,
 }
 
 impl Reference {
-    /// When it is written.
+    /// Returns the time at which the reference of a region is written.
     #[must_use]
     pub fn written(self) -> Written {
         match self {
@@ -23,16 +23,17 @@ impl Reference {
         }
     }
 
-    /// Whether it stays as it is from the second of equal frames on, so that no score or decision changes any more.
+    /// Returns true if, in a sequence of equal frames, scores and decisions do not change any more
+    /// from the second frame on.
     #[must_use]
     pub fn settles(self) -> bool {
         match self {
-            // Equal frames are the same reference, and what is sent is what there was.
+            // Both references hold the same pixels as the new frame.
             Self::Previous | Self::LastSent => true,
         }
     }
 
-    /// Bits of state per pixel, of `pixel_bits` bits.
+    /// Returns the bits of state per pixel, for pixels of `pixel_bits` bits.
     #[must_use]
     pub fn bits_per_pixel(self, pixel_bits: u32) -> u32 {
         match self {
@@ -40,7 +41,8 @@ impl Reference {
         }
     }
 
-    /// Bits of state per region beside its pixels: whether it has a reference, where that is not the same for all.
+    /// Returns the bits of state per region in addition to its pixels: one if regions differ in
+    /// whether they have a valid reference, else 0.
     #[must_use]
     pub fn bits_per_region(self) -> u32 {
         match self {
@@ -49,7 +51,8 @@ impl Reference {
         }
     }
 
-    /// Whether a region whose pixels are lost on their way out has no reference any more.
+    /// Returns true if a region whose pixels are lost on their way out has no valid reference any
+    /// more.
     #[must_use]
     pub fn is_lost_with_its_region(self) -> bool {
         match self {

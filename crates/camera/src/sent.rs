@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a camera sends, counted: two bits per region and frame, and values of P bits.
+//! The size of the output of a camera: two bits per region and frame, and values of P bits.
 //!
 //! | bits | the region | values that follow |
 //! | --- | --- | --- |
@@ -8,15 +8,16 @@
 //! | 10 | SRS = 1, TRS = 0 | none |
 //! | 11 | active | its pixels, without padding |
 //!
-//! So the two bits say what becomes of every region, and no addresses are sent.
+//! The two bits say what happens to every region, so no addresses are sent.
 
 use crate::{Action, Camera, Periphery};
 
-/// Bits per region and frame that say what becomes of it.
+/// Bits per region and frame that encode the decision and whether a summary is sent.
 pub const DECISION_BITS: u64 = 2;
 
 impl Camera {
-    /// Values of P bits that are sent of a region: its pixels inside of the frame, its means, or none.
+    /// Returns the number of values of P bits that a region sends: its pixels inside of the frame,
+    /// its means, or none.
     #[must_use]
     pub fn values_sent(&self, region: u32, action: Action) -> u64 {
         match action {
@@ -26,13 +27,14 @@ impl Camera {
         }
     }
 
-    /// Values of P bits that are sent of a frame with these actions.
+    /// Returns the number of values of P bits that a frame sends, given the actions of its regions
+    /// in order.
     #[must_use]
     pub fn values_of(&self, actions: &[Action]) -> u64 {
         (0..).zip(actions).map(|(region, &action)| self.values_sent(region, action)).sum()
     }
 
-    /// Pixels of a region that are not padding.
+    /// Returns the number of pixels of a region that are not padding.
     #[must_use]
     pub fn pixels_inside(&self, region: u32) -> u64 {
         let side = self.region_size();
@@ -41,7 +43,7 @@ impl Camera {
             * inside(region / self.columns(), self.height())
     }
 
-    /// Bits that are sent of so many frames, with so many values in all.
+    /// Returns the number of bits that `frames` frames send, with `values` values in all.
     #[must_use]
     pub fn bits_sent(&self, frames: u64, values: u64) -> u64 {
         DECISION_BITS * u64::from(self.regions()) * frames + values * u64::from(self.pixel_bits())

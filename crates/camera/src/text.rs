@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads and writes a configuration as TOML text, with `KEY=VALUE` overrides: of a camera, or of more than that.
+//! Reading and writing of configurations as TOML text, with `KEY=VALUE` overrides. A configuration
+//! may have more tables than those of a camera.
 
 use crate::depth::DEFAULT_BITS;
 use crate::{CAMERA_KEYS, CameraConfig, ConfigError, Key, keys};
@@ -8,26 +9,27 @@ use serde::{Deserialize, Serialize};
 use serde_path_to_error::{Path, Segment};
 use toml::{Table, Value};
 
-/// A configuration that is a TOML file: of a camera, or of more than that.
+/// A configuration that is stored as TOML: the tables of a camera, and possibly more.
 pub trait AsToml: Serialize + Sized {
-    /// Its keys.
+    /// Returns the keys of the configuration.
     fn keys() -> impl Iterator<Item = &'static Key>;
 
-    /// Reads it from a table that has no unknown key.
+    /// Reads the configuration from a table that has no unknown key.
     ///
     /// # Errors
-    /// When a value is of the wrong type; [`read_table`] names it.
+    /// Returns an error if a value is of the wrong type. [`read_table`] names the key.
     fn from_table(table: Table) -> Result<Self, ConfigError>;
 
-    /// The same at `bits` bits per pixel, as [`CameraConfig::at_depth`].
+    /// Returns the configuration at `bits` bits per pixel, scaled by the rules of
+    /// [`CameraConfig::at_depth`].
     #[must_use]
     fn at_depth(&self, bits: u32) -> Self;
 }
 
-/// Reads a configuration and applies `overrides`, as [`CameraConfig::from_toml_with`].
+/// Reads a configuration and applies `overrides`, by the rules of [`CameraConfig::from_toml_with`].
 ///
 /// # Errors
-/// As [`CameraConfig::from_toml_with`].
+/// Returns the errors of [`CameraConfig::from_toml_with`].
 pub fn read<C: AsToml, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C, ConfigError> {
     let mut table: Table =
         text.parse().map_err(|e: toml::de::Error| ConfigError::Syntax(one_line(&e)))?;
@@ -43,51 +45,55 @@ pub fn read<C: AsToml, S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<C, 
     known(table)
 }
 
-/// A configuration as a TOML file.
+/// Returns the text of a configuration as a TOML file.
 pub fn write<C: AsToml>(config: &C) -> String {
     toml::to_string(config).expect("TOML has a form for every value of a configuration")
 }
 
 impl CameraConfig {
-    /// Reads a configuration; keys that are left out have their defaults.
+    /// Reads a configuration. Keys that are left out have their defaults.
     ///
     /// # Errors
-    /// When the text is no TOML, has an unknown key, or a value of the wrong type. Ranges are
-    /// checked by [`CameraConfig::validate`].
+    /// Returns an error if the text is not TOML, has an unknown key, or a value of the wrong type.
+    /// [`CameraConfig::validate`] checks ranges.
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
         Self::from_toml_with(text, &[] as &[&str])
     }
 
-    /// Reads a configuration and applies `overrides` in order, each `dotted.key=TOML_VALUE`, with
-    /// an index for the array of features: `region.size=16`, `spatial.0.level=50`. A value that is
-    /// no TOML is taken as a string, so that quotes can be left out.
+    /// Reads a configuration and applies `overrides` in order. An override is
+    /// `dotted.key=TOML_VALUE`, with an index for the array of features: `region.size=16`,
+    /// `spatial.0.level=50`. A value that is not TOML is taken as a string, so that quotes can be
+    /// left out.
     ///
     /// Thresholds in grey levels belong to the depth that they are written with: an override of
-    /// `frame.pixel_bits` scales those of the text, and other overrides are taken as they are.
+    /// `frame.pixel_bits` scales the thresholds of the text. Thresholds in other overrides are not
+    /// scaled.
     ///
     /// # Errors
-    /// As [`CameraConfig::from_toml`]; also for an override that is not of that form.
+    /// Returns the errors of [`CameraConfig::from_toml`], and an error for an override that is not
+    /// of that form.
     pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, ConfigError> {
         read(text, overrides)
     }
 
-    /// The configuration as a TOML file.
+    /// Returns the text of the configuration as a TOML file.
     #[must_use]
     pub fn to_toml(&self) -> String {
         write(self)
     }
 }
 
-/// The configuration in a table, which may have unknown keys.
+/// Refuses unknown keys of a table, and reads the configuration from it.
 fn known<C: AsToml>(table: Table) -> Result<C, ConfigError> {
     keys::refuse_unknown(&C::keys().collect::<Vec<_>>(), &table)?;
     C::from_table(table)
 }
 
-/// What a table holds, by serde; a message says which of the `keys` takes what.
+/// Reads a table by serde. The message of an error names the values that the key takes, from
+/// `keys`.
 ///
 /// # Errors
-/// [`ConfigError::Type`], with the key.
+/// Returns [`ConfigError::Type`] with the dotted path of the key.
 pub fn read_table<T: DeserializeOwned>(
     keys: impl Iterator<Item = &'static Key>,
     table: Table,
@@ -115,7 +121,7 @@ impl AsToml for CameraConfig {
     }
 }
 
-/// What is wrong with the value of a key, which serde says in words of its own.
+/// Describes the error in the value of a key. The wording of serde is replaced.
 fn problem(value: Option<&Value>, message: &str, takes: impl FnOnce() -> String) -> String {
     match value {
         _ if message.starts_with("missing field") => message.replace("missing field", "it lacks"),
@@ -124,7 +130,7 @@ fn problem(value: Option<&Value>, message: &str, takes: impl FnOnce() -> String)
     }
 }
 
-/// The value as it is written, cut where it is long.
+/// Returns the value as TOML, cut off after 40 characters.
 fn short(value: &Value) -> String {
     const LONGEST: usize = 40;
     let text = value.to_string();
@@ -142,14 +148,16 @@ fn at<'a>(value: &'a Value, path: &Path) -> Option<&'a Value> {
     })
 }
 
-/// The message of a syntax error with its place, without the drawing of the source line.
+/// Returns the message of a syntax error with its line and column, without the excerpt of the
+/// source.
 fn one_line(error: &toml::de::Error) -> String {
     let drawn = error.to_string();
     let place = drawn.lines().next().unwrap_or_default().replace("TOML parse error ", "");
     format!("{} ({place})", error.message().replace('\n', "; "))
 }
 
-/// Bits per pixel of a configuration that is not read yet; none where they are no depth.
+/// Returns the bits per pixel of a table that has not been checked yet, or `None` if the value is
+/// not a valid depth.
 fn depth(table: &Table) -> Option<u32> {
     let bits = table.get("frame").and_then(|frame| frame.get("pixel_bits"));
     let bits = bits.map_or(Some(DEFAULT_BITS.into()), Value::as_integer)?;
@@ -173,11 +181,12 @@ fn apply(table: &mut Table, text: &str) -> Result<(), ConfigError> {
     Ok(())
 }
 
-/// Follows a dotted path, making the tables that are missing, and returns where the value goes.
+/// Follows a dotted path, makes the tables that are missing, and returns the value that an override
+/// replaces.
 fn place<'a>(table: &'a mut Table, steps: &[&str]) -> Result<&'a mut Value, String> {
     let (first, rest) = steps.split_first().ok_or("the key is empty")?;
     let mut here = table.entry(*first).or_insert_with(|| match (*first, rest.is_empty()) {
-        // `spatial.0.level` on a file without features means the default feature.
+        // In a file without features, `spatial.0.level` refers to the default feature.
         ("spatial", false) => default_features(),
         _ => Value::Table(Table::new()),
     });

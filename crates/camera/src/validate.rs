@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Checks every range and combination of a configuration, and makes it a camera.
+//! Validation: checks every range and combination of a configuration, and makes a camera of it.
 
 use crate::depth::{self, DEFAULT_BITS};
 use crate::ranges::largest_level;
 use crate::{Camera, CameraConfig, ConfigError, FeatureKind, Periphery, SpatialFeature, Temporal};
 use crate::{MAX_SIDE, PIXEL_BITS, REGION_SIZES, in_range};
 
-/// Frame size where the configuration leaves it out.
+/// Default width and height of a frame in pixels.
 const DEFAULT_SIDE: u32 = 224;
-/// Most regions of a frame: those of the largest frame at 8x8 pixels. What a model keeps per region
-/// then stays within memory.
+/// Largest number of regions of a frame: that of the largest frame with regions of 8x8 pixels. The
+/// limit keeps the state that a model stores per region within memory.
 const MAX_REGIONS: u32 = 1 << 22;
 
 impl CameraConfig {
-    /// Checks every range and combination.
+    /// Checks every range and combination, and returns the camera.
     ///
     /// # Errors
-    /// Names the key, its value and what would be valid.
+    /// Returns an error that names the key, its value and the valid values.
     pub fn validate(&self) -> Result<Camera, ConfigError> {
         self.validate_up_to(MAX_SIDE)
     }
 
-    /// As [`CameraConfig::validate`], for frames with sides up to `max_side`.
+    /// Checks as [`CameraConfig::validate`] does, for frames with sides up to `max_side` pixels.
     ///
     /// # Errors
-    /// As [`CameraConfig::validate`].
+    /// Returns the errors of [`CameraConfig::validate`].
     pub fn validate_up_to(&self, max_side: u32) -> Result<Camera, ConfigError> {
         let width = self.frame.width.unwrap_or(DEFAULT_SIDE);
         let height = self.frame.height.unwrap_or(DEFAULT_SIDE);
@@ -57,20 +57,20 @@ impl CameraConfig {
         Ok(Camera::new(config, (width, height), features, temporal, periphery))
     }
 
-    /// The camera for inputs of `width` x `height` pixels.
+    /// Returns the camera for inputs of `width` x `height` pixels.
     ///
     /// # Errors
-    /// As [`CameraConfig::fit_frame`] and [`CameraConfig::validate`].
+    /// Returns the errors of [`CameraConfig::fit_frame`] and [`CameraConfig::validate`].
     pub fn for_frames(&self, width: u32, height: u32) -> Result<Camera, ConfigError> {
         let mut config = self.clone();
         config.fit_frame(width, height)?;
         config.validate()
     }
 
-    /// Takes the frame size from an input of `width` x `height` pixels.
+    /// Sets the frame size to that of an input of `width` x `height` pixels.
     ///
     /// # Errors
-    /// When the configuration names another size.
+    /// Returns an error if the configuration names another size.
     pub fn fit_frame(&mut self, width: u32, height: u32) -> Result<(), ConfigError> {
         let frame = &mut self.frame;
         for (key, own, given) in
@@ -91,7 +91,7 @@ impl CameraConfig {
         Ok(())
     }
 
-    /// Refuses a frame of too many regions.
+    /// Refuses a frame with too many regions.
     fn check_regions(&self, width: u32, height: u32) -> Result<(), ConfigError> {
         let size = self.region.size;
         let regions = width.div_ceil(size) * height.div_ceil(size);
@@ -108,7 +108,8 @@ impl CameraConfig {
         })
     }
 
-    /// The level of the temporal score: one that pixels can differ by more than, unless no pixel has to.
+    /// Returns the level of the temporal score. Some pixel must be able to exceed it, unless the
+    /// minimum count is 0.
     fn temporal_level(&self, pixel_max: u32) -> Result<u32, ConfigError> {
         let bits = self.frame.pixel_bits;
         let level = self.temporal.level_at(bits);

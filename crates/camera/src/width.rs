@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Largest values and the widths that follow from them, each derived here and nowhere else.
+//! Largest values, and the widths that follow from them. Each is derived in this module only.
 
-/// Bits of an unsigned register that holds every value in `0..=max`; at least one.
+/// Returns the bits of an unsigned register that holds every value in `0..=max`. It is at least 1.
 #[must_use]
 pub const fn bits_for(max: u64) -> u32 {
     if max == 0 { 1 } else { u64::BITS - max.leading_zeros() }
 }
 
-/// Bits of a number that counts `n` things from 0: the smallest `b` with `2^b >= n`.
+/// Returns the bits of a number in `0..n`: the smallest `b` with `2^b >= n`.
 #[must_use]
 pub const fn index_bits(n: u64) -> u32 {
     if n <= 1 { 0 } else { bits_for(n - 1) }
 }
 
-/// Largest `|Gx| + |Gy|` of a 3x3 Sobel on pixels up to `pixel_max`.
+/// Returns the largest `|Gx| + |Gy|` of a 3x3 Sobel operator on pixels up to `pixel_max`.
 ///
-/// It is `max(|Gx + Gy|, |Gx - Gy|)`, and both sums are `2 * (three pixels - three others)`.
+/// The magnitude is `max(|Gx + Gy|, |Gx - Gy|)`, and both terms are `2 * (three pixels - three
+/// others)`.
 pub(crate) const fn edge_magnitude_max(pixel_max: u32) -> u32 {
     6 * pixel_max
 }
 
-/// Largest `n * sum(x^2) - sum(x)^2`: half of the pixels at the maximum, the others at zero.
+/// Returns the largest `n * sum(x^2) - sum(x)^2`, which half of the pixels at the maximum and the
+/// others at zero give.
 ///
 /// The expression is convex in every pixel, so it is largest when all are at an end of their range;
 /// `k` pixels at the maximum give `pixel_max^2 * k * (n - k)`.
@@ -28,17 +30,18 @@ pub(crate) const fn variance_score_max(n: u64, pixel_max: u64) -> u64 {
     pixel_max * pixel_max * (n / 2) * n.div_ceil(2)
 }
 
-/// Rounded fixed-point mean of `n` pixels that add up to `sum`.
+/// Returns the rounded mean of `n` pixels with the sum `sum`, in units of `2^-fraction_bits`.
 const fn rounded_mean(n: u64, sum: u64, fraction_bits: u32) -> u64 {
     ((sum << fraction_bits) + n / 2) / n
 }
 
-/// Largest `sum |2^f * x - mu|` over all regions of `n` pixels in `0..=pixel_max`.
+/// Returns the largest `sum |2^f * x - mu|` over all regions of `n` pixels in `0..=pixel_max`.
 ///
-/// For a fixed sum the score is convex in the pixels, so it is largest where all but one are at an
-/// end of their range: `k` at the maximum, one at `v`, the others at zero. For a fixed `k` and mean
-/// it is convex in `v` too, so only the ends of the interval of `v` that shares a mean count. `k` far
-/// from `n / 2` is left out where even the bound below cannot reach the best found.
+/// For a fixed sum the score is convex in the pixels, so it is largest where all pixels but one are
+/// at an end of their range: `k` at the maximum, one at `v`, the others at zero. For a fixed `k`
+/// and a fixed mean the score is convex in `v` too, so only the ends of the interval of `v` with
+/// that mean count. A `k` far from `n / 2` is left out when `mad_bound` is below the best score
+/// found.
 #[must_use]
 pub fn mad_score_max(n: u64, pixel_max: u64, fraction_bits: u32) -> u64 {
     let top = pixel_max << fraction_bits;
@@ -54,17 +57,17 @@ pub fn mad_score_max(n: u64, pixel_max: u64, fraction_bits: u32) -> u64 {
     best
 }
 
-/// No region scores more with `k = n/2 -+ distance` pixels at the maximum. The deviation from the
-/// exact mean is at most `2 * top * k' * (n - k') / n` for some `k'` in `k..=k + 1` (two-point
-/// distribution), the rounding of the mean adds at most `distance + 1`. The bound is concave in
-/// `distance`, so once below a value that is reached it stays below.
+/// Returns an upper bound of the score with `k = n/2 -+ distance` pixels at the maximum. The
+/// deviation from the exact mean is at most `2 * top * k' * (n - k') / n` for some `k'` in `k..=k +
+/// 1` (two-point distribution). The rounding of the mean adds at most `distance + 1`. The bound is
+/// concave in `distance`, so once it is below a score that is reached it stays below.
 fn mad_bound(n: u64, top: u64, distance: u64) -> u128 {
     let near = u128::from((n / 2).saturating_sub(distance.saturating_sub(1)));
     let exact = (2 * u128::from(top) * near * (u128::from(n) - near)).div_ceil(u128::from(n));
     exact + u128::from(distance) + 2
 }
 
-/// The largest score with exactly `k` pixels at the maximum and at most one between.
+/// Returns the largest score with exactly `k` pixels at the maximum and at most one between.
 fn mad_max_with(n: u64, pixel_max: u64, fraction_bits: u32, k: u64) -> u64 {
     let top = pixel_max << fraction_bits;
     let mut best = 0;
@@ -72,7 +75,7 @@ fn mad_max_with(n: u64, pixel_max: u64, fraction_bits: u32, k: u64) -> u64 {
     while v <= pixel_max {
         let sum = k * pixel_max + v;
         let mean = rounded_mean(n, sum, fraction_bits);
-        // The last v that still rounds to this mean.
+        // `last` is the largest `v` that rounds to this mean.
         let last_sum = (((mean + 1) * n - n / 2).div_ceil(1 << fraction_bits)) - 1;
         let last = (last_sum - k * pixel_max).min(pixel_max);
         for end in [v, last] {
