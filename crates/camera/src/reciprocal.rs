@@ -60,8 +60,8 @@ impl Reciprocal {
         self.shift
     }
 
-    /// Divides as the hardware does, by multiplication and shift. The quotient is exact for `x <=
-    /// x_max`.
+    /// Divides as the hardware does, by multiplication and shift. The quotient is exact for
+    /// `x <= x_max`.
     #[must_use]
     pub fn divide(self, x: u64) -> u64 {
         let product = u128::from(x) * u128::from(self.multiplier);

@@ -15,8 +15,8 @@ pub const fn index_bits(n: u64) -> u32 {
 
 /// Returns the largest `|Gx| + |Gy|` of a 3x3 Sobel operator on pixels up to `pixel_max`.
 ///
-/// The magnitude is `max(|Gx + Gy|, |Gx - Gy|)`, and both terms are `2 * (three pixels - three
-/// others)`.
+/// The magnitude is `max(|Gx + Gy|, |Gx - Gy|)`, and both terms are
+/// `2 * (three pixels - three others)`.
 pub(crate) const fn edge_magnitude_max(pixel_max: u32) -> u32 {
     6 * pixel_max
 }
@@ -58,9 +58,9 @@ pub fn mad_score_max(n: u64, pixel_max: u64, fraction_bits: u32) -> u64 {
 }
 
 /// Returns an upper bound of the score with `k = n/2 -+ distance` pixels at the maximum. The
-/// deviation from the exact mean is at most `2 * top * k' * (n - k') / n` for some `k'` in `k..=k +
-/// 1` (two-point distribution). The rounding of the mean adds at most `distance + 1`. The bound is
-/// concave in `distance`, so once it is below a score that is reached it stays below.
+/// deviation from the exact mean is at most `2 * top * k' * (n - k') / n` for some `k'` in
+/// `k..=k + 1` (two-point distribution). The rounding of the mean adds at most `distance + 1`. The
+/// bound is concave in `distance`, so once it is below a score that is reached it stays below.
 fn mad_bound(n: u64, top: u64, distance: u64) -> u128 {
     let near = u128::from((n / 2).saturating_sub(distance.saturating_sub(1)));
     let exact = (2 * u128::from(top) * near * (u128::from(n) - near)).div_ceil(u128::from(n));
