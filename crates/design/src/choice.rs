@@ -1,90 +1,90 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The keys of `[hardware]` whose value is one of a few names.
+//! The types of keys of `[hardware]` whose value is one of a few names.
 
 use foveate_camera::choice;
 
 choice! {
-    /// The structure of the array.
+    /// The structure of the hardware.
     #[derive(Default)]
     Organization {
-        /// One RPU per region, one pixel per clock.
+        /// One RPU per region, each with one pixel per clock.
         #[default]
         Pipelined = "pipelined",
-        /// Small lanes under one sequencer.
+        /// Small lanes under one sequencer. Regions can share a lane.
         Serial = "serial",
         /// One core that takes the frame row by row, K pixels at every clock.
         Raster = "raster",
     }
 }
 choice! {
-    /// How pixels enter the serial organization.
+    /// The order in which pixels enter the serial organization.
     #[derive(Default)]
     Feed {
-        /// One pixel per lane at a time: every lane has its own stream.
+        /// One pixel per lane at a time. Every lane has its own stream.
         #[default]
         Parallel = "parallel",
-        /// One pixel at a time: the frame, row by row.
+        /// One pixel at a time: the frame in row-major order.
         Raster = "raster",
     }
 }
 choice! {
-    /// Of what the memory of a lane of the serial organization is built.
+    /// The kind of memory of a lane of the serial organization.
     MemoryKind {
-        /// Distributed memory: data in the clock of its address.
+        /// Distributed memory, with data in the clock of the address.
         Distributed = "distributed",
-        /// Block memory: data a clock after its address.
+        /// Block memory, with data one clock after the address.
         Block = "block",
     }
 }
 choice! {
-    /// How finely the arithmetic of the pipelined and of the raster organization is cut by registers.
+    /// The number of registers in the arithmetic of an organization.
     #[derive(Default)]
     Pipelining {
-        /// As few registers as the organization needs.
+        /// The fewest registers that the organization needs.
         #[default]
         Plain = "plain",
-        /// More registers, for faster clocks.
+        /// More registers, for a faster clock.
         Deep = "deep",
     }
 }
 choice! {
-    /// Where the frame store of the raster organization is, and of what it is built.
+    /// The memory that the frame store of the raster organization is built of.
     #[derive(Default)]
     Store {
-        /// Block RAM.
+        /// Block RAM with two ports, inside the core.
         #[default]
         Block = "block",
-        /// Ultra RAM.
+        /// UltraRAM with two ports, inside the core.
         Ultra = "ultra",
-        /// RAM of one port.
+        /// RAM with one port, inside the core.
         SinglePort = "single-port",
-        /// Memory outside of the core, by two streams of words.
+        /// Memory outside of the core, which the core reads and writes by two streams of words.
         External = "external",
     }
 }
 choice! {
-    /// How a core is connected to what is around it.
+    /// The interface by which a core is connected.
     #[derive(Default)]
     Bus {
-        /// By ports of its own.
+        /// Plain ports.
         #[default]
         Ports = "ports",
-        /// By AXI4-Stream video, packets on AXI4-Stream, and registers on AXI4-Lite.
+        /// AXI4-Stream video in, packets on AXI4-Stream out, and registers on AXI4-Lite.
         Axi = "axi",
     }
 }
 choice! {
-    /// Where the thresholds of a core come from.
+    /// The source of the thresholds of a core.
     Thresholds {
         /// Input ports.
         Runtime = "runtime",
-        /// Constants of the design.
+        /// Constants in the core.
         Constant = "constant",
     }
 }
 
 impl Bus {
-    /// The key where it is not the default.
+    /// Returns the value of the key in a complete configuration: `None` for the default.
     pub(crate) fn if_any(self) -> Option<Self> {
         match self {
             Self::Ports => None,
@@ -94,7 +94,7 @@ impl Bus {
 }
 
 impl Pipelining {
-    /// The key where it is not the default.
+    /// Returns the value of the key in a complete configuration: `None` for the default.
     pub(crate) fn if_deep(self) -> Option<Self> {
         match self {
             Self::Plain => None,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The configuration file as serde types: that of a camera, and what computes it. The defaults are the paper's
-//! design.
+//! The configuration file as serde types: the tables of a camera, and the table of the hardware
+//! that computes it. The defaults are those of the paper's design.
 
 use crate::{
     Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds, keys::HARDWARE_KEYS,
@@ -9,48 +9,50 @@ use foveate_camera::{CAMERA_KEYS, CameraConfig, ConfigError, Key, text};
 use serde::{Deserialize, Serialize};
 use toml::Table;
 
-/// A whole configuration, as written in a file; see [`Config::validate`].
+/// A whole configuration file. [`Config::validate`] checks it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Config {
-    /// What is computed: every table but the last.
+    /// The tables that say what is computed: every table except `[hardware]`.
     #[serde(flatten)]
     pub camera: CameraConfig,
-    /// What computes it.
+    /// The table `[hardware]`, which says what computes it.
     #[serde(default)]
     pub hardware: HardwareConfig,
 }
 
 impl Config {
-    /// Reads a configuration; keys that are left out have their defaults.
+    /// Reads a configuration. Keys that are left out have their defaults.
     ///
     /// # Errors
-    /// As [`CameraConfig::from_toml`].
+    /// Returns the errors of [`CameraConfig::from_toml`].
     pub fn from_toml(text: &str) -> Result<Self, ConfigError> {
         Self::from_toml_with(text, &[] as &[&str])
     }
 
-    /// Reads a configuration and applies `overrides`, as [`CameraConfig::from_toml_with`].
+    /// Reads a configuration and applies `overrides`, by the rules of
+    /// [`CameraConfig::from_toml_with`].
     ///
     /// # Errors
-    /// As [`CameraConfig::from_toml_with`].
+    /// Returns the errors of [`CameraConfig::from_toml_with`].
     pub fn from_toml_with<S: AsRef<str>>(text: &str, overrides: &[S]) -> Result<Self, ConfigError> {
         text::read(text, overrides)
     }
 
-    /// The configuration as a TOML file.
+    /// Returns the text of the configuration as a TOML file.
     #[must_use]
     pub fn to_toml(&self) -> String {
         text::write(self)
     }
 
-    /// The same design at `bits` bits per pixel, as [`CameraConfig::at_depth`].
+    /// Returns the configuration at `bits` bits per pixel, scaled by the rules of
+    /// [`CameraConfig::at_depth`].
     #[must_use]
     pub fn at_depth(&self, bits: u32) -> Self {
         Self { camera: self.camera.at_depth(bits), hardware: self.hardware.clone() }
     }
 }
 
-/// That camera, with the default hardware.
+/// Combines the camera with the default hardware.
 impl From<CameraConfig> for Config {
     fn from(camera: CameraConfig) -> Self {
         Self { camera, hardware: HardwareConfig::default() }
@@ -63,7 +65,7 @@ impl text::AsToml for Config {
     }
 
     fn from_table(mut table: Table) -> Result<Self, ConfigError> {
-        /// What is left of the file.
+        /// The table of the file that is not part of the camera.
         #[derive(Deserialize)]
         struct Rest {
             #[serde(default)]
@@ -79,47 +81,53 @@ impl text::AsToml for Config {
     }
 }
 
-/// `[hardware]`.
+/// The table `[hardware]`: the organization and its properties.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct HardwareConfig {
-    /// The structure of the array.
+    /// The structure of the hardware.
     pub organization: Organization,
-    /// Regions per lane K of the serial organization, 1..=M; 1 for `pipelined`.
+    /// Regions per lane K of the serial organization, 1..=M. Other organizations accept only 1, the
+    /// default.
     pub fold: u32,
-    /// The way in which pixels enter the serial organization; left out it is `parallel`. Only a serial design has
-    /// it, and others refuse it.
+    /// The order in which pixels enter the serial organization. If the key is left out, it is
+    /// `parallel`. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub feed: Option<Feed>,
-    /// Of what the memories of the serial organization's lanes are built, which sets its cycle counts.
-    /// Left out it is distributed while that takes at most 128 memory LUTs, block above; see
-    /// [`crate::LaneMemory`]. `pipelined` has none.
+    /// The kind of memory of the lanes of the serial organization, which affects its cycle counts.
+    /// If the key is left out, the memory is distributed where that takes at most 128 memory LUTs,
+    /// else block; see [`crate::LaneMemory`]. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub memory: Option<MemoryKind>,
-    /// Pixels that the raster organization takes at a clock, K: 1, 2 or 4; left out it is 1. Only a raster
-    /// design has it, as `store` and `forward`.
+    /// Pixels that the raster organization takes per clock, K: 1, 2 or 4. If the key is left out,
+    /// it is 1. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixels_per_clock: Option<u32>,
-    /// How finely the arithmetic is cut by registers; left out it is `plain`. A pipelined or serial design has it
-    /// only where it is `deep`.
+    /// The number of registers in the arithmetic. If the key is left out, it is `plain`. In the
+    /// configuration of a validated pipelined or serial design the key is present only with the
+    /// value `deep`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pipelining: Option<Pipelining>,
-    /// Where the frame store of the raster organization is, and of what it is built; left out it is `block`.
+    /// The memory of the frame store of the raster organization. If the key is left out, it is
+    /// `block`. Other organizations refuse the key.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub store: Option<Store>,
-    /// Whether the pixels of active regions leave a raster core; left out they do. A design has it only where
-    /// they do not.
+    /// True if the pixels of active regions leave a raster core. If the key is left out, they do.
+    /// Other organizations refuse the key. In the configuration of a validated design the key is
+    /// present only with the value `false`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub forward: Option<bool>,
-    /// How the core is connected to what is around it; left out it is by ports. A design has it only where it is by a
-    /// bus.
+    /// The interface of the core. If the key is left out, the core has plain ports. Only the raster
+    /// organization accepts the key. In the configuration of a validated design the key is present
+    /// only for a core on AXI.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interface: Option<Bus>,
-    /// Whether the core is told where frames start, and finds them again; left out it is not. A design has it only
-    /// where it is.
+    /// True if the core has an input that marks the start of a frame and finds its frames again
+    /// after an error. If the key is left out, it is false. In the configuration of a validated
+    /// design the key is present only with the value `true`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sync: Option<bool>,
-    /// Whether thresholds are inputs of the core or constants in it.
+    /// The source of the thresholds: input ports, or constants in the core.
     pub thresholds: Thresholds,
 }
 

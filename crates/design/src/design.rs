@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The validated configuration: what is computed and what computes it, from which everything else is derived.
+//! The validated design: one immutable value from which every other number is derived.
 
 use std::ops::Deref;
 
@@ -8,7 +8,7 @@ use crate::{
 };
 use foveate_camera::Camera;
 
-/// A design: a camera and the hardware that computes it. It answers every question that its camera answers.
+/// A design: a camera and the hardware that computes it. It dereferences to its camera.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Design {
     camera: Camera,
@@ -26,7 +26,7 @@ impl Deref for Design {
 }
 
 impl Design {
-    /// What [`Config::validate`] has found valid, every key filled in.
+    /// Makes a design of parts that [`Config::validate`] has checked and completed.
     pub(crate) fn new(
         camera: Camera,
         hardware: Hardware,
@@ -36,17 +36,21 @@ impl Design {
         Self { camera, hardware, syncs, thresholds }
     }
 
-    /// What is computed.
+    /// Returns the camera: what is computed.
     #[must_use]
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    /// The configuration with every key filled in.
+    /// Returns the configuration that describes this design. Every key of the camera that applies
+    /// is filled in. Keys of `[hardware]` are left out where another organization has them, and
+    /// `pipelining`, `forward`, `interface` and `sync` may be left out while they have their
+    /// defaults. [`Design::spelled_out`] fills in more of them.
     #[must_use]
     pub fn config(&self) -> Config {
         let hardware = HardwareConfig {
-            // A default is left out, so that designs have the fingerprints from before there was the key.
+            // A default is left out, so that the fingerprint of a design is the same as before the
+            // key existed.
             sync: self.syncs.then_some(true),
             thresholds: self.thresholds,
             ..self.hardware.config()
@@ -54,43 +58,44 @@ impl Design {
         Config { camera: self.camera.config().clone(), hardware }
     }
 
-    /// What computes it.
+    /// Returns the hardware: what computes the camera.
     #[must_use]
     pub fn hardware(&self) -> &Hardware {
         &self.hardware
     }
 
-    /// A short name: 16 hexadecimal digits, equal for equal configurations.
+    /// Returns the fingerprint of the design: 16 hexadecimal digits, equal for equal
+    /// configurations.
     #[must_use]
     pub fn fingerprint(&self) -> String {
         fingerprint::of(&self.config())
     }
 
-    /// The structure of the array.
+    /// Returns the organization of the hardware.
     #[must_use]
     pub fn organization(&self) -> Organization {
         self.hardware.organization()
     }
 
-    /// How finely the arithmetic is cut by registers.
+    /// Returns the number of registers in the arithmetic.
     #[must_use]
     pub fn pipelining(&self) -> Pipelining {
         self.hardware.pipelining()
     }
 
-    /// Whether the pixels of active regions leave the array or core.
+    /// Returns true if the pixels of active regions leave the array or core.
     #[must_use]
     pub fn forwards(&self) -> bool {
         self.hardware.forwards()
     }
 
-    /// How the array is connected to what is around it; see `docs/axi.md`.
+    /// Returns the interface by which the core is connected; see `docs/axi.md`.
     #[must_use]
     pub fn bus(&self) -> Bus {
         self.hardware.bus()
     }
 
-    /// Whether the core stands on AXI.
+    /// Returns true if the core has the AXI interface.
     #[must_use]
     pub fn is_on_axi(&self) -> bool {
         match self.bus() {
@@ -99,14 +104,16 @@ impl Design {
         }
     }
 
-    /// Whether the array is told where frames start, and finds them again; see `docs/sync.md`.
+    /// Returns true if the core has an input for the start of a frame and finds its frames again
+    /// after an error; see `docs/sync.md`.
     #[must_use]
     pub fn syncs(&self) -> bool {
         self.syncs
     }
 
-    /// The configuration with every key that its organization takes, also those that it leaves out while they have
-    /// their default.
+    /// Returns the configuration of the design, in which `pipelining`, and `forward` of a raster
+    /// core, are filled in although they have their defaults. `interface` and `sync` are still left
+    /// out where they have their defaults.
     #[must_use]
     pub fn spelled_out(&self) -> Config {
         let mut config = self.config();
@@ -119,7 +126,7 @@ impl Design {
         config
     }
 
-    /// Where the thresholds come from.
+    /// Returns the source of the thresholds.
     #[must_use]
     pub fn thresholds(&self) -> Thresholds {
         self.thresholds

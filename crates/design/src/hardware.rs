@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The hardware of a validated design: an organization with what only it has.
+//! The hardware of a validated design: an organization with its own properties.
 
 use crate::pipelined::Pipelined;
 use crate::raster::Raster;
 use crate::serial::Serial;
 use crate::{Bus, HardwareConfig, Organization, Pipelining};
 
-/// What computes a camera.
+/// The hardware that computes a camera.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Hardware {
     /// One RPU per region.
@@ -18,7 +18,7 @@ pub enum Hardware {
 }
 
 impl Hardware {
-    /// The organization without what it has.
+    /// Returns the organization without its properties.
     #[must_use]
     pub fn organization(&self) -> Organization {
         match self {
@@ -28,7 +28,7 @@ impl Hardware {
         }
     }
 
-    /// How finely the arithmetic is cut by registers.
+    /// Returns the number of registers in the arithmetic.
     #[must_use]
     pub fn pipelining(&self) -> Pipelining {
         match self {
@@ -38,7 +38,7 @@ impl Hardware {
         }
     }
 
-    /// Whether the pixels of active regions leave.
+    /// Returns true if the pixels of active regions leave.
     #[must_use]
     pub fn forwards(&self) -> bool {
         match self {
@@ -47,7 +47,7 @@ impl Hardware {
         }
     }
 
-    /// How the core is connected to what is around it.
+    /// Returns the interface by which the core is connected.
     #[must_use]
     pub fn bus(&self) -> Bus {
         match self {
@@ -56,7 +56,7 @@ impl Hardware {
         }
     }
 
-    /// `[hardware]`, without what every organization has.
+    /// Returns the table `[hardware]`, without the keys that every organization has.
     pub(crate) fn config(&self) -> HardwareConfig {
         match self {
             Self::Pipelined(own) => own.config(),

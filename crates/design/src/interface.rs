@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The interface of a core: a clock and a reset, streams, and controls beside them. The list of ports follows from it, and
-//! so do headers, harnesses, vectors and benches.
+//! The interface of a core: a clock, a reset, streams, and control inputs. The list of ports
+//! follows from it, and so do headers, test harnesses, vectors and benches.
 
 use crate::{Direction, Port, PortRole, Qualifier};
 
-/// What a stream carries.
+/// The contents of a stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum StreamRole {
-    /// The pixels of frames, into the core.
+    /// The pixels of frames, on their way into the core.
     Pixels,
-    /// What a frame store outside gives back, into the core.
+    /// The words that an external frame store returns to the core.
     References,
-    /// What a frame store outside keeps.
+    /// The words that the core writes to an external frame store.
     Stored,
-    /// Scores, one after the other.
+    /// The scores of regions, one after the other.
     Scores,
-    /// Decisions.
+    /// The decisions of regions.
     Decisions,
-    /// The pixels of active regions.
+    /// The pixels of active regions, and the means of summaries.
     Forwarded,
-    /// Regions that were lost on their way to a sink that stalls.
+    /// The regions that were lost because the sink stalled.
     Lost,
 }
 
 impl StreamRole {
-    /// The name, as in documents.
+    /// Returns the name that documents use.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -39,46 +39,46 @@ impl StreamRole {
     }
 }
 
-/// How a beat names the region that it belongs to.
+/// The way in which a beat names the region that it belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum BeatRegion {
-    /// It belongs to none, or to several.
+    /// The beat belongs to no region, or to several regions.
     None,
-    /// By its lane: lane i is region i.
+    /// The lane number is the region number.
     Lane,
-    /// By its lane, and the port of this role, which says which region of the lane.
+    /// The lane, together with the slot number on the port of this role.
     Slot(PortRole),
-    /// By the port of this role.
+    /// The region number is on the port of this role.
     Number(PortRole),
 }
 
-/// Ports that say one thing together. A beat is there at an edge if `valid` is 1 before it, and, where there is `ready`, if that is
-/// 1, too.
+/// A group of ports that carry one beat together. A beat is transferred at an edge if `valid` is 1
+/// before the edge, and `ready`, where the stream has it, is 1 too.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Stream {
-    /// What it carries.
+    /// The contents of the stream.
     pub role: StreamRole,
-    /// Whether beats go into the core or out of it.
+    /// The direction of the beats, seen from the core.
     pub direction: Direction,
-    /// What a beat is, such as "a pixel of every region".
+    /// The meaning of one beat, such as "a pixel of every region".
     pub beat: &'static str,
-    /// Says that there is a beat.
+    /// The port that is 1 while there is a beat.
     pub valid: Port,
-    /// Says that it is taken; without it every beat is.
+    /// The port that is 1 while a beat would be taken. Without it every beat is taken.
     pub ready: Option<Port>,
-    /// Marks the first beat of a frame.
+    /// The port that marks the first beat of a frame.
     pub start: Option<Port>,
-    /// What a beat consists of.
+    /// The ports with the data of a beat.
     pub payload: Vec<Port>,
-    /// How it names its region.
+    /// The way in which a beat names its region.
     pub region: BeatRegion,
-    /// Which port of the payload marks the last beat of what belongs together.
+    /// The role of the payload port that marks the last beat of a region or a row.
     pub last: Option<PortRole>,
-    /// What the core keeps or says of the stream beside its beats: errors and counters.
+    /// Outputs that report the state of the stream beside its beats: errors and counters.
     pub status: Vec<Port>,
 }
 
-/// The ports of a core by what they are for.
+/// The ports of a core, grouped by their purpose.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Interface {
     /// The clock.
@@ -87,12 +87,13 @@ pub struct Interface {
     pub reset: Port,
     /// The streams, in the order of their ports.
     pub streams: Vec<Stream>,
-    /// Inputs that stand still while a frame is under way: thresholds, and the borders of a lone RPU.
+    /// Inputs that stay constant while a frame is under way: thresholds, and the borders of a
+    /// single RPU.
     pub controls: Vec<Port>,
 }
 
 impl Stream {
-    /// A stream into the core whose every beat is taken.
+    /// Makes a stream into the core without back-pressure: every beat is taken.
     pub(crate) fn into_core(
         role: StreamRole,
         beat: &'static str,
@@ -104,7 +105,7 @@ impl Stream {
         Self { role, direction, beat, valid, ready, start, payload, region, last, status }
     }
 
-    /// A stream out of the core that nobody holds up.
+    /// Makes a stream out of the core without back-pressure: every beat is taken.
     pub(crate) fn out_of_core(
         role: StreamRole,
         beat: &'static str,
@@ -114,7 +115,7 @@ impl Stream {
         Self { direction: Direction::Output, ..Self::into_core(role, beat, valid, payload) }
     }
 
-    /// Its ports from outside into the core, in their order.
+    /// Returns the input ports of the stream, in their order.
     fn inputs(&self) -> impl Iterator<Item = &Port> {
         let (beat, ready) = match self.direction {
             Direction::Input => (Some(self.beat_ports()), None),
@@ -123,7 +124,7 @@ impl Stream {
         beat.into_iter().flatten().chain(ready)
     }
 
-    /// Its ports out of the core, in their order.
+    /// Returns the output ports of the stream, in their order.
     fn outputs(&self) -> impl Iterator<Item = &Port> {
         let (beat, ready) = match self.direction {
             Direction::Input => (None, self.ready.as_ref()),
@@ -132,12 +133,12 @@ impl Stream {
         ready.into_iter().chain(beat.into_iter().flatten()).chain(&self.status)
     }
 
-    /// What is there with a beat.
+    /// Returns the ports that carry one beat: `valid`, the start of a frame and the payload.
     fn beat_ports(&self) -> impl Iterator<Item = &Port> {
         std::iter::once(&self.valid).chain(&self.start).chain(&self.payload)
     }
 
-    /// Every port of it.
+    /// Returns every port of the stream.
     fn all_mut(&mut self) -> impl Iterator<Item = &mut Port> {
         let beat = std::iter::once(&mut self.valid).chain(&mut self.start).chain(&mut self.payload);
         beat.chain(&mut self.ready).chain(&mut self.status)
@@ -145,7 +146,7 @@ impl Stream {
 }
 
 impl Interface {
-    /// The interface with these streams and controls.
+    /// Makes an interface with a clock, a reset, and the given streams and controls.
     pub(crate) fn new(streams: Vec<Stream>, controls: Vec<Port>) -> Self {
         let input = |role, doc| Port::single(Direction::Input, role, 1, doc);
         Self {
@@ -156,7 +157,7 @@ impl Interface {
         }
     }
 
-    /// All ports, inputs first.
+    /// Returns all ports, inputs first.
     #[must_use]
     pub fn ports(&self) -> Vec<Port> {
         let common = [&self.clock, &self.reset];
@@ -165,7 +166,8 @@ impl Interface {
         common.into_iter().chain(inputs).chain(outputs).cloned().collect()
     }
 
-    /// The stream that a port belongs to; none of the clock, the reset and controls.
+    /// Returns the stream that has a port of the role, or `None` for the clock, the reset and
+    /// controls.
     #[must_use]
     pub fn stream_of(&self, role: PortRole) -> Option<&Stream> {
         let has =
@@ -173,20 +175,20 @@ impl Interface {
         self.streams.iter().find(has)
     }
 
-    /// The stream of a role, if the core has it.
+    /// Returns the stream of the role, or `None` if the core does not have it.
     #[must_use]
     pub fn stream(&self, role: StreamRole) -> Option<&Stream> {
         self.streams.iter().find(|stream| stream.role == role)
     }
 
-    /// Changes ports of streams one by one.
+    /// Applies `change` to every port of every stream.
     pub(crate) fn each_of_streams(&mut self, change: impl Fn(&mut Port)) {
         self.streams.iter_mut().flat_map(Stream::all_mut).for_each(change);
     }
 }
 
 impl Port {
-    /// An output that means something only while that of another role is 1.
+    /// Makes an output that has a meaning only while the port of role `valid` is 1.
     pub(crate) fn with(valid: PortRole, role: PortRole, width: u32, doc: &str) -> Self {
         let port = Self::single(Direction::Output, role, width, doc);
         Self { qualifier: Qualifier::With(valid), ..port }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The keys of `[hardware]`, to refuse unknown ones by name and with the nearest known one.
+//! The keys of `[hardware]`. An unknown key is refused by name, and the message suggests the
+//! nearest known key.
 
 use crate::{Bus, Feed, MemoryKind, Organization, Pipelining, Store, Thresholds};
 use foveate_camera::Key;
@@ -25,7 +26,8 @@ mod tests {
     use crate::Config;
     use foveate_camera::text::AsToml;
 
-    /// `docs/configuration.md` has one row per key, and every value that a key takes by name stands in it.
+    /// `docs/configuration.md` has one row per key, and the row of a key lists every name that it
+    /// takes.
     #[test]
     fn the_page_of_the_configuration_has_every_key() {
         let page = include_str!("../../../docs/configuration.md");

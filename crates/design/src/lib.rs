@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera and the hardware that computes it, as one validated value, with every number that follows from both.
+//! A camera and the hardware that computes it as one validated value, with every number that
+//! follows from both.
 //!
-//! A [`Config`] is what a user writes; [`Config::validate`] turns it into a [`Design`], which is
-//! immutable and answers every question about itself: latencies, memories, port lists,
-//! fingerprint. What its [`Camera`] answers is in the crate of that name. Nothing downstream validates again or
-//! derives a width again. This crate does no I/O.
+//! A [`Config`] holds the keys that a user writes. [`Config::validate`] turns it into a [`Design`],
+//! which is immutable and gives latencies, memories, lists of ports and its fingerprint. It
+//! dereferences to its [`Camera`], which is defined in the crate of that name. No other crate
+//! validates a configuration or derives a width again. This crate does no I/O.
 
 mod choice;
 mod config;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an organization takes, and what a design says of itself because of its organization: its unit, its timing,
-//! its ports.
+//! The cameras that an organization can compute, and the unit, the timing and the ports of a
+//! design.
 //!
-//! Each organization answers in a module of its own, as an implementation of [`crate::rules::Rules`].
+//! Each organization implements [`crate::rules::Rules`] in its own module, which defines these
+//! properties.
 
 use crate::pipelined::Pipelined;
 use crate::raster::Raster;
@@ -21,26 +22,27 @@ impl Organization {
         }
     }
 
-    /// Whether it computes the score of a feature.
+    /// Returns true if the organization computes the score of the feature.
     #[must_use]
     pub fn takes_feature(self, kind: FeatureKind) -> bool {
         (self.taken().feature)(kind)
     }
 
-    /// Whether it keeps such a reference.
+    /// Returns true if the organization can store the reference.
     #[must_use]
     pub fn takes_reference(self, reference: Reference) -> bool {
         (self.taken().reference)(reference)
     }
 
-    /// Whether it takes the features of a camera, its reference and what its irrelevant regions show. Sizes and keys of
-    /// `[hardware]` may still not go together: [`crate::Config::validate`] says so.
+    /// Returns true if the organization supports the features of a camera, its reference and the
+    /// rendering of its irrelevant regions. Sizes and keys of `[hardware]` may still be refused by
+    /// [`crate::Config::validate`].
     #[must_use]
     pub fn takes(self, camera: &CameraConfig) -> bool {
         self.taken().takes(camera)
     }
 
-    /// What people call a unit of the array, such as "RPU".
+    /// Returns the name of one unit of the array, such as "RPU".
     #[must_use]
     pub fn unit_name(self) -> &'static str {
         match self {
@@ -50,7 +52,8 @@ impl Organization {
         }
     }
 
-    /// The values that `hardware.feed` may have, the default first; none where it may not be given.
+    /// Returns the values that `hardware.feed` may have, the default first. The list is empty if
+    /// the key is refused.
     #[must_use]
     pub fn feeds(self) -> &'static [Feed] {
         match self {
@@ -59,7 +62,7 @@ impl Organization {
         }
     }
 
-    /// Whether regions may share a unit: `hardware.fold` may be more than 1.
+    /// Returns true if regions can share a unit, so that `hardware.fold` may be more than 1.
     #[must_use]
     pub fn folds(self) -> bool {
         match self {
@@ -69,58 +72,60 @@ impl Organization {
     }
 }
 
-/// Whether some organization takes a camera. What tries features, references or ways to show irrelevant regions asks this,
-/// so that it does not choose what nobody can build.
+/// Returns true if some organization supports the camera. A search over features, references or
+/// renderings calls this function, so that it does not choose a camera that no organization can
+/// compute.
 #[must_use]
 pub fn is_taken(camera: &CameraConfig) -> bool {
     Organization::ALL.iter().any(|organization| organization.takes(camera))
 }
 
 impl Design {
-    /// The unit that the array repeats, and what the array is made of.
+    /// Returns the unit that the array repeats.
     #[must_use]
     pub fn unit(&self) -> Unit {
         self.rules().unit()
     }
 
-    /// The design whose array module `rpu` is: this one where that is a part of the array, else the design
-    /// of an array of one unit, whose frame may be wider than what a configuration may ask for.
+    /// Returns the design whose RCM has the ports and the behavior of module `rpu`. It is this
+    /// design if the RPU is a part of the array. Otherwise it is the design of an array with one
+    /// unit, whose frame may be wider than a configuration allows.
     #[must_use]
     pub fn lone_unit(&self) -> Self {
         self.rules().lone_unit()
     }
 
-    /// When the design says what.
+    /// Returns the timing of the design.
     #[must_use]
     pub fn timing(&self) -> Timing {
         self.rules().timing()
     }
 
-    /// The interface of module `rpu`.
+    /// Returns the interface of module `rpu`.
     #[must_use]
     pub fn rpu_interface(&self) -> Interface {
         self.rules().rpu_interface()
     }
 
-    /// The interface of module `rcm`.
+    /// Returns the interface of module `rcm`.
     #[must_use]
     pub fn rcm_interface(&self) -> Interface {
         self.rules().rcm_interface()
     }
 
-    /// The ports of module `rpu`, inputs first.
+    /// Returns the ports of module `rpu`, inputs first.
     #[must_use]
     pub fn rpu_ports(&self) -> Vec<Port> {
         self.rpu_interface().ports()
     }
 
-    /// The ports of module `rcm`, inputs first.
+    /// Returns the ports of module `rcm`, inputs first.
     #[must_use]
     pub fn rcm_ports(&self) -> Vec<Port> {
         self.rcm_interface().ports()
     }
 
-    /// What every organization answers.
+    /// Returns the implementation of the organization of this design.
     fn rules(&self) -> Box<dyn Rules + '_> {
         match self.hardware() {
             Hardware::Pipelined(own) => Box::new(self.on(own)),
@@ -131,7 +136,7 @@ impl Design {
 }
 
 impl HardwareConfig {
-    /// The organization in a few words, such as "serial, raster feed, fold 4".
+    /// Returns a short description of the hardware, such as "serial, raster feed, fold 4".
     #[must_use]
     pub fn in_words(&self) -> String {
         let mut words = vec![self.organization.name().to_owned()];

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One port of an RPU or an RCM. Each organization says in its [`crate::Interface`] which there are, from what is here.
+//! The ports of an RPU or an RCM. The [`crate::Interface`] of each organization is made of them.
 
 use crate::{Design, FeatureKind, Thresholds};
 
-/// Direction of a port, seen from the core.
+/// The direction of a port, seen from the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// Into the core.
@@ -12,21 +12,21 @@ pub enum Direction {
     Output,
 }
 
-/// What a port carries; the model answers by role, never by name.
+/// The meaning of a port. The model refers to a port by its role, never by its name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum PortRole {
     /// The clock.
     Clock,
     /// Synchronous reset, active high.
     Reset,
-    /// A pixel is on the pixel port.
+    /// The pixel port holds a pixel.
     Valid,
-    /// It is the first of a frame (designs with `hardware.sync`).
+    /// The pixel or word on the pixel port is the first of a frame (designs with `hardware.sync`).
     StartOfFrame,
-    /// One pixel per lane; of a serial array with raster feed one; of a raster core a word of K pixels, the
-    /// left one in the lowest bits.
+    /// The pixels: one per lane; one in all for a serial array with raster feed; a word of K pixels
+    /// for a raster core, the left pixel in the lowest bits.
     Pixel,
-    /// Which sides of the region are the frame's border: `{bottom, top, right, left}`.
+    /// The sides of the region that are sides of the frame: `{bottom, top, right, left}`.
     Border,
     /// Per-pixel threshold of a feature.
     Level(FeatureKind),
@@ -36,84 +36,89 @@ pub enum PortRole {
     TemporalLevel,
     /// Per-region threshold of the temporal score.
     TemporalMinCount,
-    /// A summary is sent again when a mean differs by more (designs with a periphery).
+    /// A summary is sent again when a mean differs by more than this (designs with a periphery).
     SummaryLevel,
-    /// A reference is on the port below (`raster`, store outside).
+    /// The port `ReferencePixel` holds a reference (`raster`, external store).
     ReferenceValid,
-    /// The word with which the next word is compared (`raster`, store outside).
+    /// The reference of the next word (`raster`, external store).
     ReferencePixel,
-    /// The sink takes what is on the forward ports (`raster`).
+    /// The sink takes the word on the forward ports (`raster`).
     ForwardReady,
-    /// A pixel would be taken (`serial`, `raster`).
+    /// The core would take a pixel or word (`serial`, `raster`).
     Ready,
-    /// Something came that fits no frame (designs with `hardware.sync`).
+    /// A pixel or word came that fits no frame (designs with `hardware.sync`).
     SyncError,
-    /// A reference is taken at the next edge (`raster`, store outside).
+    /// The core takes a reference at the next edge (`raster`, external store).
     ReferenceReady,
-    /// A word is stored (`raster`, store outside).
+    /// The port `StorePixel` holds a word to store (`raster`, external store).
     StoreValid,
-    /// That word (`raster`, store outside).
+    /// The word to store (`raster`, external store).
     StorePixel,
-    /// It is the last of a row (`raster`, store outside).
+    /// The word to store is the last of a row (`raster`, external store).
     StoreLast,
-    /// A reference was taken without being valid since reset (`raster`, store outside).
+    /// Since reset, a reference was taken while it was not valid (`raster`, external store).
     Underrun,
-    /// A score stands at the score port (`serial`).
+    /// The port `AnyScore` holds a score (`serial`).
     ScoreValid,
-    /// Which score: 0 the temporal count, 1.. the features in the order of the design (`serial`).
+    /// The number of the score: 0 for the temporal count, 1.. for the features in the order of the
+    /// design (`serial`).
     ScoreIndex,
-    /// The region that scores and decision belong to (`serial`, `raster`).
+    /// The number of the region of the scores and the decision (`serial`, `raster`).
     Region,
-    /// That score (`serial`).
+    /// The score whose number is on the port `ScoreIndex` (`serial`).
     AnyScore,
-    /// A decision is valid, with the outputs below: of all regions (`pipelined`), of one (`serial`, `raster`).
+    /// A decision is valid: that of all regions (`pipelined`), or of one region (`serial`,
+    /// `raster`).
     DecisionValid,
-    /// Spatial relevance.
+    /// Spatial relevance, SRS.
     Srs,
-    /// Temporal relevance.
+    /// Temporal relevance, TRS.
     Trs,
-    /// Both: the region's pixels will leave.
+    /// SRS and TRS are both 1, so the pixels of the region will leave.
     Active,
-    /// The region's means will leave (designs with a periphery).
+    /// The means of the region will leave (designs with a periphery).
     Summary,
-    /// Score of a feature (`pipelined`, `raster`).
+    /// The score of a feature (`pipelined`, `raster`).
     Score(FeatureKind),
-    /// Temporal score (`pipelined`, `raster`).
+    /// The temporal score (`pipelined`, `raster`).
     TemporalCount,
-    /// A pixel of an active region leaves; of a raster core a word.
+    /// A pixel or mean leaves; of a raster core a word.
     ForwardValid,
-    /// That pixel, or that word.
+    /// The pixel or mean that leaves; of a raster core the word.
     ForwardPixel,
-    /// Number of that pixel in its region, in raster order (`serial`); of the first of a word (`raster`).
+    /// The number of the pixel in its region, in row-major order (`serial`), or the number of the
+    /// first pixel of the word (`raster`).
     ForwardPosition,
-    /// Slot of that region in its lane (`serial`, parallel feed, fold > 1).
+    /// The slot, in its lane, of the region whose pixel leaves (`serial`, parallel feed, fold > 1).
     ForwardSlot,
-    /// Number of that region (`serial`, raster feed; `raster`).
+    /// The number of the region whose pixel leaves (`serial` with raster feed; `raster`).
     ForwardRegion,
-    /// That word is the first of its region (`raster`).
+    /// The word that leaves is the first of its region (`raster`).
     ForwardFirst,
-    /// It is the last that comes of its region (`raster`).
+    /// The word that leaves is the last of its region, also if the region was lost in the middle
+    /// (`raster`).
     ForwardLast,
-    /// It is, because its region was lost in the middle (`raster`).
+    /// The word that leaves is the last because its region was lost in the middle (`raster`).
     ForwardAbort,
-    /// Number of the frame of its region, modulo [`crate::FRAME_NUMBERS`] (`raster`).
+    /// The number of the frame of the region whose word leaves, modulo [`crate::FRAME_NUMBERS`]
+    /// (`raster`).
     ForwardFrame,
-    /// That word is the mean of a block (`raster`, designs with a periphery).
+    /// The word that leaves is the mean of a block (`raster`, designs with a periphery).
     ForwardSummary,
-    /// A region was lost since reset (`raster`).
+    /// A region has been lost since reset (`raster`).
     Lost,
-    /// How many (`raster`).
+    /// The number of regions that have been lost since reset, up to a largest value (`raster`).
     LostCount,
     /// A region was lost at the last edge (`raster`).
     LostValid,
-    /// Number of that region (`raster`).
+    /// The number of the region that was lost at the last edge (`raster`).
     LostRegion,
-    /// Number of its frame, modulo [`crate::FRAME_NUMBERS`] (`raster`).
+    /// The number of the frame of the lost region, modulo [`crate::FRAME_NUMBERS`] (`raster`).
     LostFrame,
 }
 
 impl PortRole {
-    /// Whether it is a number, or pixels; else a flag.
+    /// Returns true if the port carries a number or pixels, and false if it carries flags.
     #[must_use]
     pub fn is_number(self) -> bool {
         match self {
@@ -168,45 +173,48 @@ impl PortRole {
     }
 }
 
-/// When the value of an output means something. Otherwise it may be anything, and is not compared.
+/// The condition under which the value of an output has a meaning. Otherwise the value is undefined
+/// and is not compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Qualifier {
-    /// At every clock.
+    /// The value has a meaning at every clock.
     Always,
-    /// While the port of that role is 1: where both have a value per lane, in the same lane; where only
-    /// that port has, in any lane.
+    /// The value has a meaning while the port of this role is 1. If both ports have a value per
+    /// lane, the condition holds lane by lane. If only the port of this role has, one lane with 1
+    /// is enough.
     With(PortRole),
 }
 
-/// One port: `lanes` values of `width` bits, lane 0 in the lowest bits.
+/// A port with `lanes` values of `width` bits, lane 0 in the lowest bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Port {
-    /// Name in the Verilog.
+    /// Name of the port in the Verilog.
     pub name: String,
-    /// Direction, seen from the core.
+    /// Direction of the port, seen from the core.
     pub direction: Direction,
-    /// What it carries.
+    /// The meaning of the port.
     pub role: PortRole,
-    /// Bits of one lane.
+    /// Width of one lane in bits.
     pub width: u32,
-    /// One, or one per region of the pipelined RCM or per lane of the serial one.
+    /// Number of lanes: 1, the number of regions of a pipelined RCM, or the number of lanes of a
+    /// serial array.
     pub lanes: u32,
-    /// Whether there is a value per lane: in the array, even if that has but one lane.
+    /// True if the port has a value per lane, also in an array with only one lane.
     pub per_lane: bool,
-    /// When the value of an output means something; [`Qualifier::Always`] for an input.
+    /// The condition under which the value has a meaning. It is [`Qualifier::Always`] for an input.
     pub qualifier: Qualifier,
-    /// One line of documentation.
+    /// Documentation of the port in one line.
     pub doc: String,
 }
 
 impl Port {
-    /// Bits of the whole port.
+    /// Returns the width of the whole port in bits.
     #[must_use]
     pub fn bits(&self) -> u32 {
         self.width * self.lanes
     }
 
-    /// A port with one value, which always means something.
+    /// Makes a port with one value, which has a meaning at every clock.
     pub(crate) fn single(direction: Direction, role: PortRole, width: u32, doc: &str) -> Self {
         Self {
             name: port_name(role),
@@ -221,23 +229,24 @@ impl Port {
     }
 }
 
-/// The input that says where frames start, behind that which says that something comes: the same for every
-/// organization; none where the design does not find its frames.
+/// Returns the input that marks the first pixel or word of a frame. It is the same for every
+/// organization. Returns `None` for a design without `hardware.sync`.
 pub(crate) fn sync_input(design: &Design) -> Option<Port> {
     let doc = "what comes is the first of a frame; only with valid_i";
     let port = || Port::single(Direction::Input, PortRole::StartOfFrame, 1, doc);
     design.syncs().then(port)
 }
 
-/// The output that says that what came fits no frame, likewise.
+/// Returns the output that reports a pixel or word that fits no frame, or `None` for a design
+/// without `hardware.sync`.
 pub(crate) fn sync_output(design: &Design) -> Option<Port> {
     let doc = "what came at this edge fits no frame";
     let port = || Port::single(Direction::Output, PortRole::SyncError, 1, doc);
     design.syncs().then(port)
 }
 
-/// What is decided of a region, the same for every organization; `whose` is what the region is called where its means
-/// are spoken of.
+/// Returns the ports of a decision, which are the same for every organization. `whose` names the
+/// region in the documentation of its means, such as "the region's".
 pub(crate) fn decided_ports(design: &Design, whose: &str) -> Vec<Port> {
     let mut list = Vec::new();
     let mut add = |role, doc: &str| {
@@ -253,7 +262,8 @@ pub(crate) fn decided_ports(design: &Design, whose: &str) -> Vec<Port> {
     list
 }
 
-/// The threshold inputs, the same for every organization: none where thresholds are constants.
+/// Returns the threshold inputs, which are the same for every organization. The list is empty if
+/// thresholds are constants.
 pub(crate) fn threshold_ports(design: &Design) -> Vec<Port> {
     let mut list = Vec::new();
     match design.thresholds() {

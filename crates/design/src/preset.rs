@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Named configurations to start from.
+//! Named configurations as a starting point.
 
 use crate::Config;
 use foveate_camera::ConfigError;
@@ -7,9 +7,9 @@ use foveate_camera::ConfigError;
 /// A named configuration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Its name on the command line.
+    /// Name of the preset on the command line.
     pub name: &'static str,
-    /// What it is for, in one line.
+    /// Purpose of the preset in one line.
     pub summary: &'static str,
     /// The keys that differ from the defaults, as TOML.
     pub toml: &'static str,
@@ -65,10 +65,10 @@ pub const PRESETS: &[Preset] = &[
 ];
 
 impl Preset {
-    /// The preset of that name.
+    /// Returns the preset of that name.
     ///
     /// # Errors
-    /// When there is none; the message lists those that exist.
+    /// Returns an error that lists the names of all presets if there is no preset of that name.
     pub fn find(name: &str) -> Result<&'static Self, ConfigError> {
         PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
             ConfigError::UnknownPreset {
@@ -78,10 +78,10 @@ impl Preset {
         })
     }
 
-    /// Its configuration.
+    /// Returns the configuration of the preset.
     ///
     /// # Errors
-    /// Never for the presets of this crate, which a test proves.
+    /// Returns no error for the presets of this crate, which a test proves.
     pub fn config(&self) -> Result<Config, ConfigError> {
         Config::from_toml(self.toml)
     }
@@ -93,7 +93,7 @@ mod tests {
     use crate::{Organization, Reference};
     use foveate_camera::Irrelevant;
 
-    /// The compiler asks for no preset.
+    /// The compiler does not check that a new name has a preset.
     #[test]
     fn every_organization_reference_and_way_to_show_has_a_preset() {
         let configs: Vec<Config> = PRESETS.iter().map(|preset| preset.config().unwrap()).collect();

@@ -1,47 +1,50 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The questions that every organization answers of its designs; [`crate::organization`] asks them.
+//! The properties that every organization defines for its designs. The methods of `Design` in
+//! [`crate::organization`] return them.
 
 use crate::{Design, Interface, Timing};
 
-/// What an array is made of.
+/// The structure of an array.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Array {
-    /// Copies of module `rpu` and nothing else: its size says only how many there are, and none of them knows of it.
+    /// The array consists of copies of module `rpu` and nothing else. The size of the array is only
+    /// the number of copies, and no copy depends on it.
     Copies,
-    /// Units that share what is there once, or one core: widths, memories and counters follow from its size. Module
-    /// `rpu` is no part of it, but an array of its own, with one unit.
+    /// The array has units that share logic, or is one core. Widths, memories and counters depend
+    /// on its size. Module `rpu` is not a part of it, but an array of its own with one unit.
     Whole,
 }
 
-/// The unit that an array repeats: an RPU, a lane; or the one core.
+/// The unit that an array repeats: an RPU, a lane, or the one core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// What people call one.
+    /// Name of one unit for users.
     pub name: &'static str,
-    /// Its Verilog module.
+    /// Verilog module of the unit.
     pub module: &'static str,
-    /// How many the array has.
+    /// Number of units of the array.
     pub count: u32,
-    /// Regions that one serves, the last perhaps fewer.
+    /// Number of regions that one unit serves. The last unit may serve fewer.
     pub regions: u32,
-    /// What the array is made of.
+    /// Structure of the array.
     pub array: Array,
-    /// The Verilog module whose instances say where the area goes.
+    /// Verilog module whose instances the area is reported for.
     pub split: &'static str,
 }
 
-/// What a [`crate::DesignOn`] some hardware answers.
+/// The properties of a [`crate::DesignOn`] the hardware of one organization.
 pub(crate) trait Rules {
-    /// The unit that the array repeats.
+    /// Returns the unit that the array repeats.
     fn unit(&self) -> Unit;
-    /// The design whose ports module `rpu` has.
+    /// Returns the design whose RCM has the ports of module `rpu`.
     fn lone_unit(&self) -> Design;
-    /// When it says what.
+    /// Returns the timing of the design.
     fn timing(&self) -> Timing;
-    /// The interface of module `rpu`: where it is no part of the array, that of an array of one unit.
+    /// Returns the interface of module `rpu`. Where the RPU is not a part of the array, it is that
+    /// of an array with one unit.
     fn rpu_interface(&self) -> Interface {
         self.lone_unit().rcm_interface()
     }
-    /// The interface of module `rcm`.
+    /// Returns the interface of module `rcm`.
     fn rcm_interface(&self) -> Interface;
 }

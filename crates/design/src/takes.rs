@@ -1,27 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an organization takes of a configuration. Each is asked for every feature and every reference, so that a new
-//! one is computed by those that say so, and refused by the others.
+//! The configurations that an organization supports. Each organization must answer for every
+//! feature and every reference, so that a new one is refused by the organizations that do not
+//! compute it yet.
 
 use crate::{HardwareConfig, Thresholds};
 use foveate_camera::{Camera, CameraConfig, ConfigError, FeatureKind, Irrelevant, Reference};
 
-/// What an organization says of a configuration; it is implemented by what only that organization has.
+/// The configurations that an organization supports. The trait is implemented by the properties of
+/// the organization.
 pub(crate) trait Takes: Sized {
-    /// Whether it computes the score of a feature.
+    /// Returns true if the organization computes the score of the feature.
     fn takes_feature(kind: FeatureKind) -> bool;
-    /// Whether it keeps such a reference.
+    /// Returns true if the organization can store the reference.
     fn takes_reference(reference: Reference) -> bool;
-    /// Whether it can show that of irrelevant regions.
+    /// Returns true if the organization can render irrelevant regions in this way.
     fn takes_irrelevant(irrelevant: Irrelevant) -> bool;
-    /// Whether its thresholds may come from there.
+    /// Returns true if the organization supports this source of thresholds.
     fn takes_thresholds(thresholds: Thresholds) -> bool;
-    /// Whether it can be told where frames start, and find them again: `hardware.sync`.
+    /// Returns true if the organization supports `hardware.sync`: an input for the start of a
+    /// frame, at which it finds its frames again.
     fn takes_sync() -> bool;
-    /// What only it has, if it takes the rest of what is asked for.
+    /// Returns the properties of the organization, or an error if it refuses the rest of the
+    /// configuration.
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError>;
 }
 
-/// What an organization says of features, references and what irrelevant regions show.
+/// The features, references and renderings that an organization supports.
 pub(crate) struct Taken {
     pub(crate) feature: fn(FeatureKind) -> bool,
     pub(crate) reference: fn(Reference) -> bool,
@@ -37,7 +41,7 @@ impl Taken {
         }
     }
 
-    /// Whether that is all of a camera.
+    /// Returns true if the organization supports all of the camera.
     pub(crate) fn takes(&self, camera: &CameraConfig) -> bool {
         camera.spatial.iter().all(|entry| (self.feature)(entry.feature))
             && (self.reference)(camera.temporal.reference)
@@ -45,7 +49,8 @@ impl Taken {
     }
 }
 
-/// What is asked for, if the organization takes all of it.
+/// Returns the properties of the organization, or an error if it refuses a part of the
+/// configuration.
 pub(crate) fn taken<O: Takes>(asked: &HardwareConfig, camera: &Camera) -> Result<O, ConfigError> {
     let refuse = |key: &str, value: &str, remedy: &str| {
         let remedy = format!("{remedy}, or another organization");
@@ -85,7 +90,7 @@ mod tests {
     use super::*;
     use crate::Config;
 
-    /// An organization that takes little.
+    /// An organization that supports only a few configurations.
     #[derive(Debug, PartialEq)]
     struct Narrow;
 

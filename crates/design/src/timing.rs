@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When a design says what: what every organization answers. The numbers behind the answers are in the
-//! module of each, as [`crate::PipelinedTiming`] and [`crate::SerialTiming`].
+//! The timing of a design in terms that every organization has. The timing of each organization is
+//! in its own module, as [`crate::PipelinedTiming`] and [`crate::SerialTiming`].
 
-/// When a design says what, in terms that every organization has.
+/// The timing of a design in terms that every organization has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Timing {
     pub(crate) clocks_per_frame: u64,
@@ -13,63 +13,67 @@ pub struct Timing {
     pub(crate) departure: Departure,
 }
 
-/// When what a frame leads to leaves the array, if the frame is taken as fast as the array can. Clocks are counted
-/// from the edge that takes the last pixel of a frame. Regions that share a unit leave slot by slot. A raster core takes
-/// pixels as a sensor reads them, and gives decisions and pixels of a row of regions while it takes others:
-/// [`crate::RasterStream`] says when.
+/// The times at which the decisions and pixels of a frame leave the array, if the frame is taken as
+/// fast as the array can. Clocks are counted from the edge that takes the last pixel of the frame.
+/// Regions that share a unit leave slot by slot. A raster core takes pixels as a sensor reads them
+/// out, and gives the decisions and pixels of one row of regions while it takes others;
+/// [`crate::RasterStream`] has those times.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Departure {
-    /// Clocks that the array needs to take a frame whose pixels are all there.
+    /// Clocks that the array needs to take a frame whose pixels are all available.
     pub take_clocks: u64,
-    /// Frames that must be taken after a frame before its decisions are known.
+    /// Number of frames that must be taken after a frame before its decisions are known.
     pub decision_frames: u32,
-    /// Clocks to the last decision of slot 0.
+    /// Clocks until the last decision of slot 0.
     pub decision_clocks: u64,
-    /// Frames that must be taken after a frame before its pixels leave.
+    /// Number of frames that must be taken after a frame before its pixels leave.
     pub forward_frames: u32,
-    /// Clocks to the last pixel of slot 0; to its last decision where no pixels leave.
+    /// Clocks until the last pixel of slot 0 leaves, or until its last decision if no pixels leave.
     pub forward_clocks: u64,
-    /// Clocks from one slot to the next.
+    /// Clocks between the same events of one slot and the next.
     pub slot_clocks: u64,
-    /// Rows of regions whose pixels wait for a sink that stalls; a region further behind is lost. None where
-    /// no region is ever lost.
+    /// Number of rows of regions whose pixels are buffered for a sink that stalls. A region that
+    /// waits longer is lost. `None` if no region is ever lost.
     pub kept_rows: Option<u32>,
-    /// Whether a unit alone can work on its region while the others wait for theirs.
+    /// True if each unit can work on its region while other units still wait for their pixels.
     pub alone: bool,
 }
 
 impl Timing {
-    /// Clocks from one frame to the next, where frames follow each other at once.
+    /// Returns the clocks from one frame to the next where frames follow each other without a gap.
     #[must_use]
     pub fn clocks_per_frame(&self) -> u64 {
         self.clocks_per_frame
     }
 
-    /// Clocks of a frame in which the pixel port takes something, on as many lanes as it has.
+    /// Returns the clocks of a frame in which the pixel port takes pixels, on all of its lanes at
+    /// once.
     #[must_use]
     pub fn pixels_per_frame(&self) -> u64 {
         self.pixels_per_frame
     }
 
-    /// Numbers of this organization with their names, as JSON has them.
+    /// Returns the figures of this organization with their names in JSON.
     #[must_use]
     pub fn figures(&self) -> &[(&'static str, u64)] {
         &self.figures
     }
 
-    /// What is done with a frame in turn, and for how many clocks; empty where all is done at once.
+    /// Returns the phases of a frame in order, each with its clocks. The list is empty if
+    /// everything happens at once.
     #[must_use]
     pub fn phases(&self) -> &[(String, u64)] {
         &self.phases
     }
 
-    /// When decisions and pixels leave.
+    /// Returns the times at which decisions and pixels leave.
     #[must_use]
     pub fn departure(&self) -> Departure {
         self.departure
     }
 
-    /// The same for people: headings of at most 17 characters, and what stands there.
+    /// Returns a description of the timing for users: headings of at most 17 characters, each with
+    /// its text.
     #[must_use]
     pub fn text(&self) -> &[(&'static str, String)] {
         &self.text

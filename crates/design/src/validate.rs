@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Checks every range and combination of a configuration, and makes it a design.
+//! Validation: checks every range and combination of a configuration, and makes a design of it.
 
 use crate::takes::taken;
 use crate::{Config, Design, Hardware, HardwareConfig, Organization};
 use foveate_camera::{ConfigError, MAX_SIDE};
 
 impl Config {
-    /// Checks every range and combination.
+    /// Checks every range and combination, and returns the design.
     ///
     /// # Errors
-    /// Names the key, its value and what would be valid.
+    /// Returns an error that names the key, its value and the valid values.
     pub fn validate(&self) -> Result<Design, ConfigError> {
         self.validate_up_to(MAX_SIDE)
     }
 
-    /// The design for inputs of `width` x `height` pixels.
+    /// Returns the design for inputs of `width` x `height` pixels.
     ///
     /// # Errors
-    /// As [`foveate_camera::CameraConfig::fit_frame`] and [`Config::validate`].
+    /// Returns the errors of [`foveate_camera::CameraConfig::fit_frame`] and [`Config::validate`].
     pub fn for_frames(&self, width: u32, height: u32) -> Result<Design, ConfigError> {
         let mut config = self.clone();
         config.camera.fit_frame(width, height)?;
         config.validate()
     }
 
-    /// As [`Config::validate`], for frames with sides up to `max_side`.
+    /// Checks as [`Config::validate`] does, for frames with sides up to `max_side` pixels.
     pub(crate) fn validate_up_to(&self, max_side: u32) -> Result<Design, ConfigError> {
         let camera = self.camera.validate_up_to(max_side)?;
         let asked = &self.hardware;
@@ -39,8 +39,8 @@ impl Config {
 }
 
 impl HardwareConfig {
-    /// Refuses the keys that another organization has and this one has not, whatever their values, and a fold of units that
-    /// no regions share.
+    /// Refuses the keys that only another organization has, whatever their values, and a fold above
+    /// 1 where regions cannot share a unit.
     pub(crate) fn refuse_foreign_keys(&self) -> Result<(), ConfigError> {
         if self.fold != 1 && !self.organization.folds() {
             let remedy = "only the serial organization shares lanes; use 1";
@@ -61,7 +61,8 @@ impl HardwareConfig {
         }
     }
 
-    /// The keys that one organization has alone: their name, that organization, and their value where they are given.
+    /// Returns the keys that only one organization has: the name, the organization, and the value
+    /// if the key is written.
     fn owned_keys(&self) -> [(&'static str, Organization, Option<String>); 6] {
         use Organization::{Raster, Serial};
         let name = |name: &str| format!("\"{name}\"");
@@ -79,7 +80,7 @@ impl HardwareConfig {
         ]
     }
 
-    /// The error for a `key` whose value the organization does not take.
+    /// Returns the error for a `key` whose value the organization does not accept.
     pub(crate) fn clash(&self, key: &str, value: String, remedy: &str) -> ConfigError {
         ConfigError::Combination {
             key: key.to_owned(),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A design whose hardware is known.
+//! Views of a design whose organization is known.
 //!
-//! What belongs to one organization is asked of a [`DesignOn`] that hardware. Nobody can ask a pipelined array for
-//! its lanes, or a serial one for its frame store.
+//! The properties of one organization are methods of a [`DesignOn`] its hardware. So the lanes of a
+//! pipelined array or the frame store of a serial array cannot be asked for.
 
 use std::ops::Deref;
 
@@ -11,18 +11,18 @@ use crate::raster::Raster;
 use crate::serial::Serial;
 use crate::{Design, Hardware};
 
-/// A design and its hardware, when it is known which that is. It answers every question that the design answers.
+/// A design together with the properties of its hardware. It dereferences to the design.
 #[derive(Debug)]
 pub struct DesignOn<'a, H> {
     design: &'a Design,
     own: &'a H,
 }
 
-/// A design whose array has one RPU per region.
+/// A design with one RPU per region.
 pub type PipelinedDesign<'a> = DesignOn<'a, Pipelined>;
-/// A design whose array has lanes that regions share.
+/// A design with lanes that regions share.
 pub type SerialDesign<'a> = DesignOn<'a, Serial>;
-/// A design that is one core for all regions.
+/// A design with one core for all regions.
 pub type RasterDesign<'a> = DesignOn<'a, Raster>;
 
 impl<H> Clone for DesignOn<'_, H> {
@@ -42,13 +42,13 @@ impl<H> Deref for DesignOn<'_, H> {
 }
 
 impl<'a, H> DesignOn<'a, H> {
-    /// The design, whatever its hardware.
+    /// Returns the design without the type of its hardware.
     #[must_use]
     pub fn design(self) -> &'a Design {
         self.design
     }
 
-    /// Its hardware; that of its lone unit is equal.
+    /// Returns the properties of the hardware. Those of its lone unit are equal.
     #[must_use]
     pub fn own(self) -> &'a H {
         self.own
@@ -56,13 +56,14 @@ impl<'a, H> DesignOn<'a, H> {
 }
 
 impl Design {
-    /// This design on its hardware, `own`, which is that of [`Design::hardware`].
+    /// Returns a view of this design with its hardware. `own` must be the content of
+    /// [`Design::hardware`].
     #[must_use]
     pub fn on<'a, H>(&'a self, own: &'a H) -> DesignOn<'a, H> {
         DesignOn { design: self, own }
     }
 
-    /// This design if it is pipelined.
+    /// Returns a view of this design if it is pipelined, else `None`.
     #[must_use]
     pub fn pipelined(&self) -> Option<PipelinedDesign<'_>> {
         match self.hardware() {
@@ -71,7 +72,7 @@ impl Design {
         }
     }
 
-    /// This design if it is serial.
+    /// Returns a view of this design if it is serial, else `None`.
     #[must_use]
     pub fn serial(&self) -> Option<SerialDesign<'_>> {
         match self.hardware() {
@@ -80,7 +81,7 @@ impl Design {
         }
     }
 
-    /// This design if it is a raster core.
+    /// Returns a view of this design if it is a raster core, else `None`.
     #[must_use]
     pub fn raster(&self) -> Option<RasterDesign<'_>> {
         match self.hardware() {
@@ -89,7 +90,8 @@ impl Design {
         }
     }
 
-    /// Regions that share a unit, one after the other: the fold of a serial array, else 1.
+    /// Returns the number of regions that share a unit, one after the other: the fold of a serial
+    /// array, else 1.
     #[must_use]
     pub fn slots(&self) -> u32 {
         match self.hardware() {

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a feature takes in a pipelined RPU: how long its score does.
+//! The latencies of features in a pipelined RPU.
 
 use crate::{FeatureKind, Pipelining};
 
-/// Clocks from the step of the last pixel until the score is final; of a feature with a second pass, until what that
-/// begins with is.
+/// Returns the clocks from the step of the last pixel of a frame until the score is final. For a
+/// feature with a second pass, the clocks end when the value that the second pass starts with is
+/// final.
 pub(super) fn score_latency(kind: FeatureKind, pipelining: Pipelining) -> u32 {
     match (kind, pipelining) {
-        // The count of hits.
+        // One register: the count of hits.
         (FeatureKind::Edge | FeatureKind::Corner, Pipelining::Plain) => 1,
-        // Its comparison, the hit, the count.
+        // Three registers: the comparison of the hit, the hit, the count.
         (FeatureKind::Edge | FeatureKind::Corner, Pipelining::Deep) => 3,
-        // The sum, the mean.
+        // Two registers: the sum, the mean.
         (FeatureKind::Mad, Pipelining::Plain | Pipelining::Deep) => 2,
-        // The sums, the score.
+        // Two registers: the sums, the score.
         (FeatureKind::Variance, Pipelining::Plain) => 2,
-        // The square, the sums, the score.
+        // Three registers: the square, the sums, the score.
         (FeatureKind::Variance, Pipelining::Deep) => 3,
     }
 }

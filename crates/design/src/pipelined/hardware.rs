@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a pipelined array has of its own, and what of a configuration it takes.
+//! The properties of a pipelined array, and the configurations that it supports.
 
 use crate::takes::Takes;
 use crate::{HardwareConfig, Organization, Pipelining, Thresholds};
 use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference};
 
-/// What a pipelined array has of its own.
+/// The properties that only a pipelined array has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Pipelined {
-    /// How finely the arithmetic is cut by registers.
+    /// The number of registers in the arithmetic.
     pub pipelining: Pipelining,
 }
 
@@ -44,7 +44,7 @@ impl Takes for Pipelined {
     }
 
     fn validate(asked: &HardwareConfig, _: &Camera) -> Result<Self, ConfigError> {
-        // Values without a name are refused before, or were asked for.
+        // The keys that are ignored here have been checked before.
         let &HardwareConfig {
             pipelining,
             fold: _,
@@ -63,7 +63,8 @@ impl Takes for Pipelined {
 }
 
 impl Pipelined {
-    /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
+    /// Returns the table `[hardware]`. A default is left out, so that the fingerprint of a design
+    /// is the same as before the key existed.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {
             organization: Organization::Pipelined,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pipelined organization: one RPU per region, one pixel per clock; see `docs/timing.md`.
+//! The pipelined organization: one RPU per region, each with one pixel per clock; see
+//! `docs/timing.md`.
 
 mod feature;
 mod hardware;

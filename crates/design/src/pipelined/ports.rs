@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The interface of a pipelined RPU and of the RCM of such.
+//! The interface of a pipelined RPU, and that of the RCM that consists of such RPUs.
 
 use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
 use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
 use crate::{Design, Direction, Port, PortRole};
 
-/// The interface of one RPU.
+/// Returns the interface of one RPU.
 pub(crate) fn rpu(design: &Design) -> Interface {
     use Direction::{Input, Output};
     let single = Port::single;
@@ -57,8 +57,9 @@ fn decided(design: &Design) -> Vec<Port> {
     list
 }
 
-/// The interface of the RCM: that of the RPU, per region where it differs by region. Borders are constants inside, and
-/// what finds the frames stands in front of all RPUs.
+/// Returns the interface of the RCM: that of the RPU, with one lane per region for ports that
+/// differ by region. The border inputs are constants inside the RCM, and the logic that finds the
+/// start of a frame is in front of all RPUs.
 pub(crate) fn rcm(design: &Design) -> Interface {
     let mut interface = rpu(design);
     interface.controls.retain(|port| port.role != PortRole::Border);
@@ -91,7 +92,7 @@ pub(crate) fn rcm(design: &Design) -> Interface {
     interface
 }
 
-/// Whether the RCM has one port per region, and not one for all.
+/// Returns true if the RCM has one lane per region on the port of this role.
 fn differs_by_region(role: PortRole) -> bool {
     matches!(
         role,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a pipelined design answers; see [`crate::organization`].
+//! The implementation of [`crate::organization`] for pipelined designs.
 
 use super::{PipelinedTiming, ports};
 use crate::rules::{Array, Rules, Unit};

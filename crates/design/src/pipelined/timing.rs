@@ -1,42 +1,47 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When a pipelined design says what: the numbers behind `docs/timing.md`.
+//! The timing of a pipelined design: the numbers behind `docs/timing.md`.
 
 use super::feature::score_latency;
 use crate::timing::Departure;
 use crate::{Filter, Neighborhood, PipelinedDesign, Pipelining, Timing};
 
-/// Registers between a median window and the stream that follows it, plain: window, result.
+/// Registers between a median window and the stream behind it in a plain design: window, result.
 const MEDIAN_REGISTERS: u32 = 2;
-/// Of a deep design: window, rows, result.
+/// Registers between a median window and the stream behind it in a deep design: window, rows,
+/// result.
 const DEEP_MEDIAN_REGISTERS: u32 = 3;
-/// Clocks from the step of the last pixel until the temporal count is final, plain: the count.
+/// Clocks from the step of the last pixel until the temporal count is final in a plain design: the
+/// count.
 const COUNT_LATENCY: u32 = 1;
-/// Of a deep design: pixel, difference, count.
+/// Clocks from the step of the last pixel until the temporal count is final in a deep design:
+/// pixel, difference, count.
 const DEEP_COUNT_LATENCY: u32 = 3;
 
 /// Latencies of a pipelined RPU, in clocks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PipelinedTiming {
-    /// Pixels of a region's stream, halo included; with one pixel per clock also the clocks from
-    /// one frame to the next (the initiation interval).
+    /// Pixels of the stream of a region, halo included. With one pixel per clock they are also the
+    /// clocks from one frame to the next (the initiation interval).
     pub cycles_per_frame: u32,
     /// Clock edges from the one that takes the last pixel of a frame to the one after which
-    /// `decision_valid_o` is high, when nothing follows or the next frame follows without a gap.
-    /// With `decision_frames` = 1 it is counted from the last pixel of the next frame.
+    /// `decision_valid_o` is 1, when no frame follows or the next frame follows without a gap. With
+    /// `decision_frames` = 1 they are counted from the last pixel of the next frame.
     pub decision_latency: u32,
-    /// Frames that must follow before a decision is known: 1 where a feature needs a second pass.
+    /// Number of frames that must follow before a decision is known: 1 if a feature needs a second
+    /// pass, else 0.
     pub decision_frames: u32,
-    /// Frames that must follow before an active region's pixels leave: they leave while the
-    /// frame enters the store that many frames later.
+    /// Number of frames that must follow before the pixels of an active region leave. They leave
+    /// while the last of these frames enters the frame store.
     pub forward_frames: u32,
-    /// Clocks from the step of a median window to the edge at which the next stage takes its result.
+    /// Clocks from the step of a median window to the edge at which the next stage takes its
+    /// result.
     pub median_registers: u32,
     /// Clocks from a step of the last window to its tail step.
     pub tail_delay: u32,
 }
 
 impl PipelinedTiming {
-    /// The latencies of the design.
+    /// Returns the latencies of the design.
     #[must_use]
     pub fn of(design: PipelinedDesign<'_>) -> Self {
         let flush = match design.neighborhood() {
@@ -49,7 +54,7 @@ impl PipelinedTiming {
             Pipelining::Deep => (DEEP_MEDIAN_REGISTERS, DEEP_COUNT_LATENCY),
         };
         let latencies = design.features().iter().map(|f| score_latency(f.kind(), pipelining));
-        // The tail is so late that every score is final when it is done.
+        // The tail is delayed so far that every score is final when the frame is done.
         let tail_delay = latencies.fold(count_latency, u32::max) - 1;
         let median = match design.filter() {
             Filter::None => 0,
@@ -67,7 +72,7 @@ impl PipelinedTiming {
         }
     }
 
-    /// What every organization answers.
+    /// Returns the timing in terms that every organization has.
     pub(super) fn answers(&self) -> Timing {
         let of = if self.decision_frames == 0 { "" } else { " of the next frame" };
         let which = if self.forward_frames == 1 { "next frame" } else { "next frame but one" };
@@ -94,7 +99,8 @@ impl PipelinedTiming {
                 decision_frames: self.decision_frames,
                 decision_clocks: self.decision_latency.into(),
                 forward_frames: self.forward_frames,
-                // The last pixel leaves at the tail step that ends the later frame, as a decision does.
+                // The last pixel leaves at the tail step that ends the later frame, which is also
+                // the step of a decision.
                 forward_clocks: self.decision_latency.into(),
                 slot_clocks: 0,
                 kept_rows: None,

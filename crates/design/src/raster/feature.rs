@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a raster core makes the score of a feature of: which sums it keeps per region, and how long the score takes.
+//! The sums that a raster core stores per region for the score of a feature, and the latency of the
+//! score.
 
 use foveate_camera::{FeatureKind, Mean, SpatialFeature, Variance};
 
-/// What is summed over the pixels of a region, while they come or in a pass behind them.
+/// The sum over the pixels of a region that a feature needs. It is formed while the pixels come, or
+/// in a second pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SummedUp<'a> {
-    /// Pixels whose window is a hit.
+    /// The number of pixels whose window is a hit.
     Hits,
-    /// Pixels, and then their distances from the mean, in a second pass.
+    /// The sum of the pixels, and in a second pass the sum of their distances from the mean.
     Deviations(&'a Mean),
-    /// Pixels and their squares.
+    /// The sums of the pixels and of their squares.
     Squares(&'a Variance),
 }
 
 impl<'a> SummedUp<'a> {
-    /// That of a feature.
+    /// Returns the sum that a feature needs.
     pub(super) fn of(feature: &'a SpatialFeature) -> Self {
         match feature.kind() {
             FeatureKind::Edge | FeatureKind::Corner => Self::Hits,
@@ -26,10 +28,11 @@ impl<'a> SummedUp<'a> {
         }
     }
 
-    /// Clocks from the sums of a region to a score that is not one of them.
+    /// Returns the clocks from the sums of a region to its score, or 0 if the score is one of the
+    /// sums.
     pub(super) fn score_latency(self) -> u32 {
         match self {
-            // The latency of the second pass is a number of its own.
+            // The latency of the second pass is counted separately.
             Self::Hits | Self::Deviations(_) => 0,
             Self::Squares(_) => 3,
         }

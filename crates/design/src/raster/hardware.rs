@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a raster core has of its own, and which frames and keys of a configuration it takes.
+//! The properties of a raster core, and the frames and keys that it supports.
 
 use crate::takes::Takes;
 use crate::{Bus, HardwareConfig, Organization, Pipelining, Store, Thresholds};
@@ -7,27 +7,27 @@ use foveate_camera::{
     Camera, ConfigError, FeatureKind, Irrelevant, Periphery, Reference, in_range,
 };
 
-/// Pixels that a word may have.
+/// Valid numbers of pixels per word.
 const WORDS: [u32; 3] = [1, 2, 4];
-/// Fewest regions side by side.
+/// Smallest number of regions in a row of regions.
 const MIN_COLUMNS: u32 = 4;
-/// Fewest words of a row of the padded frame.
+/// Smallest number of words in a row of the padded frame.
 const MIN_ROW_WORDS: u32 = 16;
-/// Widest frame in pixels.
+/// Largest width of a frame in pixels.
 const MAX_WIDTH: u32 = 8192;
 
-/// What a raster core has of its own.
+/// The properties that only a raster core has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Raster {
-    /// Pixels that it takes at a clock, K: 1, 2 or 4.
+    /// Pixels that the core takes per clock, K: 1, 2 or 4.
     pub pixels_per_clock: u32,
-    /// How finely the arithmetic is cut by registers.
+    /// The number of registers in the arithmetic.
     pub pipelining: Pipelining,
-    /// Where the frame store is, and of what it is built.
+    /// The memory of the frame store.
     pub store: Store,
-    /// Whether the pixels of active regions leave.
+    /// True if the pixels of active regions leave.
     pub forwards: bool,
-    /// How the core is connected to what is around it.
+    /// The interface by which the core is connected.
     pub bus: Bus,
 }
 
@@ -63,7 +63,7 @@ impl Takes for Raster {
     }
 
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Values without a name are refused before, or were asked for.
+        // The keys that are ignored here have been checked before.
         let &HardwareConfig {
             pixels_per_clock,
             pipelining,
@@ -107,7 +107,8 @@ impl Takes for Raster {
 }
 
 impl Raster {
-    /// `[hardware]`. That pixels leave by ports is left out, so that designs have the fingerprints from before there was the key.
+    /// Returns the table `[hardware]`. `forward` and `interface` are left out while they have their
+    /// defaults, so that the fingerprint of a design is the same as before the keys existed.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {
             organization: Organization::Raster,
@@ -121,7 +122,7 @@ impl Raster {
     }
 }
 
-/// Refuses words that do not fill the rows of a region.
+/// Refuses a number of pixels per word that does not divide the rows of a region.
 fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), ConfigError> {
     let key = "hardware.pixels_per_clock";
     if !WORDS.contains(&pixels) {
@@ -138,7 +139,7 @@ fn check_word(asked: &HardwareConfig, pixels: u32, size: u32) -> Result<(), Conf
     Err(asked.clash(key, pixels.to_string(), &remedy))
 }
 
-/// Refuses packets without pixels.
+/// Refuses the AXI interface without forwarding, because its packets carry pixels.
 fn check_bus(asked: &HardwareConfig) -> Result<(), ConfigError> {
     match asked.interface.unwrap_or_default() {
         Bus::Axi if asked.forward == Some(false) => Err(ConfigError::Combination {
@@ -153,10 +154,11 @@ fn check_bus(asked: &HardwareConfig) -> Result<(), ConfigError> {
     }
 }
 
-/// Refuses stores that cannot keep the reference.
+/// Refuses a frame store that cannot store the reference.
 fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), ConfigError> {
     match reference {
-        // What is stored anyway is the reference of the next frame.
+        // The scored pixels are written to the store in any case. They are the reference of the
+        // next frame.
         Reference::Previous => return Ok(()),
         Reference::LastSent => {}
     }
@@ -183,7 +185,8 @@ fn check_reference(asked: &HardwareConfig, reference: Reference) -> Result<(), C
     }
 }
 
-/// Refuses words of two blocks, and screens that show what never left.
+/// Refuses words that span two blocks, and summaries without forwarding, because the screen shows
+/// only what has left the core.
 fn check_summaries(
     asked: &HardwareConfig,
     pixels: u32,
@@ -209,7 +212,8 @@ fn check_summaries(
     clash("hardware.pixels_per_clock", pixels.to_string(), with, remedy)
 }
 
-/// The fewest regions side by side, for regions and words of so many pixels.
+/// Returns the smallest number of regions in a row of regions, for regions of `size` x `size`
+/// pixels and words of `pixels` pixels.
 pub(super) fn least_columns(size: u32, pixels: u32) -> u32 {
     (MIN_ROW_WORDS * pixels).div_ceil(size).max(MIN_COLUMNS)
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memories of a raster core, as its Verilog declares them: each has a port to write and a port to read, but a
-//! store of a single one.
+//! The memories of a raster core, as its Verilog declares them. Each memory has a write port and a
+//! read port, except a single-port frame store.
 
 use super::RasterTiming;
 use super::feature::SummedUp;
@@ -9,28 +9,28 @@ use crate::{
     index_bits,
 };
 
-/// Bits of the row of regions that waits in a queue, modulo 8.
+/// Bits of the number of a row of regions in a queue, modulo 8.
 const ROW_BITS: u32 = 3;
 
 /// A memory of a raster core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RasterMemory {
-    /// What it holds, for people.
+    /// Contents of the memory in words for users.
     pub holds: &'static str,
-    /// Words.
+    /// Number of words.
     pub words: u64,
-    /// Bits of a word.
+    /// Width of a word in bits.
     pub bits: u32,
 }
 
 impl RasterMemory {
-    /// All bits.
+    /// Returns the size of the memory in bits.
     #[must_use]
     pub fn total_bits(&self) -> u64 {
         self.words * u64::from(self.bits)
     }
 
-    /// The frame store of the design; none where it is outside of the core.
+    /// Returns the frame store of the design, or `None` if it is outside of the core.
     #[must_use]
     pub fn store_of(design: RasterDesign<'_>) -> Option<Self> {
         let words = RasterTiming::of(design).words();
@@ -44,7 +44,7 @@ impl RasterMemory {
         Some(Self { holds: "references: the frame store", words, bits })
     }
 
-    /// The memories of the design; a frame store inside first.
+    /// Returns all memories of the design. A frame store inside of the core comes first.
     #[must_use]
     pub fn all_of(design: RasterDesign<'_>) -> Vec<Self> {
         let sizes = Sizes::of(design);
@@ -60,17 +60,17 @@ impl RasterMemory {
     }
 }
 
-/// What the sizes of the memories are made of.
+/// The numbers that the sizes of the memories are derived from.
 struct Sizes {
     timing: RasterTiming,
-    /// Bits of a word of pixels.
+    /// Width of a word of pixels in bits.
     word: u32,
-    /// Words of the buffer for pixels that leave.
+    /// Number of words of the buffer for pixels that leave.
     buffer: u64,
     columns: u64,
     regions: u64,
     reference: Reference,
-    /// Features that count hits.
+    /// Number of features that count hits.
     hits: u32,
 }
 
@@ -94,7 +94,7 @@ impl Sizes {
         }
     }
 
-    /// Frame store and buffers.
+    /// Returns the frame store and the buffers of pixels.
     fn pixels(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let buffer = |holds| RasterMemory { holds, words: self.buffer, bits: self.word };
         let mut list: Vec<_> = RasterMemory::store_of(design).into_iter().collect();
@@ -114,7 +114,7 @@ impl Sizes {
         list
     }
 
-    /// Rows of pixels in front of the windows.
+    /// Returns the buffers of rows of pixels in front of the windows.
     fn rows(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let row = |holds, bits| RasterMemory { holds, words: self.timing.row_words.into(), bits };
         let mut list = Vec::new();
@@ -133,7 +133,7 @@ impl Sizes {
         list
     }
 
-    /// Scores of the regions of a row.
+    /// Returns the memories of the scores of a row of regions.
     fn scores(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let side = u64::from(design.region_size());
         let column = |holds, bits| RasterMemory { holds, words: self.columns, bits };
@@ -152,11 +152,12 @@ impl Sizes {
         list
     }
 
-    /// Means of blocks: being summed, ready to leave, and those that the screen shows.
+    /// Returns the memories of the means of blocks: means that are being summed, means that are
+    /// ready to leave, and means that the screen shows.
     fn means(&self, periphery: &Periphery, design: &Design) -> Vec<RasterMemory> {
         let (side, means) = (u64::from(periphery.blocks), u64::from(periphery.means()));
         let pixel = design.pixel_bits();
-        // The low bits of their numbers tell regions of a row apart, and rows of regions.
+        // The low bits of the numbers of columns and rows of regions tell the entries apart.
         let rows = u64::from(self.timing.buffer_rows).next_power_of_two();
         let columns = self.columns.next_power_of_two();
         let shown = |holds| RasterMemory { holds, words: self.regions, bits: 1 };
@@ -181,23 +182,23 @@ impl Sizes {
         ]
     }
 
-    /// Bits of the number of a frame that wait with its region. The row of regions that is decided is up to B behind it,
-    /// and the frame of that is known.
+    /// Returns the bits of the frame number that a queue entry stores. The row of regions that is
+    /// decided is at most B rows ahead of the entry, and its frame number is known.
     fn frame_bits(&self, design: RasterDesign<'_>) -> u32 {
         if design.rows() < self.timing.buffer_rows { 2 } else { 1 }
     }
 
-    /// Regions that wait, and which regions have a reference.
+    /// Returns the queues of regions, and the flags of regions with a valid reference.
     fn queues(&self, design: RasterDesign<'_>) -> Vec<RasterMemory> {
         let waiting = 1 << index_bits(u64::from(self.timing.buffer_rows) * self.columns);
         let queue = |holds, bits| RasterMemory { holds, words: waiting, bits };
         let start = index_bits(self.buffer);
-        // Where it is written, and whether.
+        // An entry stores the address at which the reference is written, and whether it is written.
         let reference = match self.reference.written() {
             Written::WithEveryFrame => 0,
             Written::WhenSent => index_bits(self.timing.words()) + 1,
         };
-        // Whether its means leave.
+        // An entry stores whether the means of the region leave.
         let summary = u32::from(design.periphery().is_some());
         let mut list = Vec::new();
         if design.forwards() {

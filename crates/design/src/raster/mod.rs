@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The raster organization: one core for all regions, K pixels at every clock; the numbers behind
-//! `docs/raster.md`.
+//! The raster organization: one core for all regions, which takes K pixels per clock. The numbers
+//! are those of `docs/raster.md`.
 
 mod feature;
 mod hardware;

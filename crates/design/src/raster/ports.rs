@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The interface of a raster core: which streams there are depends on where the frame store is, and on whether pixels leave.
+//! The interface of a raster core. Its streams depend on the frame store and on whether pixels
+//! leave.
 
 use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
 use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
 use crate::{Design, Direction, Port, PortRole, RasterDesign};
 
-/// Bits of `lost_count_o`, which stays at its largest value.
+/// Bits of `lost_count_o`, which stays at its largest value once it has reached it.
 const LOST_COUNT_BITS: u32 = 16;
 
-/// Frames since reset are counted modulo this, a power of two: a receiver tells frames apart by their numbers if it stalls,
-/// or if nothing changes, for fewer of them.
+/// Modulus of the number of a frame since reset, a power of two. A receiver can tell frames apart
+/// by their numbers if, while it stalls or while nothing changes, fewer frames than this pass.
 pub const FRAME_NUMBERS: u32 = 256;
 
-/// The interface of the core.
+/// Returns the interface of the core.
 pub(super) fn interface(design: RasterDesign<'_>) -> Interface {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let mut streams = vec![pixels(&design, word)];
@@ -59,7 +60,7 @@ fn pixels(design: &Design, word: u32) -> Stream {
     }
 }
 
-/// The stream from a frame store outside.
+/// Returns the stream of references from an external frame store.
 fn references(word: u32) -> Stream {
     let ready = "reference_pixel_i is taken at the next edge";
     let underrun = "a reference was missing since reset";
@@ -76,7 +77,7 @@ fn references(word: u32) -> Stream {
     }
 }
 
-/// The stream to it.
+/// Returns the stream of words to an external frame store.
 fn stored(word: u32) -> Stream {
     let with = |role, width, doc| Port::with(PortRole::StoreValid, role, width, doc);
     Stream {

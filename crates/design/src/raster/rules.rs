@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a raster design answers; see [`crate::organization`].
+//! The implementation of [`crate::organization`] for raster designs.
 
 use super::hardware::least_columns;
 use super::{RasterTiming, ports::interface};
 use crate::rules::{Array, Rules, Unit};
 use crate::{Design, Interface, Organization, RasterDesign, Reference, Store, Timing};
 
-/// Regions one below the other of the lone core.
+/// Rows of regions of the lone core.
 const LONE_ROWS: u32 = 3;
 
 impl RasterDesign<'_> {
-    /// Pixels of a word K.
+    /// Returns the number of pixels of a word, K.
     #[must_use]
     pub fn pixels_per_clock(&self) -> u32 {
         self.own().pixels_per_clock
     }
 
-    /// Where the frame store is, and of what it is built.
+    /// Returns the memory of the frame store.
     #[must_use]
     pub fn store(&self) -> Store {
         self.own().store
     }
 
-    /// Whether every frame, as it is scored, goes to a store outside of the core, and comes back as the reference of the
-    /// next: a reference that keeps something else has no way there.
+    /// Returns true if the scored pixels of every frame go to a store outside of the core and come
+    /// back as the reference of the next frame. A reference of other pixels cannot be stored there.
     #[must_use]
     pub fn frames_are_kept_outside(&self) -> bool {
         match (self.store(), self.temporal().reference) {
@@ -44,12 +44,12 @@ impl Rules for RasterDesign<'_> {
             count: 1,
             regions: self.regions(),
             array: Array::Whole,
-            // The core by itself has the numbers of no design.
+            // The raster core alone is not the whole design, so its area is not that of the design.
             split: "rcm",
         }
     }
 
-    /// The core for the smallest frame that it takes.
+    /// Returns the core for the smallest frame that the organization supports.
     fn lone_unit(&self) -> Design {
         let size = self.region_size();
         let columns = least_columns(size, self.pixels_per_clock());

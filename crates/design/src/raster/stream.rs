@@ -1,50 +1,56 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When a raster core says what, behind a sensor and in front of a sink that is always ready: the rules of
-//! `docs/raster.md`, row of regions by row of regions.
+//! The times of decisions and forwarded words of a raster core, by the rules of `docs/raster.md`.
+//! They are computed per row of regions, behind a sensor and in front of a sink that is always
+//! ready.
 //!
-//! The core takes a word as soon as the sensor has read it, unless it still has words of its own to make. So
-//! decisions fall at the sensor's rate, and the words of active regions leave at that of the clock. Times are in
-//! *ticks*, of which a clock has any number: a sensor need not know the clock. A word that comes between two edges
-//! is taken when it comes; up to a clock more, until the next edge, is left out.
+//! The core takes a word as soon as the sensor has read it out, unless it still has to make words
+//! of its own. So decisions come at the rate of the sensor, and the words of active regions leave
+//! at the rate of the clock. Times are in *ticks*. A clock period has any number of ticks, because
+//! the sensor need not be synchronous to the clock. A word that comes between two edges is taken
+//! when it comes; the delay until the next edge, less than one clock, is neglected.
 
 use crate::{Action, RasterTiming};
 
-/// A raster core, frame after frame.
+/// The state of a raster core from frame to frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RasterStream {
     timing: RasterTiming,
     clock: u128,
-    /// When `ready_o` is 1 again: the next word is taken a clock later at the earliest.
+    /// Time at which `ready_o` is 1 again. The next word is taken one clock later at the earliest.
     ready: u128,
-    /// The last edge of the second pass before.
+    /// Time of the last edge of the latest second pass.
     passed: u128,
-    /// When the readout can hold the next region, having held one not long ago.
+    /// Earliest time at which the readout can hold the next region, because of the region that it
+    /// held last.
     rested: u128,
-    /// When the readout has fetched the last word of the region before.
+    /// Time at which the readout fetches the last word of the latest region.
     fetched: u128,
 }
 
-/// What of a frame leaves when.
+/// The times at which the output of a row of regions leaves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RowDeparture {
-    /// When the last decision of a row of regions is on the ports.
+    /// Time at which the last decision of the row of regions is on the ports.
     pub decided: u128,
-    /// When the last word of its regions is; none where none of them sends pixels or means.
+    /// Time at which the last word of its regions is on the ports, or `None` if no region of the
+    /// row sends pixels or means.
     pub left: Option<u128>,
 }
 
-/// The edges of the advances of a frame.
+/// The times of the advances of a frame.
 struct Edges<R> {
     timing: RasterTiming,
     clock: u128,
-    /// When the sensor begins a row, and when it has read it.
+    /// Returns the times at which the sensor begins a row and at which it has read it out.
     read: R,
-    /// Of every row of the padded frame and of those that flush the windows: the edge of the advance before.
+    /// For every row of the padded frame, and for every row that flushes the windows: the time of
+    /// the advance before it.
     before: Vec<u128>,
 }
 
 impl<R: Fn(u32) -> (u128, u128)> Edges<R> {
-    /// When a word of a row comes, if nothing but the sensor and the words before it is waited for.
+    /// Returns the time at which the word of a row comes. It waits only for the sensor and for the
+    /// words before it.
     fn edge(&self, row: u32, word: u32) -> u128 {
         let before = self.before[row as usize];
         let clocks = |words: u32| u128::from(words) * self.clock;
@@ -57,11 +63,11 @@ impl<R: Fn(u32) -> (u128, u128)> Edges<R> {
             let part = (end - begin) * u128::from(word + 1);
             begin + part.div_ceil(self.timing.taken_words.into())
         };
-        // What lies beyond the frame the core makes at every clock.
+        // The core makes the words beyond the frame, one at every clock.
         come(last).max(before + clocks(last + 1)) + clocks(word - last)
     }
 
-    /// When word `number` of the advances comes.
+    /// Returns the time of advance `number`.
     fn of(&self, number: u64) -> u128 {
         let row = u64::from(self.timing.row_words);
         let narrow = |value| u32::try_from(value).expect("a row and a word have 32 bits");
@@ -70,17 +76,19 @@ impl<R: Fn(u32) -> (u128, u128)> Edges<R> {
 }
 
 impl RasterStream {
-    /// A core after reset, with a clock of so many ticks: none for a core that takes no time.
+    /// Makes a core after reset whose clock period is `clock` ticks. With 0 ticks the core itself
+    /// takes no time.
     #[must_use]
     pub fn new(timing: RasterTiming, clock: u128) -> Self {
         Self { timing, clock, ready: 0, passed: 0, rested: 0, fetched: 0 }
     }
 
-    /// The next frame. `read` says of every row when the sensor begins it and when it has read it; the words of a
-    /// row come evenly in between, at most one at every clock. Answers for every row of regions.
+    /// Computes the next frame, and returns the times of every row of regions. `read` returns the
+    /// times at which the sensor begins a row and at which it has read it out. The words of a row
+    /// come at equal distances in between, at most one per clock.
     ///
     /// # Panics
-    /// When there is not one action per region.
+    /// Panics if there is not one action per region.
     pub fn frame(
         &mut self,
         read: impl Fn(u32) -> (u128, u128),
@@ -127,7 +135,7 @@ impl RasterStream {
         edges
     }
 
-    /// When a region is decided whose last word comes to the tail at `edge`.
+    /// Returns the time of the decision of a region whose last word reaches the tail at `edge`.
     fn decide(&mut self, edge: u128) -> u128 {
         let timing = self.timing;
         let Some(pass) = timing.second_pass else {
@@ -140,9 +148,10 @@ impl RasterStream {
         self.passed + self.clocks(pass.decision_latency.into())
     }
 
-    /// When the last of so many words of a region leaves. It is held from the edge on at which the last word of the
-    /// region before is fetched, or later; its own are fetched at the edges after that. A word is on the ports a
-    /// clock after it was fetched.
+    /// Returns the time at which the last of `words` words of a region leaves. The readout starts
+    /// to hold the region at the edge at which it fetches the last word of the region before, or
+    /// later. It fetches the words of the region at the edges after that. A word is on the ports
+    /// one clock after it was fetched.
     fn leave(&mut self, decided: u128, words: u32) -> u128 {
         let entered = decided + self.clock;
         let oldest = entered + self.clocks(self.timing.queue_latency.into());

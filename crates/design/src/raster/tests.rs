@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers of `docs/raster.md`, worked out by hand, and what the organization takes and refuses.
+//! Tests of the numbers of `docs/raster.md`, computed by hand, and of the configurations that the
+//! organization accepts and refuses.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod stores;
@@ -36,14 +37,15 @@ fn a_frame_of_full_hd_takes_what_the_page_says() {
     assert_eq!(answers.pixels_per_frame(), 2_073_600);
     let departure = answers.departure();
     assert_eq!((departure.take_clocks, departure.decision_clocks), (2_073_600, 3_853));
-    // The first region of the last row is decided at 3842 - 1920 + 8 + 11 = 1941. Its words are on the
-    // ports from 1946 on, and 15,360 words follow each other.
+    // The first region of the last row is decided at 3842 - 1920 + 8 + 11 = 1941. Its words are on
+    // the ports from 1946 on, and the 15,360 words of the row follow each other without a gap.
     assert_eq!(departure.forward_clocks, 1_946 + 15_360 - 1);
     assert_eq!((departure.decision_frames, departure.forward_frames), (0, 0));
     assert_eq!((departure.slot_clocks, departure.alone), (0, false));
 }
 
-/// 61x37 pixels: 8x5 regions of 8x8, rows of 16 words, all of them taken; three rows are added below.
+/// The frame has 61x37 pixels: 8x5 regions of 8x8 pixels. Its rows have 16 words, all of which are
+/// taken. The core adds three rows below.
 #[test]
 fn the_second_pass_of_a_ragged_frame() {
     let design = design(&[
@@ -61,14 +63,16 @@ fn the_second_pass_of_a_ragged_frame() {
     assert_eq!((timing.buffer_rows, timing.region_words), (3, 16));
     assert_eq!((timing.advances(), timing.flush_clocks()), (640, 48));
     assert_eq!((timing.taken(), timing.clocks_per_frame()), (37 * 16, 653));
-    // The last word of the first region of the last row comes at T0 + 48 - 14, its pass begins 16 later;
-    // the eight passes take 128 clocks, and the decision comes 6 after the last edge.
+    // The last word of the first region of the last row comes at T0 + 48 - 14, and its pass begins
+    // 16 clocks later. The eight passes take 128 clocks, and the decision comes 6 clocks after the
+    // last edge.
     let departure = design.timing().departure();
     assert_eq!(departure.decision_clocks, 34 + 16 + 127 + 6);
     assert_eq!(departure.forward_clocks, 183 + 6 + 15);
 }
 
-/// 50x20 pixels in words of two: 7x3 regions; three words of a row and four rows are made by the core.
+/// The frame has 50x20 pixels in words of two pixels: 7x3 regions. The core makes three words of a
+/// row and four rows.
 #[test]
 fn a_frame_takes_its_words_and_what_the_core_adds() {
     let overrides = [
@@ -87,8 +91,9 @@ fn a_frame_takes_its_words_and_what_the_core_adds() {
     assert_eq!(timing.edges_to_ready(), 157);
 }
 
-/// What a source and a sink must keep to: 3,853 clocks are three rows of 1,920 and a little less; of the ragged
-/// frame below 157 clocks less the 3 of the last row are six of 28.
+/// A source must leave rows between frames: 3,853 clocks are a little more than two rows of 1,920
+/// clocks, so three rows. For the ragged frame, 157 clocks less the 3 clocks of the last row need
+/// six rows of 28 clocks. A sink may stall for less than a row.
 #[test]
 fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row() {
     let full_hd =
@@ -115,7 +120,8 @@ fn a_source_leaves_rows_between_frames_and_a_sink_may_stall_for_less_than_a_row(
     assert_eq!(mad(&["hardware.pipelining=deep"]), 9 * 64 - 72 - 21);
 }
 
-/// 64x64 pixels with edges and a median: three rows of windows and counts, two rows of regions, a frame.
+/// The frame has 64x64 pixels, with edges and a median. The memories hold the frame store, two rows
+/// of regions, two rows of pixels for each of two windows, the counts, and the queue.
 #[test]
 fn memories_of_the_paper_on_a_small_frame() {
     let of = |more: &[&str]| {
@@ -123,14 +129,15 @@ fn memories_of_the_paper_on_a_small_frame() {
         let memories = RasterMemory::all_of(design(&[&frame, more].concat()).raster().unwrap());
         memories.iter().map(|memory| (memory.words, memory.bits)).collect::<Vec<_>>()
     };
-    // A queue entry: 3 bits of the row, 6 of the region, 10 of the place in the buffer, 1 of the frame.
+    // A queue entry has 3 bits of the row of regions, 6 of the region number, 10 of the address in
+    // the buffer, and 1 of the frame number.
     let plain = [(4096, 8), (1024, 8), (64, 16), (64, 16), (8, 12), (16, 20)];
     assert_eq!(of(&[]), plain);
     let sent = of(&["temporal.reference=last-sent", "render.payload=raw"]);
     let raw = [(4096, 8), (1024, 8), (1024, 8), (64, 16), (64, 16), (64, 8), (8, 12)];
-    // 13 bits of the place in the frame and its mark.
+    // A queue entry has 13 more bits: the address in the frame store and a flag.
     assert_eq!(sent, [&raw[..], &[(16, 33), (64, 1), (64, 1)]].concat());
-    // Frames of few rows of regions have more bits of the frame.
+    // A frame with few rows of regions has more bits of the frame number.
     for (height, bits) in [(24, 18 + 1), (16, 17 + 1), (8, 16 + 2)] {
         let low = RasterMemory::all_of(
             design(&["frame.width=64", &format!("frame.height={height}")]).raster().unwrap(),
@@ -286,7 +293,8 @@ fn frames_that_the_core_cannot_take_are_refused() {
     design(&["frame.width=29", "region.size=4", "hardware.pixels_per_clock=2"]);
 }
 
-/// Name, width, and what says when it means something.
+/// Each entry is the name and the width of a port. The condition under which a port has a meaning
+/// is checked below.
 #[test]
 fn ports_stand_in_the_order_of_the_page() {
     let design = design(&[

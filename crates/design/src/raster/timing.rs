@@ -1,64 +1,68 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When a raster core does what: the numbers of `docs/raster.md`.
+//! The timing of a raster core: the numbers of `docs/raster.md`.
 
 use super::feature::SummedUp;
 use crate::timing::Departure;
 use crate::{Action, Filter, Periphery, Pipelining, RasterDesign, Timing, Written};
 
-/// Clocks of a stalling sink that the readout needs for itself, without a second pass, beside those of the queue.
+/// Clocks by which a stall must be shorter because of the readout itself, in addition to those of
+/// the queue, without a second pass.
 const STALL_MARGIN: u32 = 1;
 
-/// The numbers of a raster core.
+/// The timing of a raster core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RasterTiming {
-    /// K: pixels of a word.
+    /// Pixels of a word, K.
     pub word_pixels: u32,
-    /// L: words of a row of the padded frame.
+    /// Words of a row of the padded frame, L.
     pub row_words: u32,
-    /// V: words of a row that are taken.
+    /// Words of a row that are taken, V.
     pub taken_words: u32,
     /// Rows of the frame, H.
     pub taken_rows: u32,
     /// Rows of the padded frame, R*N.
     pub rows: u32,
-    /// N/K: words of a row of a region.
+    /// Words of a row of a region, N/K.
     pub region_row_words: u32,
-    /// n/K: words of a region.
+    /// Words of a region, n/K.
     pub region_words: u32,
-    /// w: windows that a word passes.
+    /// Number of windows that a word passes, w.
     pub windows: u32,
-    /// S: clocks from the advance of a word in the tail to its storing.
+    /// Clocks from the advance of a word in the tail until it is stored, S.
     pub store_latency: u32,
-    /// Clocks from the advance of a word in the tail to the edge at which its reference is taken, where the
-    /// frame store is outside of the core.
+    /// Clocks from the advance of a word in the tail to the edge at which its reference is taken
+    /// from an external frame store.
     pub lookup_latency: u32,
-    /// D: clocks from the advance of the last word of a region in the tail to its decision.
+    /// Clocks from the advance of the last word of a region in the tail to its decision, D.
     pub decision_latency: u32,
-    /// B: rows of regions whose pixels are kept; 0 where nobody reads them back.
+    /// Rows of regions whose pixels are buffered, B, or 0 if the buffer is not needed.
     pub buffer_rows: u32,
-    /// Clocks from the entering of an active region into the queue to its holding, at least.
+    /// Least number of clocks from the edge at which an active region enters the queue to the edge
+    /// at which the readout holds it.
     pub queue_latency: u32,
-    /// Whether pixels leave.
+    /// True if the pixels of active regions leave.
     pub forwards: bool,
-    /// The second pass, of designs with `mad`.
+    /// The timing of the second pass, for designs with `mad` only.
     pub second_pass: Option<SecondPass>,
-    /// q*q: words of a region that sends its summary, of designs with a periphery.
+    /// Words of a region that sends its summary, q*q, for designs with a periphery only.
     pub summary_words: Option<u32>,
-    /// Whether a frame of at most B rows of regions waits until no region of the frame before is pending.
+    /// True if a frame waits until no region of the frame before is pending. The frame then has at
+    /// most B rows of regions.
     pub waits_for_pending: bool,
 }
 
-/// When the stored words of a region are read back.
+/// The timing of the second pass, which reads the stored words of a region back.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SecondPass {
-    /// Clocks from the storing of the region's last word to the first edge of its pass, at least.
+    /// Least number of clocks from the edge at which the last word of the region is stored to the
+    /// first edge of its pass.
     pub after_store: u32,
-    /// Clocks from the last edge of its pass to its decision.
+    /// Clocks from the last edge of the pass of a region to its decision.
     pub decision_latency: u32,
 }
 
 impl RasterTiming {
-    /// The numbers of the design.
+    /// Returns the timing of the design.
     #[must_use]
     pub fn of(design: RasterDesign<'_>) -> Self {
         let word_pixels = design.pixels_per_clock();
@@ -84,7 +88,7 @@ impl RasterTiming {
             (None, true) => 2,
             (None, false) => 0,
         };
-        // What is sent of a frame is what the next one is compared with.
+        // The reference, or the summary on the screen, depends on what the frame before has sent.
         let compares_with_sent = match design.temporal().reference.written() {
             Written::WithEveryFrame => design.periphery().is_some(),
             Written::WhenSent => true,
@@ -110,54 +114,56 @@ impl RasterTiming {
         }
     }
 
-    /// Words of the padded frame, R*N*L.
+    /// Returns the number of words of the padded frame, R*N*L.
     #[must_use]
     pub fn words(&self) -> u64 {
         u64::from(self.rows) * u64::from(self.row_words)
     }
 
-    /// Words of a frame that are taken, H*V.
+    /// Returns the number of words of a frame that are taken, H*V.
     #[must_use]
     pub fn taken(&self) -> u64 {
         u64::from(self.taken_rows) * u64::from(self.taken_words)
     }
 
-    /// Advances from a word to its place in the tail, w (L + 1): a(i) = i + this.
+    /// Returns the advances from a word to its position in the tail, w (L + 1): a(i) = i + w (L +
+    /// 1).
     #[must_use]
     pub fn tail_delay(&self) -> u64 {
         u64::from(self.windows) * (u64::from(self.row_words) + 1)
     }
 
-    /// A: advances of a frame.
+    /// Returns the number of advances of a frame, A.
     #[must_use]
     pub fn advances(&self) -> u64 {
         self.words() + self.tail_delay()
     }
 
-    /// Z: clocks from T0 to the last advance of the frame.
+    /// Returns the clocks from T0 to the last advance of the frame, Z.
     #[must_use]
     pub fn flush_clocks(&self) -> u64 {
         let (row, taken) = (u64::from(self.row_words), u64::from(self.taken_words));
         row - taken + u64::from(self.rows - self.taken_rows) * row + self.tail_delay()
     }
 
-    /// Clocks from T0 to the one after which `ready_o` is 1 again, Z + D; more where a frame waits for
-    /// pending regions.
+    /// Returns the clocks from T0 to the edge after which `ready_o` is 1 again, Z + D. There are
+    /// more where a frame waits for pending regions.
     #[must_use]
     pub fn edges_to_ready(&self) -> u64 {
         self.flush_clocks() + u64::from(self.decision_latency)
     }
 
-    /// Rows of L clocks that a source must leave between two frames so that no word of it waits: those of
-    /// [`Self::edges_to_ready`] but the rest of the last row.
+    /// Returns the number of rows of L clocks that a source must leave between two frames so that
+    /// none of its words waits. They cover the clocks of [`Self::edges_to_ready`], less the rest of
+    /// the last row.
     #[must_use]
     pub fn blank_rows(&self) -> u64 {
         let rest = u64::from(self.row_words - self.taken_words);
         (self.edges_to_ready() - rest).div_ceil(self.row_words.into())
     }
 
-    /// Clocks from the edge that takes the last word of a region, inside the frame, to its decision, where
-    /// words come at every clock and the second pass does not wait.
+    /// Returns the clocks from the edge that takes the last word of a region inside of the frame to
+    /// its decision. Words come at every clock, and the second pass does not wait.
     #[must_use]
     pub fn decided_after(&self) -> u64 {
         self.tail_delay()
@@ -167,8 +173,8 @@ impl RasterTiming {
             }
     }
 
-    /// Clocks for which a sink may stall in all without loss, while all regions are active and words come at
-    /// every clock.
+    /// Returns the largest number of clocks for which a sink may stall in all without loss, while
+    /// all regions are active and words come at every clock.
     #[must_use]
     pub fn stall_clocks(&self) -> u32 {
         let row = self.row_words;
@@ -189,7 +195,7 @@ impl RasterTiming {
         }
     }
 
-    /// Words of a region that leave with an action; none where none do.
+    /// Returns the number of words of a region that leave for an action, or `None` if none leave.
     #[must_use]
     pub fn words_sent(&self, action: Action) -> Option<u32> {
         match action {
@@ -199,29 +205,31 @@ impl RasterTiming {
         }
     }
 
-    /// Clocks from one frame to the next that follows at once; more where a frame waits for pending regions.
+    /// Returns the clocks from one frame to the next that follows at once. There are more where a
+    /// frame waits for pending regions.
     #[must_use]
     pub fn clocks_per_frame(&self) -> u64 {
         self.advances() + u64::from(self.decision_latency)
     }
 
-    /// The most clocks from one frame to the next that follows at once: all of its regions are active, and the next
-    /// frame waits for them where it has to.
+    /// Returns the largest number of clocks from one frame to the next that follows at once: all of
+    /// its regions are active, and the next frame waits for them if it must.
     #[must_use]
     pub fn most_clocks_per_frame(&self) -> u64 {
-        // The last word is taken at the edge after the one after which it is on the ports.
+        // The sink takes the last word at the edge after the one after which the word is on the
+        // ports.
         let left =
             if self.waits_for_pending { self.take_clocks() + self.last_word() + 1 } else { 0 };
         left.max(self.clocks_per_frame())
     }
 
-    /// Clocks from the first word of a frame that is taken to the last, if words come at every clock.
+    /// Returns the clocks in which the words of a frame are taken, if words come at every clock.
     fn take_clocks(&self) -> u64 {
         let whole = u64::from(self.taken_rows - 1) * u64::from(self.row_words);
         whole + u64::from(self.taken_words)
     }
 
-    /// What every organization answers.
+    /// Returns the timing in terms that every organization has.
     pub(super) fn answers(&self) -> Timing {
         let clocks = self.clocks_per_frame();
         let mut figures = vec![
@@ -275,23 +283,25 @@ impl RasterTiming {
         }
     }
 
-    /// Clocks from the advance of a region's last word in the tail to its decision, if its pass does not wait.
+    /// Returns the clocks from the advance of the last word of a region in the tail to its
+    /// decision, if its pass does not wait.
     fn stored_to_decided(&self, pass: SecondPass) -> u32 {
         self.store_latency + pass.after_store + self.region_words - 1 + pass.decision_latency
     }
 
-    /// Clocks from T0 to the advance of the last word of the first region of the last row of regions, and L
-    /// more, so that it is never negative. The last advance is that of the last region of that row.
+    /// Returns the clocks from T0 to the advance, in the tail, of the last word of the first region
+    /// of the last row of regions, plus L, so that the number is never negative. The last advance
+    /// is that of the last region of that row.
     fn first_of_last_row(&self) -> u64 {
         self.flush_clocks() + u64::from(self.region_row_words)
     }
 
-    /// Clocks from T0 to the last decision of the frame, where words have come at every clock.
+    /// Returns the clocks from T0 to the last decision of the frame, if words come at every clock.
     fn last_decision(&self) -> u64 {
         match self.second_pass {
             None => self.edges_to_ready(),
             Some(pass) => {
-                // The passes of a row of regions follow each other.
+                // The passes of the regions of a row follow each other without a gap.
                 let first = self.first_of_last_row() + u64::from(self.stored_to_decided(pass));
                 first + self.words_of_regions()
                     - u64::from(self.region_words)
@@ -300,19 +310,20 @@ impl RasterTiming {
         }
     }
 
-    /// Clocks from the decision of a region to its first word on the ports, where it does not wait: entering
-    /// the queue, leaving it, fetching.
+    /// Returns the clocks from the decision of a region to its first word on the ports, if it does
+    /// not wait: it enters the queue, leaves it, and the word is fetched.
     #[must_use]
     pub fn to_first_word(&self) -> u64 {
         u64::from(1 + self.queue_latency + 2)
     }
 
-    /// Clocks from T0 to the last word that leaves, if all regions of the last row are active and the sink
-    /// takes a word at every clock; to the last decision where no word leaves.
+    /// Returns the clocks from T0 to the last word that leaves, if all regions of the last row are
+    /// active and the sink takes a word at every clock. If no word leaves, the clocks end with the
+    /// last decision.
     fn last_word(&self) -> u64 {
         match self.second_pass {
             _ if !self.forwards => self.last_decision(),
-            // The words of a row of regions follow each other.
+            // The words of a row of regions follow each other without a gap.
             None => {
                 let first = self.first_of_last_row() + u64::from(self.decision_latency);
                 first + self.to_first_word() + self.words_of_regions()
@@ -325,7 +336,7 @@ impl RasterTiming {
         }
     }
 
-    /// Words of a row of regions, N*L.
+    /// Returns the number of words of a row of regions, N*L.
     fn words_of_regions(&self) -> u64 {
         let rows = u64::from(self.region_words / self.region_row_words);
         rows * u64::from(self.row_words)

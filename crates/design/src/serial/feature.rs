@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a feature takes in a serial array: the steps of its pass, the widths of the registers that it uses.
+//! The steps of the pass of a feature in a serial array, and the widths of the registers that it
+//! uses.
 
 use crate::{Design, FeatureKind, SpatialFeature};
 
-/// Steps of the pass of a feature.
+/// Returns the number of steps of the pass of a feature.
 pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
     let n = u64::from(design.region_pixels());
     let pixel_bits = u64::from(design.pixel_bits());
@@ -23,7 +24,8 @@ pub(super) fn pass_steps(design: &Design, feature: &SpatialFeature) -> u64 {
     }
 }
 
-/// Whether the lanes make the operand of the word first: a difference, or bits of it.
+/// Returns true if the lanes compute an operand from the word first: a difference, or some of its
+/// bits.
 pub(super) fn makes_operand(feature: &SpatialFeature) -> bool {
     match feature.kind() {
         FeatureKind::Edge | FeatureKind::Corner => false,
@@ -31,7 +33,7 @@ pub(super) fn makes_operand(feature: &SpatialFeature) -> bool {
     }
 }
 
-/// Bits that a feature needs of the registers; 0 where it does not use one.
+/// The widths of registers that a feature needs, in bits. A register that it does not use has 0.
 #[derive(Default)]
 pub(super) struct Needs {
     pub(super) accumulator: u32,
@@ -39,11 +41,12 @@ pub(super) struct Needs {
     pub(super) scale: u32,
 }
 
-/// The registers of a feature, in an array whose ring of lanes has words of `chain` bits.
+/// Returns the widths of the registers of a feature, in an array whose ring of lanes has words of
+/// `chain` bits.
 pub(super) fn needs(design: &Design, feature: &SpatialFeature, chain: u32) -> Needs {
     let pixel = design.pixel_bits();
     match feature.kind() {
-        // Three pixels less three others.
+        // The accumulator holds the sum of three pixels minus that of three others.
         FeatureKind::Edge => Needs { accumulator: pixel + 3, ..Needs::default() },
         FeatureKind::Corner => Needs::default(),
         FeatureKind::Mad => {
@@ -52,7 +55,7 @@ pub(super) fn needs(design: &Design, feature: &SpatialFeature, chain: u32) -> Ne
             Needs {
                 accumulator: (mean.dividend_bits + 1).max(chain),
                 second,
-                // The divisor.
+                // The scale holds the shifted divisor.
                 scale: design.count_bits() + second - 1,
             }
         }

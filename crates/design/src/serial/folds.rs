@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far a serial design can be folded before it is too slow, and which folds may be the cheapest.
+//! The folds of a serial design that are fast enough, and the ones among them that may be the
+//! cheapest.
 
 use super::{Phase, SerialTiming};
 use crate::{Design, Hardware, SerialDesign};
 use foveate_camera::ConfigError;
 
 impl Design {
-    /// The same design with another fold.
+    /// Returns the same design with another fold.
     ///
     /// # Errors
-    /// Where `fold` is not 1..=M, or more than 1 in an organization that does not fold.
+    /// Returns an error if `fold` is not in 1..=M, or is more than 1 in an organization without
+    /// folding.
     pub fn with_fold(&self, fold: u32) -> Result<Self, ConfigError> {
         let mut config = self.config();
         config.hardware.fold = fold;
         config.validate()
     }
 
-    /// The largest fold, hence the fewest lanes, with which the design takes at most `max_clocks` per
-    /// frame. Fold 1 is always the fastest: where it is too slow there is none, and there is none in an
-    /// organization that does not fold.
+    /// Returns the largest fold, and so the fewest lanes, with which the design takes at most
+    /// `max_clocks` clocks per frame. Fold 1 is always the fastest. Returns `None` if fold 1 is too
+    /// slow, or if the organization has no folding.
     #[must_use]
     pub fn largest_fold(&self, max_clocks: u64) -> Option<u32> {
         let single = self.with_fold(1).ok()?;
@@ -26,7 +28,7 @@ impl Design {
             Hardware::Serial(own) => SerialTiming::of(single.on(own)),
             Hardware::Pipelined(_) | Hardware::Raster(_) => return None,
         };
-        // What every slot takes at least, whatever the lanes.
+        // `least` is a lower bound of the steps of a slot, which holds for any number of lanes.
         let least: u64 = fastest.phases().iter().map(least_steps).sum();
         let most = u32::try_from(max_clocks / least.max(1)).unwrap_or(u32::MAX);
         let reaches = |fold: &u32| {
@@ -36,10 +38,12 @@ impl Design {
         (1..=most.min(self.regions())).rev().find(reaches)
     }
 
-    /// The folds that may be the cheapest with at most `max_clocks` per frame, that with the fewest lanes first. Lanes
-    /// are logic, and what else a fold costs are the block RAMs of their memories. So every fold that is not here has
-    /// no fewer lanes than one that is, and no fewer block RAMs. Of those with as many lanes it is the one that leaves
-    /// the fewest slots empty. Empty where [`Self::largest_fold`] is none.
+    /// Returns the folds that may be the cheapest with at most `max_clocks` clocks per frame, the
+    /// one with the fewest lanes first. The cost of a fold is the logic of its lanes and the block
+    /// RAMs of their memories. For every other fold that is fast enough there is one in the list
+    /// with no more lanes and no more block RAMs. Among folds with the same number of lanes, the
+    /// list has the one with the fewest empty slots. The list is empty if [`Self::largest_fold`]
+    /// returns `None`.
     #[must_use]
     pub fn frugal_folds(&self, max_clocks: u64) -> Vec<u32> {
         let Some(largest) = self.largest_fold(max_clocks) else { return Vec::new() };
@@ -54,7 +58,7 @@ impl Design {
                 Hardware::Serial(own) => lane_blocks(folded.on(own)),
                 Hardware::Pipelined(_) | Hardware::Raster(_) => return Vec::new(),
             };
-            // Fewer slots take fewer clocks, so it is fast enough.
+            // A fold with fewer slots takes fewer clocks, so this fold is fast enough.
             if blocks < fewest_blocks {
                 folds.push(fold);
                 fewest_blocks = blocks;
@@ -67,7 +71,7 @@ impl Design {
     }
 }
 
-/// RAMB18 of the memories of all lanes.
+/// Returns the number of RAMB18 in the memories of all lanes.
 fn lane_blocks(design: SerialDesign<'_>) -> u64 {
     let (_, blocks) = design.lane_memory().taken();
     blocks * u64::from(design.lanes())

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a serial array has of its own, and what of a configuration it takes.
+//! The properties of a serial array, and the configurations that it supports.
 
 use crate::takes::Takes;
 use crate::{Feed, HardwareConfig, MemoryKind, Organization, Pipelining, Thresholds};
 use foveate_camera::{Camera, ConfigError, FeatureKind, Irrelevant, Reference, in_range};
 
-/// Smallest side of a region.
+/// Smallest side of a region in pixels.
 const MIN_SIDE: u32 = 4;
 
-/// What a serial array has of its own.
+/// The properties that only a serial array has.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Serial {
     /// Regions per lane K.
     pub fold: u32,
-    /// How pixels enter.
+    /// The order in which pixels enter.
     pub feed: Feed,
-    /// Of what the memories of the lanes are to be built, where the configuration says so; see [`super::LaneMemory`].
+    /// The kind of memory of the lanes, if the configuration chooses it; see [`super::LaneMemory`].
     pub memory: Option<MemoryKind>,
-    /// How finely the arithmetic is cut by registers.
+    /// The number of registers in the arithmetic.
     pub pipelining: Pipelining,
 }
 
@@ -53,7 +53,7 @@ impl Takes for Serial {
     }
 
     fn validate(asked: &HardwareConfig, camera: &Camera) -> Result<Self, ConfigError> {
-        // Values without a name are refused before, or were asked for.
+        // The keys that are ignored here have been checked before.
         let &HardwareConfig {
             fold,
             feed,
@@ -84,7 +84,8 @@ impl Takes for Serial {
 }
 
 impl Serial {
-    /// `[hardware]`. A default is left out, so that designs have the fingerprints from before there was the key.
+    /// Returns the table `[hardware]`. `pipelining` is left out while it has its default, so that
+    /// the fingerprint of a design is the same as before the key existed.
     pub(crate) fn config(&self) -> HardwareConfig {
         HardwareConfig {
             organization: Organization::Serial,

@@ -1,27 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the sums of blocks become means: what of a sum leaves its lane, and what is done to that at the ports.
+//! The division of the sums of blocks by their numbers of pixels: the bits of a sum that leave a
+//! lane, and the arithmetic at the ports.
 
 use super::feature;
 use crate::SerialDesign;
 use foveate_camera::Reciprocal;
 
-/// Bits of the sum of a block on its way from the accumulator of a lane to a mean.
+/// The arithmetic that makes a mean of the sum of a block in the accumulator of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BlockSums {
-    /// Bits of the sum and of half of the block's pixels.
+    /// Bits of the sum of a block plus half of its number of pixels.
     pub sum: u32,
-    /// The lowest bits of it, which stay in the lane.
+    /// Number of low bits of the sum that stay in the lane.
     pub dropped: u32,
-    /// The others, which pass the ports.
+    /// Number of the other bits of the sum, which pass the ports.
     pub passing: u32,
-    /// The constant factor that what passes is multiplied with.
+    /// Constant factor of the bits that pass.
     pub factor: u64,
-    /// Bits that are dropped of the product.
+    /// Number of bits by which the product is shifted to the right.
     pub shift: u32,
 }
 
 impl BlockSums {
-    /// A lane whose score takes the accumulator as it is anyway, for a feature, drops nothing: it would need a
+    /// Makes the arithmetic for a sum of `sum` bits. With `takes_all`, a lane also moves its whole
+    /// accumulator to the score for a feature. It then drops no bits, because that would need a
     /// multiplexer.
     fn of(sum: u32, reciprocal: Reciprocal, takes_all: bool) -> Self {
         let is_shift = reciprocal.multiplier() == 1;
@@ -32,7 +34,7 @@ impl BlockSums {
 }
 
 impl SerialDesign<'_> {
-    /// The sums of blocks, where their means are sent.
+    /// Returns the arithmetic of the means of blocks, or `None` if no means are sent.
     #[must_use]
     pub fn block_sums(&self) -> Option<BlockSums> {
         let periphery = self.periphery()?;

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memory of a lane: which areas a slot has, where, and of what it is built.
+//! The memory of a lane: the areas of a slot, their addresses, and the kind of memory.
 
 use std::fmt;
 
 use crate::{Filter, MemoryKind, Reference, SerialDesign, index_bits};
 
-/// Memory LUTs up to which a lane's memory is distributed, unless the configuration says otherwise. A
-/// RAMB18 is to the VU9P's block RAM what 137 memory LUTs are to its distributed RAM.
+/// Largest number of memory LUTs of the distributed memory of a lane, unless the configuration
+/// chooses the kind. A RAMB18 is the same share of the block RAM of a VU9P as 137 memory LUTs are
+/// of its distributed RAM.
 const MAX_MEMORY_LUTS: u64 = 128;
-/// Words of one bit that a memory LUT holds.
+/// Number of words of one bit that a memory LUT holds.
 const LUT_WORDS: u64 = 64;
-/// Bits of a word of a RAMB18, and how many such words it holds. The ninth and the eighteenth bit come with the others.
+/// The shapes of a RAMB18: bits of a word, and number of words. Words of 9 and 18 bits include the
+/// parity bits.
 const RAMB18: [(u64, u64); 5] = [(1, 16_384), (2, 8_192), (4, 4_096), (9, 2_048), (18, 1_024)];
 
-/// What an area of a slot holds.
+/// The contents of an area of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum AreaKind {
-    /// Raw pixels with their halo, (N+2r)^2.
+    /// Raw pixels with their halo, (N+2r)^2 words.
     Raw,
-    /// Denoised pixels, S^2.
+    /// Denoised pixels, S^2 words.
     Denoised,
-    /// The region of the frame it is compared with, n.
+    /// The reference of the region, n words.
     Reference,
 }
 
@@ -34,19 +36,19 @@ impl fmt::Display for AreaKind {
     }
 }
 
-/// A square of pixels in a slot, row by row.
+/// An area of a slot: a square of pixels in row-major order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Area {
-    /// What it holds.
+    /// Contents of the area.
     pub kind: AreaKind,
-    /// Address of its first word in the slot.
+    /// Address of the first word of the area in its slot.
     pub base: u32,
-    /// Side of the square in pixels; a pixel is a word.
+    /// Side of the square in pixels. A pixel is one word.
     pub side: u32,
 }
 
 impl Area {
-    /// Words of the area.
+    /// Returns the number of words of the area.
     #[must_use]
     pub fn words(&self) -> u32 {
         self.side * self.side
@@ -54,7 +56,7 @@ impl Area {
 }
 
 impl MemoryKind {
-    /// Clocks from address to data.
+    /// Returns the clocks from an address to its data.
     #[must_use]
     pub fn read_latency(self) -> u32 {
         match self {
@@ -64,33 +66,35 @@ impl MemoryKind {
     }
 }
 
-/// The memory of one lane; words are pixels of P bits.
+/// The memory of one lane. Its words are pixels of P bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LaneMemory {
     /// The areas of a slot, one behind the other from address 0.
     pub areas: Vec<Area>,
-    /// Words of a slot: a power of two that holds the areas. Slot k starts at k times this.
+    /// Words of a slot: a power of two that is large enough for the areas. Slot k starts at address
+    /// k times this.
     pub slot_words: u32,
-    /// Words of the lane's memory, K times those of a slot.
+    /// Words of the memory of the lane: K times the words of a slot.
     pub depth: u64,
-    /// Bits of an address in it.
+    /// Bits of an address of the memory.
     pub address_bits: u32,
-    /// Memory LUTs that it takes as distributed memory.
+    /// Number of memory LUTs as distributed memory.
     pub luts: u64,
-    /// RAMB18 that it takes as block memory, if all of them have words of the same width.
+    /// Number of RAMB18 as block memory, all with words of the same width.
     pub blocks: u64,
-    /// Of what it is built.
+    /// The kind of memory.
     pub kind: MemoryKind,
-    /// Why of that.
+    /// The reason for the kind of memory.
     pub why: MemoryChoice,
 }
 
-/// Why a lane's memory is of its kind.
+/// The reason for the kind of memory of a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum MemoryChoice {
-    /// The configuration says so, `hardware.memory`.
+    /// The configuration chooses the kind with `hardware.memory`.
     Configured,
-    /// It says nothing: distributed memory while it takes at most so many memory LUTs, block above.
+    /// The configuration does not choose. The memory is distributed while it takes at most this
+    /// many memory LUTs, else block.
     Limit(u64),
 }
 
@@ -118,7 +122,7 @@ impl LaneMemory {
         }
         let slot_words = words.next_power_of_two();
         let depth = u64::from(design.fold()) * u64::from(slot_words);
-        // Words hold pixels, and of each what the reference keeps of it.
+        // A word holds a pixel or the part of it that the reference stores.
         let pixel = design.pixel_bits();
         let bits = u64::from(pixel.max(reference.bits_per_pixel(pixel)));
         let luts = bits * depth.div_ceil(LUT_WORDS);
@@ -134,7 +138,7 @@ impl LaneMemory {
         Self { areas, slot_words, depth, address_bits: index_bits(depth), luts, blocks, kind, why }
     }
 
-    /// Memory LUTs and RAMB18 that it takes, built as it is.
+    /// Returns the numbers of memory LUTs and of RAMB18 for the kind of memory that the lane has.
     #[must_use]
     pub fn taken(&self) -> (u64, u64) {
         match self.kind {
@@ -143,7 +147,7 @@ impl LaneMemory {
         }
     }
 
-    /// The area of that kind, if a slot has it.
+    /// Returns the area of that kind, or `None` if a slot does not have it.
     #[must_use]
     pub fn area(&self, kind: AreaKind) -> Option<&Area> {
         self.areas.iter().find(|area| area.kind == kind)

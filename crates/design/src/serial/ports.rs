@@ -5,7 +5,7 @@ use crate::interface::{BeatRegion, Interface, Stream, StreamRole};
 use crate::port::{decided_ports, sync_input, sync_output, threshold_ports};
 use crate::{Direction, Feed, Port, PortRole, SerialDesign};
 
-/// The interface of the array.
+/// Returns the interface of the array.
 pub(crate) fn interface(design: SerialDesign<'_>) -> Interface {
     let input = |role, width, doc| Port::single(Direction::Input, role, width, doc);
     let output = |role, width, doc| Port::single(Direction::Output, role, width, doc);
@@ -61,7 +61,7 @@ pub(crate) fn interface(design: SerialDesign<'_>) -> Interface {
     Interface::new(vec![pixels, scores, decisions, forwarded], threshold_ports(&design))
 }
 
-/// What a beat of what leaves is, and what the port says that marks it.
+/// Returns the meaning of a beat of the forward stream, and the documentation of its `valid` port.
 fn beats(design: SerialDesign<'_>) -> (&'static str, &'static str) {
     let pixel = "a pixel of an active region leaves";
     let either = "a pixel of an active region leaves, or a mean";
@@ -75,7 +75,7 @@ fn beats(design: SerialDesign<'_>) -> (&'static str, &'static str) {
     }
 }
 
-/// What comes with a pixel that leaves.
+/// Returns the ports that carry a pixel that leaves.
 fn leaving(design: SerialDesign<'_>) -> Vec<Port> {
     let with = |role, width, doc| Port::with(PortRole::ForwardValid, role, width, doc);
     let position = "its number in its region; only with forward_valid_o";
@@ -98,7 +98,7 @@ fn leaving(design: SerialDesign<'_>) -> Vec<Port> {
     list
 }
 
-/// What there is one of per lane with parallel feed, and one of with raster feed.
+/// Gives the port one value per lane with parallel feed, and one value in all with raster feed.
 fn fed(design: SerialDesign<'_>, mut port: Port) -> Port {
     match design.feed() {
         Feed::Raster => port,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a serial design answers; see [`crate::organization`].
+//! The implementation of [`crate::organization`] for serial designs.
 
 use super::{SerialTiming, ports::interface};
 use crate::rules::{Array, Rules, Unit};
@@ -13,7 +13,7 @@ impl Rules for SerialDesign<'_> {
             count: self.lanes(),
             regions: self.fold(),
             array: Array::Whole,
-            // The sequencer is as much of an array as its lanes.
+            // The sequencer is a part of the array, not of a lane.
             split: "rcm",
         }
     }

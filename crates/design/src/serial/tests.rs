@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers of `docs/serial.md`, worked out by hand, and what must hold for every design.
+//! Tests of the numbers of `docs/serial.md`, computed by hand, and of properties of every design.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use super::*;
@@ -37,15 +37,16 @@ fn the_papers_frame_takes_7905_clocks() {
     assert_eq!((timing.edges_to_step(0), timing.edges_to_ready()), (1, 7_841));
     assert_eq!(timing.clocks_per_frame(), 7_905);
     assert_eq!(design.timing().clocks_per_frame(), 7_905);
-    // Decisions come with the last rotation: 5,312 + 784 + 896 + 784 steps.
+    // Decisions come with the last rotation, after 5,312 + 784 + 896 + 784 steps.
     let departure = design.timing().departure();
     assert_eq!((departure.decision_clocks, departure.forward_clocks), (7_776, 7_840));
     assert_eq!((departure.take_clocks, departure.slot_clocks), (64, 7_840));
     assert_eq!((departure.decision_frames, departure.forward_frames), (0, 0));
 }
 
-/// 24x16 pixels: 3x2 regions of 8x8, two lanes of three slots; the halo is 2, the stream 12x12, the
-/// denoised square 10x10; 144 + 100 + 64 words of 8 bits, 512 a slot: 8 * 24 = 192 LUTs, so block.
+/// The frame has 24x16 pixels: 3x2 regions of 8x8 in two lanes of three slots. The halo is 2, the
+/// stream has 12x12 pixels, and the denoised square has 10x10. A slot of 144 + 100 + 64 words of 8
+/// bits takes 512 words, so the lane takes 8 * 24 = 192 LUTs, and its memory is block memory.
 #[test]
 fn every_phase_of_a_raster_fold_with_all_features() {
     let design = design(&[
@@ -63,7 +64,8 @@ fn every_phase_of_a_raster_fold_with_all_features() {
         (DenoiseTemporal, 100 * 85),
         (Border, 4 * 10 * 3),
         (RotateCount, 2),
-        // n = 64 has one one; 64 * 255 = 16,320 has 14 bits; 64 has 7.
+        // The binary form of n = 64 has one 1. The largest sum, 64 * 255 = 16,320, has 14 bits, and
+        // 64 has 7 bits.
         (Pass(variance), 64 + 8 * 64 + 28 + 8 + 7 + 2),
         (RotateScore(variance), 2),
         (Pass(corner), 36 * 64),
@@ -101,7 +103,7 @@ fn without_denoising_the_reference_is_compared_by_itself() {
     assert_eq!((memory.slot_words, memory.luts, memory.kind), (128, 16, MemoryKind::Distributed));
     let (phases, _) = steps("temporal.reference=last-sent", "hardware.fold=1");
     assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 128)));
-    // Eight slots of 128 words take 128 LUTs, nine take 144.
+    // Eight slots of 128 words take 128 LUTs, and nine take 144.
     let (phases, memory) = steps("temporal.reference=previous", "hardware.fold=8");
     assert_eq!(
         (phases[0], memory.luts, memory.kind),
@@ -113,7 +115,8 @@ fn without_denoising_the_reference_is_compared_by_itself() {
     assert_eq!((phases[0], phases[4]), ((Compare, 192), (Copy, 192)));
 }
 
-/// By hand from `docs/serial.md`: 64 medians and two rotations of the paper's design, Q by memory and feature.
+/// The expected numbers are computed by hand from `docs/serial.md`: a deep array needs a clock more
+/// for each of 64 medians and for each of two rotations, and Q depends on memory and features.
 #[test]
 fn a_deep_array_waits_for_its_registers() {
     let of = |more: &[&str]| timing(&design(&[&["hardware.pipelining=deep"], more].concat()));
@@ -133,7 +136,8 @@ fn a_deep_array_waits_for_its_registers() {
     }
 }
 
-/// By hand from `docs/serial.md`: of 64 pixels four blocks of 16, of 25 one; 784 or 5 lanes.
+/// The expected numbers are computed by hand from `docs/serial.md`: a region of 64 pixels has four
+/// blocks of 16 pixels, a region of 25 pixels has one block. The arrays have 784 or 5 lanes.
 #[test]
 fn means_pass_the_ports_once_and_leave_once() {
     let own = |more: &[&str]| {
@@ -147,7 +151,7 @@ fn means_pass_the_ports_once_and_leave_once() {
     let (means, unload, four) = own(&[]);
     assert_eq!((means, unload), (4 * (18 + 784), 4 * (784 + 2)));
     assert_eq!(four.clocks_per_frame(), 7_905 + 3_208 + 3_144);
-    // Deep, in block RAM: Q = 2.
+    // A deep array with block memory has Q = 2.
     let (means, unload, _) = own(&["hardware.pipelining=deep", "hardware.memory=block"]);
     assert_eq!((means, unload), (4 * (18 + 1 + 784), 4 * (784 + 4)));
     let (means, unload, _) = own(&["hardware.feed=raster", "periphery.blocks=1"]);
@@ -155,12 +159,13 @@ fn means_pass_the_ports_once_and_leave_once() {
     let small = ["region.size=5", "frame.width=49", "frame.height=5", "hardware.fold=2"];
     let (means, unload, one) = own(&small);
     assert_eq!((means, unload), (27 + 5, 7));
-    // The decision comes with the last score, before what leaves.
+    // The decision comes with the last score, before pixels and means leave.
     let departure = one.answers().departure;
     assert_eq!(departure.forward_clocks - departure.decision_clocks, 25 + 7);
 }
 
-/// 16 pixels of 8 bits and half of them are at most 4,088, 12 bits; 64 at most 16,352, 14 bits; 25 at most 6,387, 13.
+/// The largest sum of 16 pixels of 8 bits plus half of their number is 4,088, which has 12 bits.
+/// That of 64 pixels is 16,352 with 14 bits, and that of 25 pixels is 6,387 with 13 bits.
 #[test]
 fn what_a_lane_drops_of_a_sum_need_not_pass() {
     let own = |more: &[&str]| {
@@ -176,12 +181,12 @@ fn what_a_lane_drops_of_a_sum_need_not_pass() {
     let (one, widths) = own(&["periphery.blocks=1"]);
     assert_eq!((one.sum, one.dropped, one.passing), (14, 6, 8));
     assert_eq!(widths, (14, 8));
-    // A lane that keeps sums for a score anyway.
+    // With `mad` the lane moves whole sums for a score, so it drops no bits.
     let (all, widths) = own(&["spatial=[{feature=\"mad\"}]"]);
     assert_eq!(all, BlockSums { sum: 12, dropped: 0, passing: 12, factor: 1, shift: 4 });
     let none = design(&["spatial=[{feature=\"mad\"}]"]).serial().unwrap().lane_widths();
     assert_eq!(widths, (none.accumulator, none.chain));
-    // No power of two.
+    // 25 pixels are not a power of two, so a multiplication is needed.
     let (odd, widths) = own(&["region.size=5"]);
     assert_eq!((odd.sum, odd.dropped, odd.passing), (13, 0, 13));
     assert_eq!(widths, (13, 13));
@@ -201,12 +206,13 @@ fn the_configuration_may_name_the_memory() {
     let (same, steps) = of(&["hardware.memory=distributed"]);
     assert_eq!((same.kind, same.why), (MemoryKind::Distributed, MemoryChoice::Configured));
     assert_eq!(steps, plain);
-    // Each of the 64 medians waits a clock for the word that it replaces.
+    // Each of the 64 medians waits one clock for the word that it replaces.
     let (block, steps) = of(&["hardware.memory=block"]);
     assert_eq!((block.kind, block.why), (MemoryKind::Block, MemoryChoice::Configured));
     assert_eq!((steps.read_latency(), steps.steps()), (1, plain.steps() + 64));
     assert_eq!(block.kind.read_latency(), 1);
-    // Nine slots of 128 words are over the limit; what the configuration says goes for every fold.
+    // Nine slots of 128 words exceed the limit. The choice of the configuration holds for every
+    // fold.
     let folded = ["frame.width=8", "frame.height=80", "hardware.fold=9"];
     let (ruled, slow) = of(&folded);
     let (named, steps) = of(&[&folded[..], &["hardware.memory=distributed"]].concat());
@@ -237,7 +243,7 @@ fn the_widths_of_the_ports_hold_their_numbers() {
     assert_eq!((one.score_index_bits(), one.any_score_bits()), (1, 7));
 }
 
-/// Name, width, lanes, and whether there is a value per lane.
+/// Returns name, width and number of lanes of every output, and whether it has a value per lane.
 fn outputs(ports: &[crate::Port]) -> Vec<(&str, u32, u32, bool)> {
     let outputs = ports.iter().filter(|port| port.direction == crate::Direction::Output);
     outputs.map(|port| (port.name.as_str(), port.width, port.lanes, port.per_lane)).collect()
@@ -321,7 +327,8 @@ fn one_rpu_is_the_array_of_one_lane() {
     assert_eq!(outputs(&design.rpu_ports())[3], ("region_o", 2, 1, false));
 }
 
-/// c(x) as docs/serial.md defines it: pairs of region column and position in its window.
+/// Returns c(x) by the definition in docs/serial.md: the number of pairs of a region column and a
+/// position in its window.
 fn counted(design: &Design, at: u32, regions: u32) -> u32 {
     let (side, halo) = (i64::from(design.region_size()), i64::from(design.halo()));
     let end = i64::from(regions) * side - 1;
@@ -343,7 +350,7 @@ fn every_window_is_filled_once() {
                         &format!("spatial=[{{feature=\"{feature}\"}}]"),
                         &format!("region.size={side}"),
                         &format!("frame.width={}", columns * side),
-                        // A ragged frame counts like the padded one.
+                        // A ragged frame has the counts of the padded frame.
                         &format!("frame.height={}", rows * side - 1),
                         "hardware.feed=raster",
                     ]);
@@ -392,23 +399,27 @@ fn the_largest_fold_is_the_last_that_is_fast_enough() {
     assert_eq!(folded.config().validate().unwrap(), folded);
 }
 
-/// 784 regions with slots of 128 words of 8 bits, of which a RAMB18 holds 2,048: 16 slots. So 47 lanes of 17 slots take
-/// two each, 49 of 16 slots one each; two lanes of 392 slots 24.5 each, rounded up; 98 lanes of 8 slots are distributed.
+/// The frame has 784 regions. A slot has 128 words of 8 bits, and a RAMB18 holds 2,048 of them,
+/// which is 16 slots. So each of 47 lanes of 17 slots takes two RAMB18, and each of 49 lanes of 16
+/// slots takes one. Each of two lanes of 392 slots takes 24.5, rounded up. 98 lanes of 8 slots have
+/// distributed memory.
 #[test]
 fn frugal_folds_have_fewer_lanes_or_fewer_block_rams() {
     let single = design(&["hardware.feed=raster"]);
     let clocks = |fold: u32| timing(&single.with_fold(fold).unwrap()).clocks_per_frame();
     assert_eq!(single.frugal_folds(clocks(17)), [17, 16, 8]);
-    // A clock less, and 17 slots are too many; 47 lanes have no fewer.
+    // With a clock less, 17 slots are too slow, and 47 lanes with fewer slots do not exist.
     assert_eq!(single.frugal_folds(clocks(17) - 1), [16, 8]);
-    // Two lanes of 448 or of 392 slots; seven of 112, one of 784, which fill their blocks.
+    // The candidates are two lanes of 392 slots (448 slots are allowed), seven lanes of 112, and
+    // one lane of 784, which fills its blocks.
     assert_eq!(single.frugal_folds(clocks(448)), [392, 112, 8]);
     assert_eq!(single.frugal_folds(clocks(784)), [784, 8]);
     assert_eq!(single.frugal_folds(clocks(1)), [1]);
     assert!(single.frugal_folds(clocks(1) - 1).is_empty());
     let blocks = |fold: u32| single.with_fold(fold).unwrap().serial().unwrap().lane_memory().blocks;
     assert_eq!([16, 17, 32, 33, 392, 784].map(blocks), [1, 2, 2, 3, 25, 49]);
-    // Four bits have twice the words of nine; twelve take words of 18 or of 9 and 4.
+    // Words of 4 bits are twice as many as words of 9 bits. Words of 12 bits take words of 18 bits,
+    // or of 9 and 4.
     let of_bits =
         |bits: &str, fold: &str| design(&[bits, fold]).serial().unwrap().lane_memory().blocks;
     assert_eq!(of_bits("frame.pixel_bits=4", "hardware.fold=32"), 1);
@@ -416,8 +427,8 @@ fn frugal_folds_have_fewer_lanes_or_fewer_block_rams() {
     assert!(Config::default().validate().unwrap().frugal_folds(u64::MAX).is_empty());
 }
 
-/// Of all folds that are fast enough none has fewer lanes and no more block RAMs than one of the frugal, or the other
-/// way round.
+/// No fold that is fast enough has fewer lanes and no more block RAMs than a fold in the list, or
+/// fewer block RAMs and no more lanes.
 #[test]
 fn no_fold_beats_the_frugal() {
     let single = design(&["frame.width=100", "frame.height=40", "hardware.memory=block"]);
@@ -440,7 +451,7 @@ fn no_fold_beats_the_frugal() {
     }
 }
 
-/// Whatever makes a design of a design checks it as if it had been written.
+/// A method that derives one design from another validates it like a configuration file.
 #[test]
 fn a_pipelined_design_has_no_other_fold() {
     let design = Config::default().validate().unwrap();
@@ -454,7 +465,7 @@ fn a_pipelined_design_has_no_other_fold() {
     assert_eq!(design.largest_fold(u64::MAX), None);
 }
 
-/// Its frame is wider than what a configuration may ask for, and it is a design all the same.
+/// The frame of the lone lane is wider than a configuration allows, and still makes a design.
 #[test]
 fn one_lane_may_have_more_regions_than_a_row() {
     let design = design(&["frame.width=8192", "frame.height=8192", "hardware.fold=1048576"]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The steps of a serial array: what it does with a frame, in which order and for how long.
+//! The timing of a serial array: the phases of a frame in order, and their steps.
 
 use std::fmt;
 
@@ -7,24 +7,26 @@ use super::feature;
 use crate::timing::Departure;
 use crate::{FeatureKind, Feed, Filter, Pipelining, Reference, SerialDesign, Timing, Written};
 
-/// What the lanes do for one slot, in this order.
+/// A phase of the lanes for one slot. The variants are in the order of the phases.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Phase {
-    /// Medians, each compared with its reference as it is written.
+    /// The medians are computed. Each is compared with its reference as it is written.
     DenoiseTemporal,
-    /// The denoised pixels beyond the frame's border become repetitions of those at it.
+    /// The denoised pixels beyond the border of the frame are replaced by repetitions of those at
+    /// the border.
     Border,
-    /// Comparison of raw pixels with their reference.
+    /// The raw pixels are compared with their reference.
     Temporal,
     /// The temporal counts of the lanes pass the ports.
     RotateCount,
-    /// The means of blocks are computed, and pass to where they are compared with those shown.
+    /// The means of blocks are computed, and pass to the comparison with the means that the screen
+    /// shows.
     Means,
     /// The score of a feature is computed.
     Pass(FeatureKind),
     /// The scores of a feature pass the ports.
     RotateScore(FeatureKind),
-    /// What is sent becomes the reference.
+    /// The sent pixels become the reference.
     Copy,
     /// The pixels of active regions leave.
     Unload,
@@ -49,7 +51,7 @@ impl fmt::Display for Phase {
     }
 }
 
-/// When a serial array says what; all of `docs/serial.md` in numbers.
+/// The timing of a serial array: all numbers of `docs/serial.md`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SerialTiming {
     phases: Vec<(Phase, u64)>,
@@ -61,7 +63,7 @@ pub struct SerialTiming {
 }
 
 impl SerialTiming {
-    /// The timing of the design.
+    /// Returns the timing of the design.
     #[must_use]
     pub fn of(design: SerialDesign<'_>) -> Self {
         let stream = u64::from(design.stream_pixels());
@@ -85,74 +87,77 @@ impl SerialTiming {
         }
     }
 
-    /// The phases of one slot, those that the design has, in order, with their steps. Every slot
-    /// goes through the same.
+    /// Returns the phases of one slot that the design has, in order, each with its number of steps.
+    /// They are the same for every slot.
     #[must_use]
     pub fn phases(&self) -> &[(Phase, u64)] {
         &self.phases
     }
 
-    /// Slots K.
+    /// Returns the number of slots, K.
     #[must_use]
     pub fn slots(&self) -> u32 {
         self.slots
     }
 
-    /// Q: clocks from the address of a word to the accumulator, 0 to 3.
+    /// Returns the clocks from the address of a word to the accumulator, Q, 0 to 3.
     #[must_use]
     pub fn read_latency(&self) -> u32 {
         self.read_latency
     }
 
-    /// s: steps at the start of a rotation in which nothing is seen, 0 or 1.
+    /// Returns the number of steps at the start of a rotation in which no score is on the ports, s,
+    /// 0 or 1.
     #[must_use]
     pub fn settling(&self) -> u32 {
         self.settling
     }
 
-    /// Steps for one slot.
+    /// Returns the number of steps for one slot.
     #[must_use]
     pub fn slot_steps(&self) -> u64 {
         self.phases.iter().map(|(_, steps)| steps).sum()
     }
 
-    /// Steps for a frame, J.
+    /// Returns the number of steps for a frame, J.
     #[must_use]
     pub fn steps(&self) -> u64 {
         u64::from(self.slots) * self.slot_steps()
     }
 
-    /// Pixels that are taken for a frame, U: per lane with parallel feed, in all with raster feed.
+    /// Returns the number of pixels that are taken for a frame, U: per lane with parallel feed, in
+    /// all with raster feed.
     #[must_use]
     pub fn load_pixels(&self) -> u64 {
         self.load_pixels
     }
 
-    /// Clocks that taking a frame needs without gaps, U': more than U for raster feed with a halo.
+    /// Returns the clocks that taking a frame without gaps needs, U'. It is more than U for raster
+    /// feed with a halo.
     #[must_use]
     pub fn load_clocks(&self) -> u64 {
         self.load_clocks
     }
 
-    /// Edges from T0 to the one after which the clock of step `j` (0..J) comes, 1 + Q + j.
+    /// Returns the edges from T0 to the edge before the clock of step `j` (0..J), 1 + Q + j.
     #[must_use]
     pub fn edges_to_step(&self, j: u64) -> u64 {
         1 + u64::from(self.read_latency) + j
     }
 
-    /// Edges from T0 to the one after which the array is ready again, 1 + J.
+    /// Returns the edges from T0 to the edge after which the array is ready again, 1 + J.
     #[must_use]
     pub fn edges_to_ready(&self) -> u64 {
         1 + self.steps()
     }
 
-    /// Clocks from one frame to the next that follows at once, U' + J + 1.
+    /// Returns the clocks from one frame to the next that follows at once, U' + J + 1.
     #[must_use]
     pub fn clocks_per_frame(&self) -> u64 {
         self.load_clocks + self.steps() + 1
     }
 
-    /// What every organization answers.
+    /// Returns the timing in terms that every organization has.
     pub(super) fn answers(&self) -> Timing {
         let phases: Vec<_> =
             self.phases.iter().map(|(phase, steps)| (phase.to_string(), *steps)).collect();
@@ -191,7 +196,8 @@ impl SerialTiming {
         }
     }
 
-    /// Steps of a slot up to its last decision, which comes with the last score.
+    /// Returns the number of steps of a slot up to its last decision, which comes with the last
+    /// score.
     fn steps_to_decisions(&self) -> u64 {
         let is_score = |(phase, _): &(Phase, u64)| matches!(phase, Phase::RotateScore(_));
         let last = self.phases.iter().rposition(is_score).expect("a design has a feature");
@@ -199,7 +205,8 @@ impl SerialTiming {
     }
 }
 
-/// A deep lane has a register for the word, and one for the operand if a feature makes it of the word.
+/// Returns Q. A deep lane has a register for the word, and one for the operand if a feature
+/// computes it from the word.
 fn read_latency(design: SerialDesign<'_>) -> u32 {
     let word = match design.pipelining() {
         Pipelining::Plain => 0,
@@ -208,7 +215,7 @@ fn read_latency(design: SerialDesign<'_>) -> u32 {
     design.lane_memory().kind.read_latency() + word
 }
 
-/// A deep lane has a register behind the hit.
+/// Returns s. A deep lane has a register behind the hit.
 fn settling(design: SerialDesign<'_>) -> u32 {
     match design.pipelining() {
         Pipelining::Plain => 0,
@@ -227,7 +234,7 @@ fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
         Filter::Median3x3 => {
             let pixels = u64::from(design.denoised_side()).pow(2);
             let looked_up = match reference {
-                // It is what the median is written over.
+                // The reference is the word that the median overwrites.
                 Reference::Previous => 0,
                 Reference::LastSent => 1,
             };
@@ -240,7 +247,7 @@ fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
         }
         Filter::None => {
             let compared = match reference {
-                // The pixel is written over it.
+                // The pixel overwrites the reference.
                 Reference::Previous => 3 + read,
                 Reference::LastSent => 3,
             };
@@ -267,7 +274,8 @@ fn phases(design: SerialDesign<'_>) -> Vec<(Phase, u64)> {
     list.push((Phase::Unload, unload));
     if let Some(periphery) = design.periphery() {
         let round = match design.feed() {
-            // The means of all lanes go around; then every lane writes its own, and reads it.
+            // The means of all lanes pass around the ring. Then every lane writes its own means and
+            // reads them.
             Feed::Parallel => lanes + 2 + read,
             Feed::Raster => 1 + lanes,
         };

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Bits of the registers of a serial lane and of the sequencer.
+//! The widths of the registers of a serial lane and of the sequencer.
 
 use super::feature::needs;
 use crate::{Feed, Filter, SerialDesign, index_bits};
 
-/// Bits of the registers of a serial array.
+/// The widths of the registers of a serial array, in bits.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LaneWidths {
-    /// The accumulator, which is signed.
+    /// Width of the accumulator, which is signed.
     pub accumulator: u32,
-    /// The word beside it that holds a mean or a sum; at least two.
+    /// Width of the second word, which holds a mean or a sum. It is at least 2.
     pub second: u32,
-    /// The word that travels around the ring of lanes: a score, the sum of a block, a mean or, with raster feed, a pixel.
+    /// Width of the word that travels around the ring of lanes: a score, the sum of a block, a mean
+    /// or, with raster feed, a pixel.
     pub chain: u32,
-    /// The constant that the sequencer shifts from step to step.
+    /// Width of the constant that the sequencer shifts from step to step.
     pub scale: u32,
-    /// The number of a center in the larger square of centers.
+    /// Width of the number of a center in the larger square of centers.
     pub center: u32,
 }
 
@@ -28,7 +29,8 @@ impl LaneWidths {
         };
         let sums = design.block_sums();
         let chain = design.any_score_bits().max(raster).max(sums.map_or(0, |sums| sums.passing));
-        // The difference of two pixels; the power of two that the median search starts from.
+        // The accumulator holds the difference of two pixels. The scale holds the power of two that
+        // the median search starts with.
         let mut widths = Self {
             accumulator: (pixel + 1).max(sums.map_or(0, |sums| sums.sum)),
             second: 2,
@@ -50,7 +52,7 @@ impl LaneWidths {
 }
 
 impl SerialDesign<'_> {
-    /// Bits of the registers of a serial array.
+    /// Returns the widths of the registers of the array.
     #[must_use]
     pub fn lane_widths(&self) -> LaneWidths {
         LaneWidths::of(*self)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The configuration at its boundary: what is accepted, what it becomes, what is refused and how.
+//! Tests of configuration files: the accepted values, the designs that they make, and the messages
+//! of refusals.
 
 use foveate_design::{Config, ConfigError, Design, PRESETS, PipelinedTiming, Preset};
 
@@ -39,7 +40,8 @@ fn fingerprints_tell_designs_apart() {
     assert_eq!(paper, design("[frame]\nwidth = 224\n").fingerprint());
     assert_ne!(paper, design("[temporal]\nlevel = 9\n").fingerprint());
     assert_eq!(paper.len(), 16);
-    // A name that has been written somewhere must go on meaning the same design.
+    // The fingerprint of a design must never change, because it has been written to generated
+    // files.
     assert_eq!(paper, "255bc91bb78cefb8");
     let serial = |keys: &str| design(&format!("[hardware]\norganization = \"serial\"\n{keys}"));
     assert_eq!(serial("").fingerprint(), serial("feed = \"parallel\"\n").fingerprint());
@@ -49,8 +51,8 @@ fn fingerprints_tell_designs_apart() {
     assert!(names[0] != paper && names[1..].iter().all(|name| *name != names[0]));
 }
 
-/// By hand from `docs/timing.md`: N + 1 = 9 for each window of an isolated region, the median's registers, the
-/// tail delay.
+/// The expected numbers are computed by hand from `docs/timing.md`: N + 1 = 9 clocks for each
+/// window of an isolated region, the registers of the median, and the tail delay.
 #[test]
 fn deep_pipelining_adds_registers_and_takes_none_of_the_clocks_of_a_frame() {
     let latencies = |keys: &str| {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds in grey levels and the depth of pixels.
+//! Tests of thresholds in grey levels at different depths of pixels.
 
 use foveate_design::{Config, Decimal, Design, FeatureKind, PRESETS, Preset, SpatialConfig};
 
@@ -15,7 +15,8 @@ fn refusal(text: &str, overrides: &[&str]) -> String {
     with(text, overrides).validate().unwrap_err().to_string()
 }
 
-/// Every preset and every feature alone, with its own thresholds left out.
+/// Returns the name and the text of every preset, and of a configuration for every feature alone
+/// with its default thresholds.
 fn starts() -> Vec<(String, String)> {
     let presets = PRESETS.iter().map(|preset| (preset.name.to_owned(), preset.toml.to_owned()));
     let features = FeatureKind::ALL
@@ -24,7 +25,8 @@ fn starts() -> Vec<(String, String)> {
     presets.chain(features).collect()
 }
 
-/// They were printed before thresholds followed the depth, and have been written into generated cores.
+/// These fingerprints are older than thresholds that follow the depth. They have been written to
+/// generated cores, so they must not change.
 #[test]
 fn designs_of_8_bits_are_what_they_were() {
     let expected = [
@@ -36,7 +38,8 @@ fn designs_of_8_bits_are_what_they_were() {
         ("fovea", "be16f1fd6d9dca28"),
         ("seamless", "dec984bdadd23ebc"),
         ("serial", "0d4380c4bb901499"),
-        // With `hardware.sync` since; without it as before, below.
+        // The preset now has `hardware.sync`. Its fingerprint without that key is unchanged, as the
+        // end of this test checks.
         ("raster", "0da895f99b440f95"),
         ("feature edge", "255bc91bb78cefb8"),
         ("feature corner", "95e675a6e3999482"),
@@ -60,7 +63,8 @@ fn defaults_follow_the_depth_and_are_within_reach_at_every_one() {
         let eight = design(&text, &[]);
         for bits in 1..=16 {
             let own = design(&text, &[&format!("frame.pixel_bits={bits}")]);
-            // Of 2^P levels as many as of 256, rounded down by less than one.
+            // A level is the same fraction of 2^P as the level at 8 bits is of 256, rounded down to
+            // a whole level.
             let near = |level: u32, of_8: u32| {
                 let exact = f64::from(of_8) * f64::from(own.pixel_max() + 1) / 256.0;
                 (f64::from(level)..f64::from(level) + 1.0).contains(&exact)
@@ -128,7 +132,7 @@ fn what_is_written_is_in_levels_of_the_depth_that_it_is_written_with() {
     let scores = "[[spatial]]\nfeature = \"variance\"\nmin_score = 8\n";
     let six = with(scores, &["frame.pixel_bits=6"]);
     assert_eq!(six.camera.spatial[0].min_score, Decimal::from_f64(0.5));
-    // An error is told as it is in the file, whatever the depth.
+    // An error message shows the value of the file, whatever the depth.
     let wrong = Config::from_toml_with("[temporal]\nlevel = \"high\"\n", &["frame.pixel_bits=5"]);
     assert!(wrong.unwrap_err().to_string().contains("`temporal.level`: \"high\" is not valid"));
 }
@@ -170,7 +174,8 @@ fn what_no_pixel_can_reach_is_refused_with_the_value_to_use() {
     }
 }
 
-/// Where no pixel has to exceed it, a level decides nothing and may be anything that its port holds.
+/// If a score passes its minimum without any hit, its level has no effect and may be any value that
+/// its port holds.
 #[test]
 fn a_level_that_decides_nothing_may_be_the_largest() {
     let temporal = design("", &["temporal.level=255", "temporal.min_count=0"]);

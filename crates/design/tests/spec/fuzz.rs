@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! No configuration, however broken, makes the parser or the validation panic, and every error is one
-//! line. `FOVEATE_FUZZ_CASES` sets the number of cases.
+//! Tests that no configuration, however broken, makes the parser or the validation panic, and that
+//! every error is one line. `FOVEATE_FUZZ_CASES` sets the number of cases.
 
 use foveate_design::{Config, PRESETS};
 
-/// Splitmix64: the same cases on every machine.
+/// The random generator SplitMix64, which makes the same cases on every machine.
 struct Random(u64);
 
 impl Random {
@@ -129,7 +129,8 @@ fn cases() -> u64 {
     std::env::var("FOVEATE_FUZZ_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(20_000)
 }
 
-/// Parses and validates; what the caller sees is a design or one line.
+/// Parses and validates a configuration. Returns true for a design and false for an error, whose
+/// message must be one line.
 fn attempt(text: &str, overrides: &[String]) -> bool {
     let result = Config::from_toml_with(text, overrides).and_then(|config| config.validate());
     match result {

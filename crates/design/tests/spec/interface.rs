@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The interface of a core: whether its streams say all that its ports say, once.
+//! Tests that the streams and controls of an interface contain every port exactly once.
 
 use foveate_design::{
     BeatRegion, Config, Design, Direction, Interface, Port, PortRole, Qualifier, Stream, StreamRole,
@@ -30,7 +30,7 @@ fn design(hardware: &str) -> Design {
     Config::from_toml_with("", &overrides).unwrap().validate().unwrap()
 }
 
-/// Both modules of every design.
+/// Returns the interfaces of both modules, `rpu` and `rcm`, of every design.
 fn interfaces() -> impl Iterator<Item = (&'static str, Design, Interface)> {
     DESIGNS.iter().flat_map(|&hardware| {
         let design = design(hardware);
@@ -67,8 +67,8 @@ fn every_port_is_there_once_and_goes_where_its_stream_says() {
     }
 }
 
-/// An output that means something only now and then does so with the beat that it is a part of; the region of a
-/// decision may be that of the score beside it.
+/// An output that does not always have a meaning has one with the beat that it is a part of. The
+/// region of a decision may be on a port of the stream of scores.
 #[test]
 fn payload_means_something_with_its_own_beat() {
     for (hardware, _, interface) in interfaces() {
@@ -95,7 +95,7 @@ fn payload_means_something_with_its_own_beat() {
     }
 }
 
-/// What each organization has, by the contract.
+/// The streams of each organization, by the contract.
 #[test]
 fn streams_are_those_of_the_organization() {
     use StreamRole::{Decisions, Forwarded, Lost, Pixels, References, Scores, Stored};

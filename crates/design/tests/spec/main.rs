@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The configuration at its boundary.
+//! Tests of the public interface of the crate.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod configuration;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Keys that belong to one organization, one feature or one way to show irrelevant regions, as `docs/configuration.md` says:
-//! the others refuse them, whatever their value, and a key of all is taken by all.
+//! Tests of keys that belong to one organization, one feature or one rendering of irrelevant
+//! regions, as `docs/configuration.md` states. All others refuse such a key, whatever its value. A
+//! key without an owner is accepted by all organizations.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,7 @@ use foveate_design::{Config, FeatureKind, Irrelevant, Organization};
 
 const PAGE: &str = include_str!("../../../../docs/configuration.md");
 
-/// A row of the tables of keys.
+/// A row of a table of keys on the page.
 struct KeyRow<'a> {
     key: &'a str,
     values: &'a str,
@@ -32,7 +33,8 @@ fn rows() -> Vec<KeyRow<'static>> {
     rows.filter(|row| row.key.contains('.')).collect()
 }
 
-/// The values that a row names, as TOML, the default first; a name that is its own organization's is none.
+/// Returns the values that a row names, as TOML, the default first. Names of organizations in the
+/// text are not values.
 fn values(row: &KeyRow<'_>) -> Vec<String> {
     let takes = Config::keys().find(|(key, _)| *key == row.key).unwrap();
     if let Takes::Names(names) = takes.1 {
@@ -43,7 +45,7 @@ fn values(row: &KeyRow<'_>) -> Vec<String> {
     words.filter(is_value).map(str::to_owned).collect()
 }
 
-/// The owner of a key: the only setting with which it is taken.
+/// Returns the owner of a key: the only setting with which it is accepted.
 fn owner(row: &KeyRow<'_>) -> Option<String> {
     let alone = row.meaning.strip_prefix("Only for `").and_then(|rest| rest.split('`').next());
     if let Some(name) = alone {
@@ -61,7 +63,7 @@ fn owner(row: &KeyRow<'_>) -> Option<String> {
     Some(setting.replace(' ', ""))
 }
 
-/// All settings of the key of an owner.
+/// Returns all settings of the key that `owner` sets.
 fn others(owner: &str) -> Vec<String> {
     let (key, _) = owner.split_once('=').unwrap();
     let names = match key {
@@ -73,7 +75,7 @@ fn others(owner: &str) -> Vec<String> {
     names.iter().map(|name| format!("{key}=\"{name}\"")).collect()
 }
 
-/// The result of reading a small design with these keys.
+/// Validates a small design with these keys.
 fn made(keys: &[&str]) -> Result<(), String> {
     let base = "[frame]\nwidth = 64\nheight = 64\n[[spatial]]\nfeature = \"edge\"\n";
     let config = Config::from_toml_with(base, keys).map_err(|error| error.to_string())?;
@@ -141,7 +143,7 @@ fn a_key_of_an_organization_is_refused_with_one_message() {
 fn a_key_of_all_is_taken_by_all_with_its_default() {
     let mut checked = 0;
     for row in rows().iter().filter(|row| owner(row).is_none()) {
-        // The default of a feature's threshold is that of the feature.
+        // The default of a threshold of a feature depends on the feature.
         let features = ["spatial.feature", "spatial.level", "spatial.min_score"];
         let Some(value) = values(row).into_iter().next() else { continue };
         if features.contains(&row.key) || row.key == "hardware.organization" {

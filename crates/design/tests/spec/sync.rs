@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `hardware.sync`: where its ports are, and what a design without it looks like.
+//! Tests of `hardware.sync`: the positions of its ports, and designs without it.
 
 use foveate_design::{Array, Config, Design, Direction, PRESETS, Port, PortRole};
 
@@ -43,7 +43,7 @@ fn its_ports_stand_in_front_of_the_array_and_nothing_else_changes() {
 
         let finds_frames = match with.unit().array {
             Array::Copies => false,
-            // A lane or core by itself is an array.
+            // A lone lane or core is an array, so it has the ports.
             Array::Whole => true,
         };
         let unit = with.rpu_ports();

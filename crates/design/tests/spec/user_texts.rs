@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! No text of a configuration reaches what is generated from it, but names that the program knows.
+//! Tests that no text of a configuration reaches generated files, except the names that the program
+//! defines.
 
 use foveate_camera::text::AsToml;
 use foveate_design::{Config, ConfigError, Preset};
@@ -7,7 +8,7 @@ use toml::{Table, Value};
 
 use crate::hostile::{Schema, key, texts};
 
-/// Every key that there is, and every text of a preset.
+/// The test puts hostile texts into every key and into every value of several presets.
 #[test]
 fn no_text_of_a_configuration_is_taken() {
     let problem = |config: Result<Config, ConfigError>| {

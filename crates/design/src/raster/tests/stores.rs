@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where the frame store may be, and what a core without forwarding has.
+//! Tests of the kinds of frame stores, and of a core without forwarding.
 
 use super::{config, design, refusal};
 use crate::raster::RasterTiming;
@@ -86,7 +86,7 @@ fn named(design: &Design, direction: Direction) -> Vec<(String, u32)> {
     own.map(|port| (port.name.clone(), port.bits())).collect()
 }
 
-/// 64x40 pixels in words of four: 8x5 regions.
+/// Returns the ports of a core for 64x40 pixels in words of four pixels: 8x5 regions.
 fn ports_of(more: &[&str], direction: Direction) -> Vec<(String, u32)> {
     let own = [
         "frame.width=64",
@@ -149,7 +149,7 @@ fn a_store_outside_has_two_streams() {
         let is_streamed = port.name.starts_with("reference") || port.name == "underrun_o";
         assert!(!is_streamed || port.qualifier == Qualifier::Always, "{}", port.name);
     }
-    // A store inside has the same ports, of whatever it is built.
+    // The ports do not depend on the kind of a store inside of the core.
     for direction in [Direction::Input, Direction::Output] {
         let block = ports_of(&[], direction);
         for store in ["ultra", "single-port"] {
@@ -169,7 +169,8 @@ fn without_forwarding_decisions_are_all_that_leaves() {
     assert_eq!(ports_of(&more, Direction::Output).len(), 8);
 }
 
-/// Every number but those of the buffer and of the last word is that of the core that forwards.
+/// A core without forwarding has the numbers of a core with forwarding, except those of the buffer
+/// and of the last word.
 #[test]
 fn numbers_follow_the_store_and_forwarding() {
     let timing = |more: &[&str]| RasterTiming::of(design(more).raster().unwrap());
@@ -181,7 +182,7 @@ fn numbers_follow_the_store_and_forwarding() {
     assert_eq!(alone, RasterTiming { buffer_rows: 0, forwards: false, ..plain });
     let mad = "spatial=[{feature=\"mad\"}]";
     assert_eq!(timing(&["hardware.forward=false", mad]).buffer_rows, 3);
-    // S - 1 and S - 2.
+    // The lookup latency is S - 1, and S - 2 in a deep core.
     assert_eq!((plain.store_latency, plain.lookup_latency), (7, 6));
     let deep = timing(&["hardware.pipelining=deep"]);
     assert_eq!((deep.store_latency, deep.lookup_latency), (16, 14));

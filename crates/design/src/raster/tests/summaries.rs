@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a periphery adds to a core, and with what it goes.
+//! Tests of the additions of a periphery to a core, and of the keys that it can be combined with.
 
 use super::{config, design, refusal};
 use crate::raster::{RasterMemory, RasterStream, RasterTiming};
@@ -45,7 +45,8 @@ fn a_word_lies_in_one_block_and_means_have_to_leave() {
     }
 }
 
-/// A level, a flag with the decision, and a flag with the words; all else is as without.
+/// The periphery adds a threshold, a flag of the decision and a flag of the words. All other ports
+/// are the same.
 #[test]
 fn ports_tell_means_from_pixels() {
     let own = [
@@ -98,7 +99,8 @@ fn numbers_are_those_without_but_for_low_frames_which_wait() {
     assert!(without.figures().iter().all(|(name, _)| *name != "summary_words"));
 }
 
-/// A summary never takes the readout longer than the pixels of a region, so that the bound of the stall holds.
+/// A summary never takes the readout longer than the pixels of a region, so the bound on stalls
+/// holds.
 #[test]
 fn a_summary_has_no_more_words_than_a_region() {
     let sizes = [2, 3, 4, 6, 8, 12, 16];
@@ -125,7 +127,8 @@ fn a_summary_has_no_more_words_than_a_region() {
     assert_eq!(taken, 36);
 }
 
-/// 64x64 pixels, 8x8 regions: sums of 4x4 pixels have 12 bits, and a region that waits says whether it sends means.
+/// The frame has 64x64 pixels in regions of 8x8. Sums of 4x4 pixels have 12 bits, and a queue entry
+/// stores whether the region sends means.
 #[test]
 fn memories_of_means() {
     let of = |more: &[&str]| {
@@ -143,8 +146,9 @@ fn memories_of_means() {
     assert_eq!(with[without.len()..], [(16, 13), (8 * 4 * 4, 8), (64 * 4, 8), (64, 1), (64, 1)]);
 }
 
-/// Rows of 32 words of two pixels, regions of 2x2 with one mean: decisions follow each other at every clock, and summaries, which are
-/// held for two, at every other.
+/// The rows have 32 words of two pixels, and the regions of 2x2 pixels have one mean. Decisions
+/// follow each other at every clock. Summaries leave at every second clock, because each is held
+/// for two clocks.
 #[test]
 fn a_stream_of_summaries() {
     let keys = [
