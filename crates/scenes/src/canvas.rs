@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A 16-bit grey canvas with anti-aliased shapes, drawn in units that do not depend on its size.
+//! A 16-bit grey canvas with anti-aliased shapes, which are drawn in units that do not depend on
+//! its size.
 //!
-//! The canvas is always [`UNITS_HIGH`] units high; how many units wide follows from its shape. A unit
-//! has 64 parts, in which all coordinates are given. Sixteen samples per pixel smooth the borders.
+//! The canvas is always [`UNITS_HIGH`] units high. Its width in units follows from its aspect
+//! ratio. A unit has 64 parts, and all coordinates are in parts. Sixteen samples per pixel smooth
+//! the borders of shapes.
 
 /// Height of every canvas in units.
 pub(crate) const UNITS_HIGH: i64 = 224;
-/// Parts of a unit.
+/// Number of parts of a unit.
 pub(crate) const UNIT: i64 = 64;
-/// Samples per pixel along each axis.
+/// Number of samples of a pixel along each axis.
 const SAMPLES: i64 = 4;
-/// Opacity of a shape that hides what is below it.
+/// Opacity of a shape that hides everything below it.
 pub(crate) const OPAQUE: u32 = 256;
 
-/// A grey picture, brightest at 65535.
+/// A grey canvas. Black is 0 and white is 65535.
 #[derive(Clone, Debug)]
 pub(crate) struct Canvas {
     width: u32,
@@ -21,7 +23,7 @@ pub(crate) struct Canvas {
     pixels: Vec<u16>,
 }
 
-/// A rectangle in parts of units, right and bottom excluded.
+/// The bounding rectangle of a shape in parts of units, right and bottom excluded.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Bounds {
     pub(crate) left: i64,
@@ -40,12 +42,13 @@ impl Canvas {
         self.pixels[index]
     }
 
-    /// Width in parts of units.
+    /// Returns the width of the canvas in parts of units.
     pub(crate) fn parts_wide(&self) -> i64 {
         i64::from(self.width) * UNITS_HIGH * UNIT / i64::from(self.height)
     }
 
-    /// Blends `shade` into every sample of `bounds` that is `inside` the shape.
+    /// Blends `shade` into every sample that is within `bounds` and for which `inside` returns
+    /// true.
     pub(crate) fn fill(
         &mut self,
         bounds: Bounds,
@@ -71,7 +74,8 @@ impl Canvas {
         }
     }
 
-    /// Samples of a pixel, 0..=16, that are in `bounds` and `inside`.
+    /// Returns the number of samples of a pixel, 0..=16, that are within `bounds` and for which
+    /// `inside` returns true.
     fn covered(&self, x: u32, y: u32, bounds: Bounds, inside: &impl Fn(i64, i64) -> bool) -> u32 {
         let mut covered = 0;
         for sample_y in 0..SAMPLES {
@@ -84,7 +88,7 @@ impl Canvas {
         covered
     }
 
-    /// The middle of a sample in parts of units.
+    /// Returns the center of a sample in parts of units.
     fn parts(&self, sample: i64) -> i64 {
         (2 * sample + 1) * UNITS_HIGH * UNIT / (2 * SAMPLES * i64::from(self.height))
     }
@@ -109,50 +113,51 @@ impl Bounds {
     }
 }
 
-/// Draws in whole units around an origin, facing right or left, in daylight or at night.
+/// A painter of shapes in whole units around an origin. It can mirror them, and dims them at night.
 pub(crate) struct Pen<'a> {
     pub(crate) canvas: &'a mut Canvas,
-    /// Where (0, 0) is, in parts of units.
+    /// Position of the origin (0, 0) in parts of units.
     pub(crate) origin: (i64, i64),
-    /// 1, or -1 to mirror left and right.
+    /// Direction of x: 1, or -1 to mirror left and right.
     pub(crate) facing: i64,
-    /// Daylight in 256ths.
+    /// Brightness of daylight in 256ths.
     pub(crate) light: u32,
 }
 
 impl Pen<'_> {
-    /// A rectangle that reflects daylight; `shade` is an 8-bit grey level.
+    /// Paints a rectangle that reflects daylight. `shade` is an 8-bit grey level.
     pub(crate) fn rect(&mut self, left: i64, top: i64, right: i64, bottom: i64, shade: u32) {
         let bounds = self.bounds(left, top, right, bottom);
         let shade = self.reflected(shade);
         self.canvas.fill(bounds, shade, OPAQUE, |_, _| true);
     }
 
-    /// A rectangle of its own light, or of a shadow.
+    /// Paints a rectangle whose shade does not depend on daylight: a light or a shadow.
     pub(crate) fn glow_rect(&mut self, at: [i64; 4], shade: u32, opacity: u32) {
         let [left, top, right, bottom] = at;
         let bounds = self.bounds(left, top, right, bottom);
         self.canvas.fill(bounds, emitted(shade), opacity, |_, _| true);
     }
 
-    /// A disc; radius in parts of units.
+    /// Paints a disc that reflects daylight. The radius is in parts of units.
     pub(crate) fn disc(&mut self, x: i64, y: i64, radius: i64, shade: u32) {
         let shade = self.reflected(shade);
         self.round(x, y, radius, shade, OPAQUE);
     }
 
-    /// A disc of its own light.
+    /// Paints a disc whose shade does not depend on daylight.
     pub(crate) fn glow_disc(&mut self, x: i64, y: i64, radius: i64, shade: u32, opacity: u32) {
         self.round(x, y, radius, emitted(shade), opacity);
     }
 
-    /// A convex polygon, corners in either direction, in parts of units from the origin.
+    /// Paints a convex polygon that reflects daylight. Its corners are in parts of units from the
+    /// origin, in either direction of rotation.
     pub(crate) fn polygon(&mut self, corners: &[(i64, i64)], shade: u32) {
         let shade = self.reflected(shade);
         self.convex(corners, shade, OPAQUE);
     }
 
-    /// A convex polygon of its own light.
+    /// Paints a convex polygon whose shade does not depend on daylight.
     pub(crate) fn glow_polygon(&mut self, corners: &[(i64, i64)], shade: u32, opacity: u32) {
         self.convex(corners, emitted(shade), opacity);
     }

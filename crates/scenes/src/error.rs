@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong with a scene: only its name.
+//! The errors of scenes. Only the name of a scene can be wrong.
 
 use thiserror::Error;
 
-/// A scene that cannot be made.
+/// An error that keeps a scene from being made.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum SceneError {
-    /// There is no scene of that name.
+    /// A name of a scene that does not exist.
     #[error("unknown scene `{name}`{}; scenes are {known}", hint(nearest.as_deref()))]
     Unknown {
-        /// The name as given.
+        /// The name as the user wrote it.
         name: String,
-        /// The nearest name that exists.
+        /// The most similar name of a scene, if one is similar enough.
         nearest: Option<String>,
-        /// All names that exist.
+        /// The names of all scenes.
         known: String,
     },
 }

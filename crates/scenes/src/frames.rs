@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The frames of a scene, made one at a time.
+//! The frames of a scene, which are computed one at a time.
 
 use foveate_frame::Frame;
 
@@ -8,14 +8,15 @@ use crate::street::{Mood, Street};
 use crate::{Scene, SceneSize, noise, patterns};
 
 impl Scene {
-    /// Its frames, made one at a time.
+    /// Returns an iterator over the frames of the scene, which computes one at a time. A size
+    /// outside of its range is clamped.
     #[must_use]
     pub fn frames(self, size: SceneSize) -> SceneFrames {
         SceneFrames::new(self, size.in_range())
     }
 }
 
-/// The frames of one scene.
+/// An iterator over the frames of one scene.
 #[derive(Clone, Debug)]
 pub struct SceneFrames {
     scene: Scene,
@@ -38,7 +39,7 @@ impl SceneFrames {
         Self { scene, size, street, next: 0 }
     }
 
-    /// Frame number `t`, whichever is next.
+    /// Returns frame number `t`, and does not advance the iterator.
     #[must_use]
     pub fn at(&self, t: u32) -> Frame {
         match (self.scene, &self.street) {
@@ -53,7 +54,8 @@ impl SceneFrames {
         }
     }
 
-    /// The canvas through a sensor: cut out at `corner`, with noise, in P bits.
+    /// Returns the frame of a sensor that looks at the canvas: cut out at `corner`, with noise of
+    /// the given amplitude, in P bits.
     fn seen(&self, canvas: &Canvas, corner: (u32, u32), amplitude: i32, t: u32) -> Frame {
         self.made(|x, y| {
             let light = i32::from(canvas.get(x + corner.0, y + corner.1));
@@ -89,7 +91,8 @@ impl Iterator for SceneFrames {
 
 impl ExactSizeIterator for SceneFrames {}
 
-/// How far a shaking camera goes to either side, in pixels: 4 at 224x224.
+/// Returns the largest displacement of a shaking camera to either side, in pixels. It is 4 for
+/// 224x224 pixels.
 fn shake_reach(size: &SceneSize) -> u32 {
     (size.width.min(size.height) / 56).max(1)
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Synthetic frames: small, deterministic, one scene per hard case.
+//! Synthetic scenes: small, deterministic, one for each hard case.
 //!
-//! A [`Scene`] is computed, not read. `street` is for looking at; each other scene is one situation that
-//! is hard for a region-based camera. Everything is integer arithmetic on hashes of position and time, so
-//! every machine makes the same bytes. Any size and any depth work. This crate does no I/O.
+//! The frames of a [`Scene`] are computed, not read. `street` is made to be looked at. Every other
+//! scene is one situation that is hard for a region-based camera. All arithmetic is in integers, on
+//! hashes of position and time, so the bytes are the same on every machine. A scene can have any
+//! size and any depth. This crate does no I/O.
 
 mod canvas;
 mod error;

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Chance without state: a hash of (seed, a, b, c) decides, so any frame can be made on its own.
+//! Random numbers without a state. They are hashes of (seed, a, b, c), so any frame can be made on
+//! its own.
 
-/// 64 well mixed bits for a place and a time: three rounds of `SplitMix64`'s finalizer.
+/// Returns 64 random bits for a place and a time, by three rounds of the finalizer of `SplitMix64`.
 pub(crate) fn hash(seed: u64, a: u32, b: u32, c: u32) -> u64 {
     mix(mix(mix(seed ^ u64::from(a)).wrapping_add(u64::from(b))).wrapping_add(u64::from(c)))
 }
 
-/// A number in `0..bound`, taken from the hash; `bound` is at least 1.
+/// Returns a random number in `0..bound`. `bound` is at least 1.
 pub(crate) fn pick(seed: u64, a: u32, b: u32, c: u32, bound: u32) -> u32 {
     let high = hash(seed, a, b, c) >> 32;
     u32::try_from((high * u64::from(bound)) >> 32).expect("below the bound")
 }
 
-/// Nearly normal noise: the number of ones among 16 fair bits less its mean, -8..=8, deviation 2.
+/// Returns approximately normal noise: the number of ones among 16 random bits minus its mean. It
+/// is in -8..=8, with a standard deviation of 2.
 pub(crate) fn bell(seed: u64, t: u32, x: u32, y: u32) -> i32 {
     let ones = (hash(seed, t, x, y) & 0xFFFF).count_ones();
     i32::try_from(ones).expect("at most 16") - 8
@@ -31,7 +33,7 @@ mod tests {
 
     #[test]
     fn first_outputs_are_those_of_splitmix64() {
-        // The reference implementation, seeded with 0.
+        // The expected value is the first output of the reference implementation with seed 0.
         assert_eq!(mix(0), 0xE220_A839_7B1D_CDAF);
     }
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The hard cases that are a formula of place and time.
+//! The hard cases that are a function of place and time.
 
 use crate::{Scene, SceneSize, noise};
 
-/// Frames between two switchings of the light.
+/// Number of frames between two switchings of the light.
 const LIGHT_PERIOD: u32 = 8;
 
-/// The pixel at (`x`, `y`) of frame `t`; the street scenes are not made here and are zero.
+/// Returns the pixel at (`x`, `y`) of frame `t`. The street scenes are made elsewhere, so their
+/// pixels are 0 here.
 pub(crate) fn pixel(scene: Scene, size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     let max = size.max();
     match scene {
@@ -27,13 +28,14 @@ pub(crate) fn pixel(scene: Scene, size: &SceneSize, t: u32, x: u32, y: u32) -> u
     }
 }
 
-/// Checks of 4x4 pixels between zero and `high`: edges and corners in every region.
+/// Returns a pixel of a checkerboard with checks of 4x4 pixels of levels 0 and `high`, which has
+/// edges and corners in every region.
 fn bars(high: u32, x: u32, y: u32) -> u32 {
     high * ((x / 4 + y / 4) & 1)
 }
 
-/// Half grey; in every region one corner pixel is at an end of the range. Over eight frames each
-/// region shows hot and dead at each of its corners.
+/// Returns a pixel of a half-grey frame, in which one corner pixel of every region is at an end of
+/// the range. In eight frames each region has a hot and a dead pixel at each of its corners.
 fn hot_pixels(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
@@ -79,14 +81,16 @@ fn half_means(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     base + u32::from((y % n) * n + x % n < above)
 }
 
-/// Bars of half contrast on a light that goes up and down by one level per frame.
+/// Returns a pixel of checks of half contrast under a light that rises and falls by one level per
+/// frame.
 fn fade(max: u32, t: u32, x: u32, y: u32) -> u32 {
     let reach = max - max / 2;
     let phase = t % (2 * reach);
     bars(max / 2, x, y) + phase.min(2 * reach - phase)
 }
 
-/// One bright pixel on a quarter of grey, reflected at the borders.
+/// Returns a pixel of a frame of a quarter of the largest level with one bright pixel, which moves
+/// and is reflected at the borders.
 fn one_pixel(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     if (x, y) == (reflected(t, size.width), reflected(t, size.height)) {
         size.max()
@@ -95,7 +99,7 @@ fn one_pixel(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     }
 }
 
-/// Goes 0, 1, ... `side` - 1 and back, for ever.
+/// Returns a position that moves as 0, 1, ... `side` - 1 and back, forever.
 fn reflected(t: u32, side: u32) -> u32 {
     if side < 2 {
         return 0;
@@ -104,7 +108,7 @@ fn reflected(t: u32, side: u32) -> u32 {
     phase.min(2 * (side - 1) - phase)
 }
 
-/// Static bars; in the last frame every second region is inverted.
+/// Returns a pixel of static checks. In the last frame every second region is inverted.
 fn late_change(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     let still = bars(size.max(), x, y);
     let changed = (x / size.region_size + y / size.region_size).is_multiple_of(2);

@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The list of scenes.
+//! The list of scenes with their names and summaries.
 
 use std::fmt;
 
 use crate::SceneError;
 
-/// Names, summaries and default lengths, in the order of the documentation.
+/// Defines the scenes with names, default numbers of frames and summaries, in the order of the
+/// documentation.
 macro_rules! scenes {
     ($($variant:ident $name:literal $frames:literal $summary:literal;)+) => {
-        /// A scene.
+        /// A synthetic scene.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
         #[non_exhaustive]
         pub enum Scene { $(#[doc = $summary] $variant),+ }
 
         impl Scene {
-            /// Every scene; the first is the one to look at.
+            /// Every scene. The first one is made to be looked at.
             pub const ALL: &'static [Self] = &[$(Self::$variant),+];
 
-            /// Its name on the command line, after `scene:`.
+            /// Returns the name of the scene on the command line, after `scene:`.
             #[must_use]
             pub fn name(self) -> &'static str {
                 match self { $(Self::$variant => $name),+ }
             }
 
-            /// What it shows, in one line.
+            /// Returns the content of the scene in one line.
             #[must_use]
             pub fn summary(self) -> &'static str {
                 match self { $(Self::$variant => $summary),+ }
             }
 
-            /// How many frames show it well.
+            /// Returns the number of frames that is enough to show the scene.
             #[must_use]
             pub fn default_frames(self) -> u32 {
                 match self { $(Self::$variant => $frames),+ }
@@ -56,7 +57,8 @@ scenes! {
     Random "random" 16 "independent random pixels";
 }
 
-/// How large, how deep and how many frames to make. Values outside their ranges are brought in.
+/// The size, the depth and the number of frames of a scene. Values outside of their ranges are
+/// clamped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct SceneSize {
     /// Width in pixels, 1..=16384.
@@ -65,14 +67,14 @@ pub struct SceneSize {
     pub height: u32,
     /// Bits per pixel P, 1..=16.
     pub bits: u32,
-    /// Side of a region N, 2..=64; some scenes put something into every region.
+    /// Side of a region N in pixels, 2..=64. Some scenes place an object in every region.
     pub region_size: u32,
     /// Number of frames.
     pub frames: u32,
 }
 
 impl SceneSize {
-    /// Largest pixel, 2^P - 1.
+    /// Returns the largest pixel value, 2^P - 1.
     pub(crate) fn max(&self) -> u32 {
         (1 << self.bits) - 1
     }
@@ -89,12 +91,13 @@ impl SceneSize {
 }
 
 impl Scene {
-    /// The scene of that name.
+    /// Returns the scene of that name.
     ///
     /// # Errors
-    /// When there is none; the message names the nearest and lists all.
+    /// Returns an error if there is no scene of that name. The message names the most similar scene
+    /// and lists all.
     pub fn find(name: &str) -> Result<Self, SceneError> {
-        /// Below this similarity a suggestion would only confuse.
+        /// A name below this similarity would only confuse.
         const SIMILAR: f64 = 0.7;
         if let Some(&scene) = Self::ALL.iter().find(|scene| scene.name() == name) {
             return Ok(scene);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The street: a backdrop that is painted once, and what moves in front of it.
+//! The street scene: a backdrop that is painted once, and the objects that move in front of it.
 
 mod buildings;
 mod setting;
@@ -11,10 +11,10 @@ use setting::GROUND;
 
 pub(crate) use setting::Mood;
 
-/// Upper and lower border of the road.
+/// Upper and lower border of the road in units from the top.
 const ROAD: (i64, i64) = (142, 206);
 
-/// A street of one size.
+/// A street of one size and one time of day.
 #[derive(Clone, Debug)]
 pub(crate) struct Street {
     backdrop: Canvas,
@@ -28,12 +28,12 @@ impl Street {
         Self { backdrop, mood }
     }
 
-    /// What does not move.
+    /// Returns the canvas with everything that does not move.
     pub(crate) fn backdrop(&self) -> &Canvas {
         &self.backdrop
     }
 
-    /// The street in frame `t`.
+    /// Returns the canvas of the street in frame `t`.
     pub(crate) fn at(&self, t: u32) -> Canvas {
         let mut canvas = self.backdrop.clone();
         traffic::paint(&mut canvas, self.mood, t);
@@ -49,7 +49,7 @@ fn paint_backdrop(canvas: &mut Canvas, mood: Mood) {
     let mut pen = Pen { canvas, origin: (0, 0), facing: 1, light: mood.light() };
     for step in 0..GROUND / 4 {
         let shade = u32::try_from(196 + step).expect("a shade");
-        // Each band reaches below the next, so that no seam shows between two.
+        // Each band overlaps the next one, so that no seam is visible.
         pen.rect(0, 4 * step, wide, 4 * step + 8, shade);
     }
     weather::sky(&mut pen, wide, mood);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Houses side by side, each with its own height, grey, roof and windows, and trees between them.
+//! The houses of the street side by side, each with its own height, grey level, roof and windows,
+//! and the trees between them.
 
 use super::setting::{GROUND, Mood};
 use crate::canvas::{OPAQUE, Pen, UNIT};
@@ -72,7 +73,7 @@ impl House {
         pen.polygon(&corners, dark);
     }
 
-    /// A window, or on the ground floor here and there a door.
+    /// Paints a window, or a door in some places of the ground floor.
     fn window(&self, pen: &mut Pen<'_>, x: i64, y: i64, wall: u32) {
         let place = x.rem_euclid(1 << 20) * 512 + y.rem_euclid(512);
         let place = u32::try_from(place).expect("29 bits");
@@ -95,7 +96,7 @@ impl House {
     }
 }
 
-/// A tree in front of a hedge; behind it stands a house far away.
+/// Paints a tree in front of a hedge, with a distant house behind it.
 fn tree(pen: &mut Pen<'_>, x: i64, number: u32) {
     pen.rect(x - 9, GROUND - 40, x + 9, GROUND, 186);
     pen.rect(x - 9, GROUND - 12, x + 9, GROUND, 92);

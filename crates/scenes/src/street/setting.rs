@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where the street lies, and at what time of day: what all that is painted has in common.
+//! The constants that all parts of the street share: the position of the ground, and the time of
+//! day.
 
-/// Where the houses stand, in units from the top.
+/// Position of the feet of the houses in units from the top.
 pub(super) const GROUND: i64 = 128;
 
-/// Time of day and weather.
+/// The time of day of the street, with its weather.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Mood {
     Day,
@@ -12,7 +13,7 @@ pub(crate) enum Mood {
 }
 
 impl Mood {
-    /// Daylight in 256ths.
+    /// Returns the brightness of daylight in 256ths.
     pub(super) fn light(self) -> u32 {
         match self {
             Self::Day => 256,

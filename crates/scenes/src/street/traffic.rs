@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What moves: three lanes of cars, each with its own speed, and a pedestrian.
+//! The moving objects of the street: three lanes of cars, each with its own speed, and pedestrians.
 
 use super::setting::Mood;
 use crate::canvas::{Canvas, OPAQUE, Pen, UNIT};
 use crate::noise::pick;
 
-/// A lane and the cars that follow each other on it for ever.
+/// A lane of the road, on which cars follow each other without end.
 struct Lane {
-    /// Where the wheels stand, in units from the top.
+    /// Position of the wheels in units from the top.
     ground: i64,
-    /// 1 to the right, -1 to the left.
+    /// Direction of the cars: 1 to the right, -1 to the left.
     facing: i64,
-    /// Parts of units per frame.
+    /// Speed in parts of units per frame.
     speed: i64,
-    /// Units from one car to the next.
+    /// Distance from one car to the next in units.
     spacing: i64,
-    /// Where the first car is in frame 0, in units.
+    /// Position of the first car in frame 0, in units.
     start: i64,
-    /// Whether vans drive here.
+    /// True if the cars of this lane are vans.
     vans: bool,
 }
 
@@ -27,7 +27,7 @@ const LANES: [Lane; 3] = [
     Lane { ground: 201, facing: 1, speed: 136, spacing: 268, start: 34, vans: false },
 ];
 
-/// Longest car with its headlights, in units.
+/// Length of the longest car with the light of its headlights, in units.
 const REACH: i64 = 120;
 
 pub(super) fn paint(canvas: &mut Canvas, mood: Mood, t: u32) {
@@ -62,12 +62,12 @@ impl Lane {
     }
 }
 
-/// Points in whole units.
+/// Converts points in whole units to parts of units.
 fn points<const COUNT: usize>(corners: [(i64, i64); COUNT]) -> [(i64, i64); COUNT] {
     corners.map(|(x, y)| (x * UNIT, y * UNIT))
 }
 
-/// A car of 50 units that heads right; its wheels stand at y = 0.
+/// Paints a car of 50 units that drives to the right. Its wheels touch the road at y = 0.
 fn car_body(pen: &mut Pen<'_>, paint: u32, spin: i64) {
     shadow(pen, 50);
     pen.polygon(&points([(9, -12), (37, -12), (31, -20), (15, -20)]), paint);
@@ -81,7 +81,7 @@ fn car_body(pen: &mut Pen<'_>, paint: u32, spin: i64) {
     wheel(pen, 40, 5, spin);
 }
 
-/// A van of 58 units.
+/// Paints a van of 58 units that drives to the right.
 fn van(pen: &mut Pen<'_>, paint: u32, spin: i64) {
     shadow(pen, 58);
     pen.polygon(&points([(0, -4), (0, -25), (44, -25), (44, -4)]), paint);
@@ -103,7 +103,7 @@ fn lights(pen: &mut Pen<'_>, length: i64, y: i64) {
     pen.glow_rect([0, y - 1, 2, y + 2], 120, OPAQUE);
 }
 
-/// A wheel whose hub turns with the way that the car has gone.
+/// Paints a wheel whose hub turns with the distance that the car has driven.
 fn wheel(pen: &mut Pen<'_>, x: i64, radius: i64, spin: i64) {
     pen.disc(x, -radius + 1, radius * UNIT, 24);
     pen.disc(x, -radius + 1, (radius - 2) * UNIT, 176);
@@ -119,7 +119,7 @@ fn headlights(pen: &mut Pen<'_>) {
     pen.glow_disc(49, -8, 4 * UNIT, 255, OPAQUE / 3);
 }
 
-/// Someone walks on the pavement in front, one every 380 units.
+/// Paints the pedestrians on the pavement in front, one every 380 units.
 fn pedestrians(canvas: &mut Canvas, mood: Mood, t: u32) {
     const SPACING: i64 = 380 * UNIT;
     let wide = canvas.parts_wide();
@@ -133,7 +133,7 @@ fn pedestrians(canvas: &mut Canvas, mood: Mood, t: u32) {
     }
 }
 
-/// A walker of 36 units whose legs and arms swing with the way gone.
+/// Paints a pedestrian of 36 units whose legs and arms swing with the distance walked.
 fn walker(pen: &mut Pen<'_>, way: i64) {
     const STRIDE: i64 = 12 * UNIT;
     let phase = way.rem_euclid(2 * STRIDE);

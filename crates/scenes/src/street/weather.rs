@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clouds by day; stars, street lamps and rain at night.
+//! The sky and the weather: clouds by day; stars, street lamps and rain at night.
 
 use super::setting::{GROUND, Mood};
 use crate::canvas::{Canvas, OPAQUE, Pen, UNIT, UNITS_HIGH};
@@ -30,7 +30,7 @@ pub(super) fn sky(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
     }
 }
 
-/// Street lamps on the far pavement.
+/// Paints the street lamps on the far pavement.
 pub(super) fn lamps(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
     for lamp in 0..=wide / 112 {
         let x = 112 * lamp + 66;
@@ -46,7 +46,7 @@ pub(super) fn lamps(pen: &mut Pen<'_>, wide: i64, mood: Mood) {
     }
 }
 
-/// Streaks that fall at their own speed, slanted by the wind.
+/// Paints the streaks of rain. Each falls at its own speed, and the wind slants them.
 pub(super) fn rain(canvas: &mut Canvas, t: u32) {
     const LENGTH: i64 = 13;
     let wide = canvas.parts_wide() / UNIT + 1;

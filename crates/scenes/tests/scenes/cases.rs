@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every scene shows the case that it is named after.
+//! Tests that every scene shows the case that it is named after.
 
 use foveate_frame::Frame;
 use foveate_scenes::{Scene, SceneSize};
@@ -8,7 +8,7 @@ fn frames(scene: Scene, frames: u32) -> Vec<Frame> {
     scene.frames(SceneSize { width: 64, height: 48, bits: 8, region_size: 8, frames }).collect()
 }
 
-/// Differences of successive frames, pixel by pixel.
+/// Returns the differences between successive frames, pixel by pixel.
 fn steps(frames: &[Frame]) -> Vec<Vec<i32>> {
     let difference = |a: &Frame, b: &Frame| {
         a.pixels().iter().zip(b.pixels()).map(|(&a, &b)| i32::from(b) - i32::from(a)).collect()
@@ -16,7 +16,7 @@ fn steps(frames: &[Frame]) -> Vec<Vec<i32>> {
     frames.iter().zip(frames.iter().skip(1)).map(|(a, b)| difference(a, b)).collect()
 }
 
-/// The pixels of one whole region.
+/// Returns the pixels of one region in row-major order.
 fn region(frame: &Frame, column: u32, row: u32, side: u32) -> Vec<u16> {
     let at = |i| frame.get(column * side + i % side, row * side + i / side);
     (0..side * side).map(at).collect()
@@ -88,7 +88,7 @@ fn half_means_end_in_one_half_then_just_below_then_just_above() {
                 .map(|frame| region(frame, column, row, 8).into_iter().map(u32::from).sum::<u32>());
             let sums: Vec<u32> = sums.collect();
             assert_eq!((sums[1] + 1, sums[2]), (sums[0], sums[0] + 1));
-            // 2^f * sum / 64 ends in one half for the f at which the remainder is 32.
+            // The value 2^f * sum / 64 ends in one half for the f at which the remainder is 32.
             let f = (0..6_usize).find(|f| (sums[0] << f) % 64 == 32).unwrap();
             halvings_seen[f] = true;
         }
@@ -102,7 +102,7 @@ fn flicker_and_fade_change_every_pixel_by_exactly_one_level() {
     for (t, step) in steps(&frames(Scene::Flicker, 6)).iter().enumerate() {
         assert_eq!(signs(step), (t % 2 == 0, t % 2 == 1), "flicker {t}");
     }
-    // 128 frames up, 128 down, for ever.
+    // The light rises for 128 frames, falls for 128 frames, and so on.
     for (t, step) in steps(&frames(Scene::Fade, 600)).iter().enumerate() {
         assert_eq!(signs(step), (t % 256 < 128, t % 256 >= 128), "fade {t}");
     }

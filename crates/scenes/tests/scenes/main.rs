@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scenes: the cases they show, and their bytes.
+//! Tests of scenes: the cases that they show, and their bytes.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod cases;

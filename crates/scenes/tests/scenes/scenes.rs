@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every scene works at any size and keeps its bytes; `FOVEATE_BLESS=1` writes the golden file anew.
+//! Tests that every scene has any size and depth, and that its bytes do not change.
+//! `FOVEATE_BLESS=1` rewrites the golden file.
 
 use std::fmt::Write;
 
@@ -10,7 +11,7 @@ fn size(width: u32, height: u32, bits: u32, region_size: u32, frames: u32) -> Sc
     SceneSize { width, height, bits, region_size, frames }
 }
 
-/// FNV-1a over the little-endian bytes of all pixels.
+/// Returns the FNV-1a hash of the little-endian bytes of all pixels.
 fn checksum(frames: impl Iterator<Item = Frame>) -> u64 {
     frames.fold(0xCBF2_9CE4_8422_2325, |hash, frame| {
         frame
