@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cycle-level model of a design, whatever its organization.
+//! The cycle-level models of a design of any organization.
 
 use foveate_design::{Design, Hardware};
 
 use crate::{CycleModel, PipelinedRcm, RasterRcm, SerialRcm};
 
-/// The model of module `rcm`, as after a reset.
+/// Returns the model of module `rcm` in the state after a reset.
 #[must_use]
 pub fn rcm(design: &Design) -> Box<dyn CycleModel> {
     match design.hardware() {
@@ -15,8 +15,8 @@ pub fn rcm(design: &Design) -> Box<dyn CycleModel> {
     }
 }
 
-/// The model of module `rpu`, as after a reset: where that is no part of the array, of a design of
-/// [one unit](Design::lone_unit).
+/// Returns the model of module `rpu` in the state after a reset. If the RPU is not a part of the
+/// array, it is the model of a design with [one unit](Design::lone_unit).
 #[must_use]
 pub fn rpu(design: &Design) -> Box<dyn CycleModel> {
     match design.hardware() {

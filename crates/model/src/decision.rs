@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How votes become SRS, and what SRS and TRS do to a region.
+//! The rules by which votes become SRS, and by which SRS and TRS become an action.
 
 use foveate_camera::{Action, Combine, Irrelevant};
 
-/// SRS from the votes of the features.
+/// Returns SRS for the votes of the features.
 pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) -> bool {
     match combine {
         Combine::Any => votes.any(|vote| vote),
@@ -11,7 +11,8 @@ pub(crate) fn combined(combine: Combine, mut votes: impl Iterator<Item = bool>) 
     }
 }
 
-/// What becomes of a region with these two bits; `is_summary_due` is asked only where irrelevant regions send their means.
+/// Returns the action on a region for its SRS and TRS. `is_summary_due` is called only if
+/// irrelevant regions send their means.
 pub fn action(
     irrelevant: Irrelevant,
     srs: bool,

@@ -10,13 +10,14 @@ use crate::view::FrameRegion;
 use crate::window::Window;
 use foveate_frame::Frame;
 
-/// The fifth of the nine sorted values.
+/// Returns the median: the fifth of the nine sorted values.
 #[must_use]
 pub fn median(window: &Window) -> u16 {
     let [a, b, c, d, e, f, g, h, i] = *window;
     let [low, middle, high] = [sorted(a, b, c), sorted(d, e, f), sorted(g, h, i)];
-    // Of the smallest of each row only the largest can be the fifth of all, of the largest only the
-    // smallest, of the middle ones only the middle one.
+    // The median is at least four of the nine values and at most four. So it is the median of three
+    // values: the largest of the smallest values of the rows, the middle one of their middle
+    // values, and the smallest of their largest values.
     let [_, _, least] = sorted(low[0], middle[0], high[0]);
     let [_, between, _] = sorted(low[1], middle[1], high[1]);
     let [most, _, _] = sorted(low[2], middle[2], high[2]);
@@ -24,16 +25,17 @@ pub fn median(window: &Window) -> u16 {
     median
 }
 
-/// Three values in order, without a branch: a sort of all nine would be most of the model's time.
+/// Sorts three values without a branch. Sorting all nine values would take most of the time of the
+/// model.
 fn sorted(a: u16, b: u16, c: u16) -> [u16; 3] {
     let (low, high) = (a.min(b), a.max(b));
     [low.min(c), low.max(high.min(c)), high.max(c)]
 }
 
-/// A padded frame, denoised as the camera says.
+/// Returns a padded frame after the filter of the camera.
 ///
 /// # Panics
-/// When the frame is not as large as the camera's padded frame.
+/// Panics if the frame does not have the size of the padded frame of the camera.
 #[must_use]
 pub fn denoise(camera: &Camera, padded: &Frame) -> Frame {
     let mut denoised = black_padded(camera);
@@ -41,7 +43,7 @@ pub fn denoise(camera: &Camera, padded: &Frame) -> Frame {
     denoised
 }
 
-/// Denoises one padded frame into another.
+/// Denoises the padded frame `padded` into `denoised`.
 pub(crate) fn denoise_into(camera: &Camera, padded: &Frame, denoised: &mut Frame) {
     match camera.filter() {
         Filter::None => denoised.clone_from(padded),
@@ -57,7 +59,8 @@ pub(crate) fn denoise_into(camera: &Camera, padded: &Frame, denoised: &mut Frame
     }
 }
 
-/// Some pixels of row `y` of one region of a padded frame, denoised; all that their windows see must be there.
+/// Returns some pixels of row `y` of one region of a padded frame, denoised. The frame must hold
+/// all pixels of their windows.
 pub(crate) fn denoised_run(
     camera: &Camera,
     padded: &Frame,
@@ -85,8 +88,8 @@ mod tests {
         sorted[CENTER]
     }
 
-    /// Minima and maxima commute with thresholds, so what holds for all windows of zeros and ones
-    /// holds for all windows.
+    /// The median is made of minima and maxima, which commute with thresholds. So it is right for
+    /// all windows if it is right for all windows of zeros and ones.
     #[test]
     fn it_is_the_fifth_of_nine() {
         for bits in 0..512u16 {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a model refuses.
+//! The errors of the models.
 
 use thiserror::Error;
 
-/// A frame that does not belong to the design.
+/// An error of a frame that does not fit the design.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum ModelError {
-    /// A frame of another size or depth than the design's.
+    /// A frame whose size or depth differs from that of the design.
     #[error("the frame has {given}, but the design takes {expected}; give it frames of that kind")]
     FrameKind {
         /// Size and depth of the frame.

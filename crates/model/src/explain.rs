@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Explains why a region of a frame was sent or dropped: every pixel, score, threshold and vote, and the
-//! row of the decision table that applied.
+//! Explanations of the decision for a region of a frame: every pixel, score, threshold and vote,
+//! and the row of the decision table that applied.
 //!
-//! Scores and bits come from the camera, and what it remembered before the frame. The hits are computed per pixel, and
-//! their sum must be the score.
+//! Scores, SRS and TRS are those of the model, and the reference is the one that it had before the
+//! frame. The hits are computed per pixel, and their sum must be the score.
 
 mod gather;
 mod text;
@@ -11,24 +11,24 @@ mod text;
 use foveate_camera::{FeatureKind, Filter};
 use serde::Serialize;
 
-/// Rows of pixels.
+/// A square of values, row by row.
 pub type Rows<T> = Vec<Vec<T>>;
 
-/// Which frame is explained.
+/// The identification of the frame that is explained.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Moment<'a> {
     /// Number of the frame.
     pub number: u64,
-    /// Its name.
+    /// Name of the frame.
     pub name: &'a str,
-    /// Its time in microseconds.
+    /// Time of the frame in microseconds.
     pub t_us: u64,
 }
 
-/// Why a region was sent or dropped.
+/// The explanation of the decision for a region.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Explanation {
-    /// Version of this format.
+    /// Version of the format of this explanation.
     pub format_version: u32,
     /// Fingerprint of the design.
     pub design_fingerprint: String,
@@ -38,27 +38,27 @@ pub struct Explanation {
     pub name: String,
     /// Time of the frame in microseconds.
     pub t_us: u64,
-    /// The region.
+    /// Position of the region.
     pub region: Place,
     /// Bits per pixel.
     pub pixel_bits: u32,
     /// The raw pixels.
     pub raw: Rows<u16>,
-    /// The pixels that were scored, with their filter.
+    /// The pixels that were scored, which are denoised if the camera has a filter.
     pub denoised: Rows<u16>,
-    /// `none` or `median3x3`.
+    /// The filter: `none` or `median3x3`.
     pub filter: Filter,
-    /// Every feature.
+    /// The spatial scores, one for every feature.
     pub spatial: Vec<Spatial>,
-    /// How votes become SRS: `any` or `all`.
+    /// The rule by which votes become SRS: `any` or `all`.
     pub combine: &'static str,
-    /// Spatial relevance.
+    /// Spatial relevance, SRS.
     pub srs: bool,
     /// The temporal score.
     pub temporal: Change,
-    /// Temporal relevance.
+    /// Temporal relevance, TRS.
     pub trs: bool,
-    /// The means of its blocks, where irrelevant regions send them.
+    /// The means of the blocks of the region, if irrelevant regions send them.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub summary: Option<Summary>,
     /// The action on the screen: `forward`, `hold`, `blank` or `summarize`.
@@ -67,38 +67,38 @@ pub struct Explanation {
     pub rule: String,
 }
 
-/// A region and its pixels in the frame.
+/// The position of a region and of its pixels in the frame.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Place {
-    /// Column of the region.
+    /// Column of the region in the grid of regions.
     pub x: u32,
-    /// Row of the region.
+    /// Row of the region in the grid of regions.
     pub y: u32,
-    /// Column of its first pixel.
+    /// Column of the first pixel of the region.
     pub x0: u32,
-    /// Row of its first pixel.
+    /// Row of the first pixel of the region.
     pub y0: u32,
-    /// Pixels along each side.
+    /// Side of the region in pixels.
     pub size: u32,
-    /// Columns of regions in a frame.
+    /// Number of columns of regions in a frame.
     pub columns: u32,
-    /// Rows of regions in a frame.
+    /// Number of rows of regions in a frame.
     pub rows: u32,
-    /// Columns of pixels that are padding.
+    /// Number of columns of the region that are padding.
     pub padding_right: u32,
-    /// Rows of pixels that are padding.
+    /// Number of rows of the region that are padding.
     pub padding_below: u32,
 }
 
-/// A spatial score and its vote.
+/// A spatial score with its threshold and its vote.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Spatial {
-    /// `edge`, `corner`, `mad` or `variance`.
+    /// Kind of the feature: `edge`, `corner`, `mad` or `variance`.
     pub feature: FeatureKind,
-    /// Threshold of a pixel.
+    /// Per-pixel threshold, for `edge` and `corner`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub level: Option<u32>,
-    /// Pixels that count, for `edge` and `corner`.
+    /// True for every pixel that is a hit, for `edge` and `corner`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hits: Option<Rows<bool>>,
     /// The mean in units of `2^-f` grey levels, for `mad`.
@@ -106,37 +106,38 @@ pub struct Spatial {
     pub mean: Option<u64>,
     /// The score.
     pub score: u64,
-    /// The least score that votes.
+    /// The smallest score that votes.
     pub min_score: u64,
     /// Divisor that turns a score into grey levels (squared grey levels for `variance`); 1 for counts.
     pub unit: u64,
-    /// Whether it votes.
+    /// True if the feature votes.
     pub vote: bool,
 }
 
-/// The temporal score.
+/// The temporal score with its reference and its thresholds.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Change {
     /// The kind of reference: `previous` or `last-sent`.
     pub against: &'static str,
-    /// The reference; without a valid one every pixel counts.
+    /// The pixels of the reference, or `None` if there is no valid one. Then every pixel counts.
     pub reference: Option<Rows<u16>>,
-    /// Threshold of a pixel.
+    /// Per-pixel threshold.
     pub level: u32,
-    /// Pixels that count.
+    /// True for every pixel that has changed.
     pub hits: Rows<bool>,
-    /// The number of them.
+    /// Number of pixels that have changed.
     pub count: u32,
-    /// The least count that makes TRS.
+    /// The smallest count that makes TRS 1.
     pub min_count: u32,
 }
 
-/// The means of a region's blocks, and those that the screen shows.
+/// The means of the blocks of a region, and the means that the screen shows.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Summary {
-    /// The means in this frame.
+    /// The means of the region in this frame.
     pub means: Rows<u16>,
-    /// Those that the screen shows before it; `None` where it shows no summary.
+    /// The means that the screen shows before this frame, or `None` if it shows no summary of the
+    /// region.
     pub shown: Option<Rows<u16>>,
     /// The summary of an irrelevant region is sent when a mean differs by more than this.
     pub level: u32,

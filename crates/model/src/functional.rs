@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional reference: an RCM and its renderer, one whole frame at a time.
+//! The functional model: an RCM and its renderer, one whole frame at a time. It is the reference
+//! for all other models.
 
 use foveate_camera::{Camera, Payload};
 
@@ -16,29 +17,29 @@ use crate::view::FrameRegion;
 use foveate_camera::Action;
 use foveate_frame::Frame;
 
-/// Everything that one frame leads to. Regions are numbered row by row.
+/// The results of one frame. Regions are numbered row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FunctionalOutcome {
     /// Spatial relevance of every region.
     pub srs: Vec<bool>,
     /// Temporal relevance of every region.
     pub trs: Vec<bool>,
-    /// Both: new pixels of the region are forwarded.
+    /// SRS and TRS of every region are both 1, so its pixels are forwarded.
     pub active: Vec<bool>,
-    /// What becomes of every region on the screen.
+    /// Action on every region of the screen.
     pub actions: Vec<Action>,
-    /// Changed pixels of every region; all of them where there was no valid reference.
+    /// Number of changed pixels of every region. It is n for a region without a valid reference.
     pub temporal_count: Vec<u32>,
     /// Scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
-    /// Means of the blocks of every region, region by region; empty where irrelevant regions send none. The means of those
-    /// whose action is [`Action::Summarize`] were sent.
+    /// Means of the blocks, region by region. They are empty if irrelevant regions send no means.
+    /// Only the means of regions with [`Action::Summarize`] were sent.
     pub means: Vec<Vec<u16>>,
-    /// The frame, padded.
+    /// The padded frame.
     pub padded: Frame,
-    /// The padded frame, denoised: what was scored.
+    /// The denoised padded frame, from which the scores are computed.
     pub denoised: Frame,
-    /// What is on the screen after this frame, without padding.
+    /// The screen after this frame, without padding.
     pub rendered: Frame,
 }
 
@@ -59,7 +60,7 @@ impl FunctionalOutcome {
         }
     }
 
-    /// The padded frame whose pixels active regions forward.
+    /// Returns the padded frame whose pixels active regions forward.
     #[must_use]
     pub fn payload(&self, camera: &Camera) -> &Frame {
         match camera.payload() {
@@ -69,17 +70,18 @@ impl FunctionalOutcome {
     }
 }
 
-/// What is remembered of a region between frames, beside the screen.
+/// The state of a region that is kept between frames, except its pixels on the screen.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Remembered {
-    /// What the next frame's region will be compared with: denoised pixels, row by row; none where there is no valid
-    /// reference.
+    /// The reference of the region: denoised pixels in row-major order, or `None` if there is no
+    /// valid reference.
     pub reference: Option<Vec<u16>>,
-    /// The means that the screen shows of it, block by block; none where it shows no summary.
+    /// The means of the region that the screen shows, block by block, or `None` if it shows no
+    /// summary.
     pub summary: Option<Vec<u16>>,
 }
 
-/// An RCM with its renderer. Between frames it remembers references, summaries and the screen, nothing else.
+/// An RCM with its renderer. Its state between frames is references, summaries and the screen.
 #[derive(Clone, Debug)]
 pub struct FunctionalCamera {
     camera: Camera,
@@ -90,7 +92,7 @@ pub struct FunctionalCamera {
 }
 
 impl FunctionalCamera {
-    /// A camera that has seen nothing yet.
+    /// Makes a camera in the state after a reset.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         Self {
@@ -102,55 +104,57 @@ impl FunctionalCamera {
         }
     }
 
-    /// The camera.
+    /// Returns the camera.
     #[must_use]
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    /// Forgets every frame.
+    /// Resets references, summaries and the screen.
     pub fn reset(&mut self) {
         self.references = References::none(&self.camera);
         self.summaries = no_summaries(&self.camera);
         self.screen = Screen::black(&self.camera);
     }
 
-    /// What the next frame's region will be compared with: denoised pixels, row by row; `None` where
-    /// there is no valid reference.
+    /// Returns the reference of a region for the next frame: denoised pixels in row-major order, or
+    /// `None` if there is no valid reference.
     ///
     /// # Panics
-    /// When the camera has no such region.
+    /// Panics if the camera has no such region.
     #[must_use]
     pub fn reference(&self, region: u32) -> Option<Vec<u16>> {
         self.references.pixels(&self.camera, region)
     }
 
-    /// The means that the screen shows of a region, block by block; `None` where it shows no summary.
+    /// Returns the means of a region that the screen shows, block by block, or `None` if it shows
+    /// no summary.
     ///
     /// # Panics
-    /// When the camera has no such region.
+    /// Panics if the camera has no such region.
     #[must_use]
     pub fn summary(&self, region: u32) -> Option<&[u16]> {
         self.summaries[index(region)].shown()
     }
 
-    /// What is remembered of a region.
+    /// Returns the state of a region that is kept between frames.
     ///
     /// # Panics
-    /// When the camera has no such region.
+    /// Panics if the camera has no such region.
     #[must_use]
     pub fn remembered(&self, region: u32) -> Remembered {
         let summary = self.summary(region).map(<[u16]>::to_vec);
         Remembered { reference: self.reference(region), summary }
     }
 
-    /// A camera that goes on from what another one remembers: its screen, and what is remembered of every region.
+    /// Makes a camera that continues from the state of another one: its screen, and the state of
+    /// every region.
     ///
     /// # Errors
-    /// When the screen is not of the camera's size and depth.
+    /// Returns an error if the screen does not have the size and depth of the camera.
     ///
     /// # Panics
-    /// When a region's reference or summary has too few values.
+    /// Panics if the reference or the summary of a region has too few values.
     pub fn resume(
         camera: &Camera,
         screen: &Frame,
@@ -169,10 +173,11 @@ impl FunctionalCamera {
         Ok(resumed)
     }
 
-    /// Takes the next frame.
+    /// Computes the next frame.
     ///
     /// # Errors
-    /// When the frame is not of the camera's size and depth; nothing has changed then.
+    /// Returns an error if the frame does not have the size and depth of the camera. The state is
+    /// then unchanged.
     pub fn step(&mut self, frame: &Frame) -> Result<&FunctionalOutcome, ModelError> {
         check_kind(&self.camera, frame)?;
         pad_into(frame, &mut self.outcome.padded);
@@ -186,14 +191,14 @@ impl FunctionalCamera {
         Ok(&self.outcome)
     }
 
-    /// Scores and both relevances of one region.
+    /// Computes the scores, SRS and TRS of one region.
     fn decide(&mut self, region: u32) {
         let Self { camera, references, outcome, .. } = self;
         let at = index(region);
         let seen = FrameRegion::new(camera, &outcome.denoised, region);
         let seen = seen.after(references.frame(region));
         for (feature, scores) in camera.features().iter().zip(&mut outcome.scores) {
-            // A feature without a level does not ask for one.
+            // A feature without a level ignores this argument.
             scores[at] = score(feature, feature.level().unwrap_or(0), &seen);
         }
         let votes = camera
@@ -210,7 +215,7 @@ impl FunctionalCamera {
         outcome.temporal_count[at] = count;
     }
 
-    /// The means of one region.
+    /// Computes the means of one region.
     fn summarize(&mut self, region: u32) {
         let Self { camera, outcome, .. } = self;
         if let Some(periphery) = camera.periphery() {
@@ -219,7 +224,7 @@ impl FunctionalCamera {
         }
     }
 
-    /// What follows from them: the action, the screen, and what is remembered.
+    /// Applies the decision for one region: the action, the screen, the reference and the summary.
     fn act(&mut self, region: u32) {
         let Self { camera, references, summaries, screen, outcome } = self;
         let at = index(region);

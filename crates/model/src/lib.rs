@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an RPU computes, and when: the bit-accurate models of a Foveate design.
+//! The bit-accurate models of a Foveate design: the values that an RPU computes, and the clocks at
+//! which its ports show them.
 //!
-//! [`functional`] is the clear reference: whole frames in, scores, decisions and the rendered frame
-//! out. [`pipelined`], [`serial`] and [`raster`] say what every port of the hardware shows after every
-//! clock edge, and [`FrameSync`] which frames reach them. All are written from `docs/contract.md`, `docs/timing.md`,
-//! `docs/serial.md`, `docs/raster.md` and `docs/sync.md` and from nothing else, so that agreement with the Verilog proves something. They share
-//! only what has no state: the arithmetic on one 3x3 window in [`window`], [`denoise`] and [`feature`], and
-//! the scores and decision of one region. Integers throughout; no files, no Verilog.
+//! [`functional`] is the reference: it takes whole frames and returns scores, decisions and the
+//! rendered frame. [`pipelined`], [`serial`] and [`raster`] model every port of the hardware after
+//! every clock edge, and [`FrameSync`] selects the frames that reach them. All models are written
+//! from `docs/contract.md`, `docs/timing.md`, `docs/serial.md`, `docs/raster.md` and `docs/sync.md`
+//! alone, never from the Verilog, so that agreement with the Verilog is evidence for both. The
+//! models share only arithmetic without a state: that of one 3x3 window in [`window`], [`denoise`]
+//! and [`feature`], and the scores and the decision of one region. All arithmetic is in integers.
+//! The crate reads no files and no Verilog.
 #![forbid(unsafe_code)]
 
 mod core;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of irrelevant regions: the means of their blocks, and when they are sent.
+//! The summaries of irrelevant regions: the means of their blocks, and the frames in which they are
+//! sent.
 
 use foveate_camera::{Action, Camera, Irrelevant, Periphery};
 
@@ -8,8 +9,8 @@ use crate::number::index;
 use crate::region::Area;
 use foveate_frame::Frame;
 
-/// The means of the blocks of a region whose pixels come row by row: `floor((sum + floor(b*b / 2)) / (b*b))` each, row by
-/// row.
+/// Returns the means of the blocks of a region in row-major order, each
+/// `floor((sum + floor(b*b / 2)) / (b*b))`. `pixels` are those of the region in row-major order.
 #[must_use]
 pub fn block_means(periphery: &Periphery, pixels: impl Iterator<Item = u16>) -> Vec<u16> {
     let (blocks, block_side) = (index(periphery.blocks), index(periphery.block_side));
@@ -24,32 +25,32 @@ pub fn block_means(periphery: &Periphery, pixels: impl Iterator<Item = u16>) -> 
     sums.into_iter().map(pixel).collect()
 }
 
-/// The number in its region of the upper left pixel of a block.
+/// Returns the number, in its region, of the upper left pixel of a block.
 pub(crate) fn first_of_block(periphery: &Periphery, block: u32) -> u32 {
     let (blocks, side) = (periphery.blocks, periphery.block_side);
     let (left, top) = (block % blocks * side, block / blocks * side);
     top * blocks * side + left
 }
 
-/// The number in its region of the lower right pixel of a block.
+/// Returns the number, in its region, of the lower right pixel of a block.
 pub(crate) fn last_of_block(periphery: &Periphery, block: u32) -> u32 {
     let (blocks, side) = (periphery.blocks, periphery.block_side);
     first_of_block(periphery, block) + (side - 1) * blocks * side + side - 1
 }
 
-/// What a region has sent of itself last, while the screen shows it.
+/// The summary of a region that was sent last, as long as the screen shows it.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Summary {
     shown: Option<Vec<u16>>,
 }
 
 impl Summary {
-    /// These means are on the screen, or none.
+    /// Makes the state of a region of which the screen shows these means, or no means.
     pub(crate) fn of(shown: Option<Vec<u16>>) -> Self {
         Self { shown }
     }
 
-    /// What becomes of a region with these two bits and means.
+    /// Returns the action on the region for its SRS, TRS and means. The state does not change.
     pub(crate) fn action(
         &self,
         irrelevant: Irrelevant,
@@ -61,7 +62,7 @@ impl Summary {
         action(irrelevant, srs, trs, || self.is_due(means, level))
     }
 
-    /// Decides what becomes of it, and remembers what the screen shows behind that.
+    /// Returns the action on the region, and records the means that the screen shows after it.
     pub(crate) fn decide(
         &mut self,
         irrelevant: Irrelevant,
@@ -75,8 +76,8 @@ impl Summary {
         action
     }
 
-    /// Whether these means of an irrelevant region are to be sent: the screen shows something else, or a mean that differs by
-    /// more than the level.
+    /// Returns true if an irrelevant region with these means must send them: the screen shows no
+    /// summary, or a mean differs from the shown one by more than `level`.
     fn is_due(&self, means: &[u16], level: u32) -> bool {
         self.shown.as_ref().is_none_or(|shown| {
             let mut pairs = shown.iter().zip(means);
@@ -84,17 +85,17 @@ impl Summary {
         })
     }
 
-    /// The means that the screen shows, if it shows any.
+    /// Returns the means that the screen shows, or `None` if it shows no summary.
     pub(crate) fn shown(&self) -> Option<&[u16]> {
         self.shown.as_deref()
     }
 
-    /// What the screen shows is not known.
+    /// Discards the shown means, because the contents of the screen are not known.
     pub(crate) fn forget(&mut self) {
         self.shown = None;
     }
 
-    /// What the screen shows behind an action.
+    /// Records the means that the screen shows after an action.
     fn follow(&mut self, action: Action, means: &[u16]) {
         match action {
             Action::Forward => self.shown = None,
@@ -104,13 +105,14 @@ impl Summary {
     }
 }
 
-/// What every region of a camera has sent of itself last.
+/// Returns the state of every region of a camera before the first frame: the screen shows no
+/// summary.
 pub(crate) fn no_summaries(camera: &Camera) -> Vec<Summary> {
     vec![Summary::default(); index(camera.regions())]
 }
 
 impl Area {
-    /// Shows the means of the blocks of a region.
+    /// Writes the means of the blocks of a region to a frame. Every pixel of a block gets its mean.
     pub(crate) fn fill(self, periphery: &Periphery, means: &[u16], frame: &mut Frame) {
         let side = index(periphery.block_side);
         for (y, row) in self.rows().zip(0..) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where a region lies in the padded frame, and the padding itself.
+//! The areas of regions in the padded frame, and the padding itself.
 
 use foveate_camera::Camera;
 
@@ -7,7 +7,7 @@ use crate::ModelError;
 use crate::number::index;
 use foveate_frame::Frame;
 
-/// The square of pixels of one region, in coordinates of the padded frame.
+/// The square of pixels of a region, in coordinates of the padded frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Area {
     pub(crate) left: u32,
@@ -16,34 +16,34 @@ pub(crate) struct Area {
 }
 
 impl Area {
-    /// The place of region `region`; regions are numbered row by row.
+    /// Returns the area of region `region`. Regions are numbered row by row.
     pub(crate) fn of(camera: &Camera, region: u32) -> Self {
         let side = camera.region_size();
         let (column, row) = (region % camera.columns(), region / camera.columns());
         Self { left: column * side, top: row * side, side }
     }
 
-    /// Rows of the frame that the region reaches.
+    /// Returns the rows of the frame that the region covers.
     pub(crate) fn rows(self) -> std::ops::Range<u32> {
         self.top..self.top + self.side
     }
 
-    /// Columns of the frame that the region reaches.
+    /// Returns the columns of the frame that the region covers.
     pub(crate) fn columns(self) -> std::ops::Range<u32> {
         self.left..self.left + self.side
     }
 
-    /// Every position, row by row.
+    /// Returns every position of the region in row-major order.
     pub(crate) fn positions(self) -> impl Iterator<Item = (u32, u32)> {
         self.rows().flat_map(move |y| self.columns().map(move |x| (x, y)))
     }
 
-    /// The part of row `y` of a frame that belongs to the region.
+    /// Returns the part of row `y` of a frame that belongs to the region.
     pub(crate) fn row(self, frame: &Frame, y: u32) -> &[u16] {
         &frame.row(y)[index(self.left)..][..index(self.side)]
     }
 
-    /// Every pixel, row by row.
+    /// Returns every pixel of the region in row-major order.
     pub(crate) fn pixels(self, frame: &Frame) -> impl Iterator<Item = u16> {
         self.rows().flat_map(move |y| self.row(frame, y).iter().copied())
     }
@@ -64,12 +64,12 @@ impl Area {
     }
 }
 
-/// A black frame of the camera's size.
+/// Returns a black frame of the size of the camera.
 pub(crate) fn black(camera: &Camera) -> Frame {
     filled(camera, camera.width(), camera.height())
 }
 
-/// A black frame as large as a whole number of the camera's regions.
+/// Returns a black frame of the size of the padded frame of the camera.
 pub(crate) fn black_padded(camera: &Camera) -> Frame {
     let side = camera.region_size();
     filled(camera, camera.columns() * side, camera.rows() * side)
@@ -79,18 +79,20 @@ fn filled(camera: &Camera, width: u32, height: u32) -> Frame {
     Frame::filled(width, height, camera.pixel_bits(), 0).expect("a camera has a size and a depth")
 }
 
-/// The pixels of one region of a padded frame, row by row, appended to `out`.
+/// Appends the pixels of one region of a padded frame to `out`, in row-major order.
 ///
 /// # Panics
-/// When the frame is not as large as the camera's padded frame, or has no such region.
+/// Panics if the frame does not have the size of the padded frame of the camera, or has no such
+/// region.
 pub fn region_pixels(camera: &Camera, padded: &Frame, region: u32, out: &mut Vec<u16>) {
     out.extend(Area::of(camera, region).pixels(padded));
 }
 
-/// The frame, made as large as a whole number of regions by repeating its last column and row.
+/// Returns the padded frame: its last column and row are repeated until its sides are multiples of
+/// N.
 ///
 /// # Errors
-/// When the frame is not of the camera's size and depth.
+/// Returns an error if the frame does not have the size and depth of the camera.
 pub fn pad(camera: &Camera, frame: &Frame) -> Result<Frame, ModelError> {
     check_kind(camera, frame)?;
     let mut padded = black_padded(camera);
@@ -98,7 +100,7 @@ pub fn pad(camera: &Camera, frame: &Frame) -> Result<Frame, ModelError> {
     Ok(padded)
 }
 
-/// Refuses a frame that is not of the camera's size and depth.
+/// Refuses a frame that does not have the size and depth of the camera.
 pub(crate) fn check_kind(camera: &Camera, frame: &Frame) -> Result<(), ModelError> {
     let expected = (camera.width(), camera.height(), camera.pixel_bits());
     if (frame.width(), frame.height(), frame.bits()) == expected {
@@ -109,7 +111,7 @@ pub(crate) fn check_kind(camera: &Camera, frame: &Frame) -> Result<(), ModelErro
     Err(ModelError::FrameKind { given: frame.kind(), expected })
 }
 
-/// Fills a padded frame.
+/// Writes a frame and its padding to `padded`.
 pub(crate) fn pad_into(frame: &Frame, padded: &mut Frame) {
     for y in 0..padded.height() {
         let own = frame.row(y.min(frame.height() - 1));
@@ -119,7 +121,7 @@ pub(crate) fn pad_into(frame: &Frame, padded: &mut Frame) {
     }
 }
 
-/// Cuts the padding off again.
+/// Copies the part of `padded` that is not padding to `frame`.
 pub(crate) fn crop_into(padded: &Frame, frame: &mut Frame) {
     for y in 0..frame.height() {
         frame.write(0, y, &padded.row(y)[..index(frame.width())]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The screen: what remains of each region after its action.
+//! The screen: the pixels of each region after its action.
 
 use foveate_camera::Camera;
 
@@ -7,17 +7,17 @@ use crate::region::{Area, black_padded, crop_into, pad_into};
 use foveate_camera::Action;
 use foveate_frame::Frame;
 
-/// The rendered regions, padding included; black before the first frame.
+/// The rendered regions with padding. The screen is black before the first frame.
 #[derive(Clone, Debug)]
 pub(crate) struct Screen(Frame);
 
 impl Screen {
-    /// A black screen.
+    /// Makes a black screen.
     pub(crate) fn black(camera: &Camera) -> Self {
         Self(black_padded(camera))
     }
 
-    /// Renders one region of a frame whose pixels are `payload`; the region's means are `means`.
+    /// Renders one region of a frame with the forwarded pixels `payload` and the means `means`.
     pub(crate) fn show(
         &mut self,
         camera: &Camera,
@@ -37,12 +37,12 @@ impl Screen {
         }
     }
 
-    /// Shows a whole frame, of the size of the screen without padding.
+    /// Shows a whole frame, which has the size of the screen without padding.
     pub(crate) fn show_all(&mut self, frame: &Frame) {
         pad_into(frame, &mut self.0);
     }
 
-    /// What is seen: the screen without padding.
+    /// Copies the screen without padding to `rendered`.
     pub(crate) fn crop_into(&self, rendered: &mut Frame) {
         crop_into(&self.0, rendered);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What one region scores, from its stream alone.
+//! The scores of one region, computed from its stream alone.
 
 use foveate_camera::{Camera, FeatureKind, Filter, Payload, Periphery, SpatialFeature};
 
@@ -13,8 +13,8 @@ use crate::temporal::changed_pixels;
 use crate::view::RegionView;
 use crate::window::Window;
 
-/// Scores one region after the other. Whoever wants to know a frame's scores before the array
-/// says them, to aim thresholds at them, asks this.
+/// A scorer of one region after the other. A test driver uses it to know the scores of a frame
+/// before the array outputs them, so that it can set thresholds next to them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegionScorer {
     /// Side of a region N.
@@ -25,13 +25,13 @@ pub struct RegionScorer {
     needs_border: bool,
     features: Vec<SpatialFeature>,
     raw: Square,
-    /// Side of the square that is scored: the region with what its windows see around it.
+    /// Side of the square that is scored: the region with the halo of its windows.
     scored_side: usize,
     scored: Square,
 }
 
 impl RegionScorer {
-    /// A scorer of the camera's regions.
+    /// Makes a scorer of the regions of the camera.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let scored_side = index(camera.denoised_side());
@@ -48,8 +48,8 @@ impl RegionScorer {
         }
     }
 
-    /// Takes the stream of a region (as of [`crate::region_stream`]) and denoises it; `border` is
-    /// that of [`crate::region_border`].
+    /// Takes the stream of a region, as [`crate::region_stream`] makes it, and denoises it.
+    /// `border` is the value of [`crate::region_border`].
     pub fn take(&mut self, stream: impl Iterator<Item = u16>, border: u8) {
         match self.filter {
             Filter::None => self.scored.fill(stream),
@@ -64,12 +64,12 @@ impl RegionScorer {
         }
     }
 
-    /// The region's pixels that are scored, row by row.
+    /// Returns the scored pixels of the region in row-major order.
     pub fn pixels(&self) -> impl Iterator<Item = u16> + '_ {
         self.scored.middle(self.side)
     }
 
-    /// The region's pixels that are sent, row by row.
+    /// Returns the pixels of the region that it forwards, in row-major order.
     pub(crate) fn payload(&self) -> impl Iterator<Item = u16> + '_ {
         let sent = match (self.payload, self.filter) {
             (Payload::Denoised, _) | (Payload::Raw, Filter::None) => &self.scored,
@@ -78,14 +78,16 @@ impl RegionScorer {
         sent.middle(self.side)
     }
 
-    /// The means of its blocks; none where irrelevant regions send none.
+    /// Returns the means of the blocks of the region. They are empty if irrelevant regions send no
+    /// means.
     #[must_use]
     pub fn means(&self) -> Vec<u16> {
         let means = |periphery| block_means(periphery, self.payload());
         self.periphery.as_ref().map_or(Vec::new(), means)
     }
 
-    /// The scores of the features, in the order of the camera; `reference` is `None` where there is no valid one.
+    /// Returns the scores of the features in the order of the camera. `reference` is `None` if
+    /// there is no valid one.
     #[must_use]
     pub fn scores(
         &self,
@@ -101,7 +103,8 @@ impl RegionScorer {
         scores
     }
 
-    /// Pixels that differ from the reference; all where there is none.
+    /// Returns the number of pixels that differ from the reference by more than the level, or n if
+    /// there is no valid reference.
     #[must_use]
     pub fn temporal_count(&self, reference: Option<&[u16]>, thresholds: &Thresholds) -> u32 {
         changed_pixels(&self.seen(reference), thresholds.temporal_level)
@@ -112,7 +115,7 @@ impl RegionScorer {
     }
 }
 
-/// A region that was taken, and what it is compared with.
+/// A region that was taken, with its reference.
 struct Seen<'a> {
     scored: &'a Square,
     side: usize,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A square of pixels: a region with its halo, row by row.
+//! A square of pixels: a region with its halo.
 
 use crate::stream::{BOTTOM, LEFT, RIGHT, TOP};
 use crate::window::Window;
 
-/// Pixels row by row.
+/// A square of pixels in row-major order.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Square {
     side: usize,
@@ -12,15 +12,16 @@ pub(crate) struct Square {
 }
 
 impl Square {
-    /// A black square.
+    /// Makes a black square.
     pub(crate) fn black(side: usize) -> Self {
         Self { side, pixels: vec![0; side * side] }
     }
 
-    /// Takes other pixels, as many as it has.
+    /// Replaces the pixels of the square.
     pub(crate) fn fill(&mut self, pixels: impl Iterator<Item = u16>) {
         let mut own = self.pixels.iter_mut();
-        // From inside, as nested loops: what comes may be windows, row by row.
+        // `for_each` runs as nested loops when the pixels come from windows row by row, which is
+        // faster.
         pixels.for_each(|pixel| {
             if let Some(own) = own.next() {
                 *own = pixel;
@@ -28,14 +29,14 @@ impl Square {
         });
     }
 
-    /// The pixels of the square of side `inner` in the middle, row by row.
+    /// Returns the pixels of the centered square of side `inner` in row-major order.
     pub(crate) fn middle(&self, inner: usize) -> impl Iterator<Item = u16> + '_ {
         let margin = (self.side - inner) / 2;
         (margin..margin + inner).flat_map(move |y| self.row(y)[margin..][..inner].iter().copied())
     }
 
-    /// The windows around the pixels of [`Square::middle`]. Beyond this square they see the nearest
-    /// pixel of it, which happens only where there is no margin: in isolated regions.
+    /// Returns the windows around the pixels of [`Square::middle`]. Beyond this square they see its
+    /// nearest pixel. That happens only without a margin, in isolated regions.
     pub(crate) fn windows(&self, inner: usize) -> impl Iterator<Item = Window> + '_ {
         let (margin, last) = ((self.side - inner) / 2, self.side - 1);
         let around = move |at: usize| [at.saturating_sub(1), at, (at + 1).min(last)];
@@ -58,8 +59,9 @@ impl Square {
         })
     }
 
-    /// Repeats the second outermost pixels at the sides that `border` names: what lies beyond the
-    /// frame holds the nearest pixel inside. Rows first, so that the columns carry the corners.
+    /// Replaces the outermost pixels at the sides in `border` by their inner neighbors, so that
+    /// positions beyond the frame hold the nearest pixel inside. Rows are replaced before columns,
+    /// so that the columns carry the corners.
     pub(crate) fn repeat_beyond(&mut self, border: u8) {
         let (side, last) = (self.side, self.side - 1);
         let names = |bit: u8| border & bit != 0;

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a region feeds to its RPU: the pixels with their halo, and its place in the frame.
+//! The stream of a region to its RPU: the pixels with their halo, and the sides of the region that
+//! are sides of the frame.
 
 use foveate_camera::Camera;
 
 use crate::region::Area;
 use foveate_frame::Frame;
 
-/// Appends the raw pixels that region `region` of a frame feeds to its RPU: a square of
-/// `camera.stream_side()`, row by row. A position outside of the frame holds the nearest pixel,
-/// which is padding and halo in one; a frame that is padded already gives the same stream.
+/// Appends the raw pixels that region `region` of a frame sends to its RPU: a square of side
+/// `camera.stream_side()` in row-major order. A position outside of the frame holds the nearest
+/// pixel, both for padding and for the halo. A padded frame gives the same stream.
 pub fn region_stream(camera: &Camera, frame: &Frame, region: u32, out: &mut Vec<u16>) {
     let area = Area::of(camera, region);
     let halo = i64::from(camera.halo());
@@ -18,16 +19,16 @@ pub fn region_stream(camera: &Camera, frame: &Frame, region: u32, out: &mut Vec<
     }
 }
 
-/// Bit of [`region_border`]: the region's left side is the frame's.
+/// Bit of [`region_border`] for a left side that is the left side of the frame.
 pub(crate) const LEFT: u8 = 0b0001;
-/// Bit of [`region_border`]: the region's right side is the frame's.
+/// Bit of [`region_border`] for a right side that is the right side of the frame.
 pub(crate) const RIGHT: u8 = 0b0010;
-/// Bit of [`region_border`]: the region's upper side is the frame's.
+/// Bit of [`region_border`] for an upper side that is the upper side of the frame.
 pub(crate) const TOP: u8 = 0b0100;
-/// Bit of [`region_border`]: the region's lower side is the frame's.
+/// Bit of [`region_border`] for a lower side that is the lower side of the frame.
 pub(crate) const BOTTOM: u8 = 0b1000;
 
-/// The sides of a region that are sides of the (padded) frame, as `border_i` takes them:
+/// Returns the sides of a region that are sides of the padded frame, as `border_i` takes them:
 /// `{bottom, top, right, left}`, left in bit 0.
 #[must_use]
 pub fn region_border(camera: &Camera, region: u32) -> u8 {

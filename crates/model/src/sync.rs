@@ -1,48 +1,52 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds the frames of a stream whose first beats are marked: what `docs/sync.md` puts in front of an array.
+//! The search for frames in a stream whose first beats are marked, by the rules of `docs/sync.md`.
+//! It is in front of an array.
 
 use foveate_design::Design;
 
-/// What an array takes at an edge, and what becomes of the stream; as after a reset when new.
+/// The state of the search for frames. It decides for every beat of the stream whether the array
+/// takes it.
 ///
-/// [`crate::PipelinedRcm`], [`crate::SerialRcm`] and [`crate::RasterRcm`] have one. Whoever steps the regions in
-/// another way puts one in front.
+/// [`crate::PipelinedRcm`], [`crate::SerialRcm`] and [`crate::RasterRcm`] contain one. A driver
+/// that clocks single RPUs must put one in front of them.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FrameSync {
-    /// Beats of a frame; none where the design does not find its frames, and every beat is passed on.
+    /// Number of beats of a frame, or `None` for a design without `hardware.sync`, which takes
+    /// every beat.
     beats: Option<u64>,
     state: State,
     is_error: bool,
 }
 
-/// Where in the stream it is.
+/// The position in the stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum State {
     /// No frame is under way.
     Seek,
-    /// A frame has just had all its beats.
+    /// A frame has just received its last beat.
     Start,
-    /// A frame is under way, and has had so many beats.
+    /// A frame is under way and has received this number of beats.
     Inside(u64),
-    /// The array completes the frame under way by itself, which has had so many beats.
+    /// The array completes the frame under way by itself. The frame has this number of beats.
     Fill(u64),
 }
 
 impl FrameSync {
-    /// That of the design.
+    /// Makes the state after a reset for the design.
     #[must_use]
     pub fn new(design: &Design) -> Self {
         let beats = design.syncs().then(|| design.timing().pixels_per_frame());
         Self { beats, state: State::Seek, is_error: false }
     }
 
-    /// Where nothing finds the frames: every beat is passed on.
+    /// Makes the state of a design without `hardware.sync`: the array takes every beat.
     #[must_use]
     pub fn absent() -> Self {
         Self { beats: None, state: State::Seek, is_error: false }
     }
 
-    /// One rising edge without reset, before which the array is `open`: whether the array takes a beat.
+    /// Applies one rising edge without reset. `open` is true if the array is ready before the edge.
+    /// Returns true if the array takes a beat.
     pub fn step(&mut self, valid: bool, sof: bool, open: bool) -> bool {
         let Some(beats) = self.beats else { return valid && open };
         self.is_error = false;
@@ -70,18 +74,19 @@ impl FrameSync {
         is_passed
     }
 
-    /// An edge with `rst_i`.
+    /// Applies an edge with `rst_i`.
     pub fn reset(&mut self) {
         (self.state, self.is_error) = (State::Seek, false);
     }
 
-    /// `sync_error_o` after the last edge.
+    /// Returns `sync_error_o` after the last edge.
     #[must_use]
     pub fn is_error(&self) -> bool {
         self.is_error
     }
 
-    /// Whether the array completes a frame by itself, so that nothing is taken from outside.
+    /// Returns true if the array completes a frame by itself, so that it takes no beats of the
+    /// stream.
     #[must_use]
     pub fn is_filling(&self) -> bool {
         matches!(self.state, State::Fill(_))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The temporal score: how many pixels differ from the region's reference, and what the reference
-//! is.
+//! The temporal score, which is the number of pixels that differ from the reference of their
+//! region, and the references.
 
 use foveate_camera::{Camera, Reference};
 
@@ -10,11 +10,12 @@ use crate::view::RegionView;
 use foveate_camera::Action;
 use foveate_frame::Frame;
 
-/// `|now - reference|` of every pixel of a region of two padded frames, row by row; a pixel has
-/// changed when this is above the level.
+/// Returns `|now - reference|` of every pixel of a region of two padded frames, in row-major order.
+/// A pixel has changed if this is above the level.
 ///
 /// # Panics
-/// When a frame is not as large as the camera's padded frame, or has no such region.
+/// Panics if a frame does not have the size of the padded frame of the camera, or has no such
+/// region.
 #[must_use]
 pub fn temporal_differences(
     camera: &Camera,
@@ -27,8 +28,8 @@ pub fn temporal_differences(
     pairs.map(|(now, reference)| now.abs_diff(reference).into()).collect()
 }
 
-/// Changed pixels of a region: those that differ from its reference by more than the level; all of them where there is
-/// no valid reference.
+/// Returns the number of changed pixels of a region: those that differ from its reference by more
+/// than the level, or n if there is no valid reference.
 pub fn changed_pixels(region: &impl RegionView, level: u32) -> u32 {
     match region.before() {
         Some(before) => {
@@ -39,7 +40,7 @@ pub fn changed_pixels(region: &impl RegionView, level: u32) -> u32 {
     }
 }
 
-/// The reference of every region: its denoised pixels as they once were.
+/// The references of all regions: denoised pixels of an earlier frame.
 #[derive(Clone, Debug)]
 pub(crate) struct References {
     frame: Frame,
@@ -47,17 +48,17 @@ pub(crate) struct References {
 }
 
 impl References {
-    /// No region has a reference yet.
+    /// Makes the state in which no region has a valid reference.
     pub(crate) fn none(camera: &Camera) -> Self {
         Self { frame: black_padded(camera), valid: vec![false; index(camera.regions())] }
     }
 
-    /// The reference of a region, row by row, if it is valid.
+    /// Returns the reference of a region in row-major order, or `None` if it is not valid.
     pub(crate) fn pixels(&self, camera: &Camera, region: u32) -> Option<Vec<u16>> {
         self.frame(region).map(|frame| Area::of(camera, region).pixels(frame).collect())
     }
 
-    /// Makes pixels, row by row, the reference of a region.
+    /// Sets the reference of a region to `pixels`, in row-major order.
     pub(crate) fn set(&mut self, camera: &Camera, region: u32, pixels: &[u16]) {
         let area = Area::of(camera, region);
         for (y, row) in area.rows().zip(pixels.chunks(index(area.side))) {
@@ -66,12 +67,13 @@ impl References {
         self.valid[index(region)] = true;
     }
 
-    /// A padded frame with the reference of a region in its place, if that is valid.
+    /// Returns a padded frame that holds the reference of a region, or `None` if the reference is
+    /// not valid.
     pub(crate) fn frame(&self, region: u32) -> Option<&Frame> {
         self.valid[index(region)].then_some(&self.frame)
     }
 
-    /// What the next frame will be compared with, now that this frame's action is known.
+    /// Updates the reference of a region for the next frame, by the action of this frame.
     pub(crate) fn update(
         &mut self,
         camera: &Camera,
@@ -83,7 +85,7 @@ impl References {
             (Reference::Previous, _) | (Reference::LastSent, Action::Forward) => false,
             (Reference::LastSent, Action::Hold) => true,
             (Reference::LastSent, Action::Blank | Action::Summarize) => {
-                // What was sent is no longer on the screen.
+                // The screen no longer shows the pixels that were sent.
                 self.valid[index(region)] = false;
                 true
             }

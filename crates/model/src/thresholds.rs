@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The threshold inputs of a core; every organization has the same.
+//! The threshold inputs of a core, which are the same for every organization.
 
 use foveate_camera::{Camera, FeatureKind};
 use foveate_design::Design;
 
-/// What is applied to the threshold inputs in one clock. Features are numbered in the order of the
-/// camera; places that it does not use are ignored.
+/// The values of the threshold inputs in one clock. Features are numbered in the order of the
+/// camera. Elements that the camera does not use are ignored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Thresholds {
     /// Per-pixel thresholds of the features that count hits.
     pub level: [u32; FeatureKind::COUNT],
     /// Per-region thresholds in units of the scores.
     pub min_score: [u64; FeatureKind::COUNT],
-    /// A pixel has changed above this difference.
+    /// Per-pixel threshold of the temporal score: a pixel has changed above this difference.
     pub temporal_level: u32,
-    /// TRS from this count on.
+    /// Per-region threshold of the temporal score: TRS is 1 from this count on.
     pub temporal_min_count: u32,
-    /// A summary is sent again when a mean differs by more; 0 where irrelevant regions send none.
+    /// Threshold of summaries: a summary is sent again if a mean differs by more. It is 0 if
+    /// irrelevant regions send no means.
     pub summary_level: u32,
 }
 
 impl Thresholds {
-    /// The thresholds that the camera was configured with.
+    /// Returns the thresholds of the configuration of the camera.
     #[must_use]
     pub fn of(camera: &Camera) -> Self {
         let temporal = camera.temporal();
@@ -41,7 +42,7 @@ impl Thresholds {
         thresholds
     }
 
-    /// Those of a core that has them built in; `None` where they are inputs.
+    /// Returns the thresholds of a core that has them as constants, or `None` if they are inputs.
     pub(crate) fn constants(design: &Design) -> Option<Self> {
         match design.thresholds() {
             foveate_design::Thresholds::Runtime => None,

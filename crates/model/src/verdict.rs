@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scores and decision of one region in one frame.
+//! The scores and the decision of one region in one frame.
 
 use foveate_camera::{Camera, FeatureKind};
 
@@ -7,7 +7,7 @@ use crate::decision::combined;
 use crate::number::index;
 use crate::{RegionScorer, Thresholds};
 
-/// What is thought of a region.
+/// The scores and the decision of one region in one frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(crate) struct Verdict {
     pub(crate) scores: [u64; FeatureKind::COUNT],
@@ -17,7 +17,8 @@ pub(crate) struct Verdict {
 }
 
 impl Verdict {
-    /// Of the region that the scorer has taken; `reference` is `None` where there is no valid one.
+    /// Scores and decides the region that the scorer has taken. `reference` is `None` if there is
+    /// no valid one.
     pub(crate) fn of(
         camera: &Camera,
         scorer: &RegionScorer,
@@ -40,7 +41,7 @@ impl Verdict {
         self.srs && self.trs
     }
 
-    /// A score by its number: 0 for the temporal count, then the features.
+    /// Returns a score by its number: 0 for the temporal count, 1.. for the features.
     pub(crate) fn score(&self, number: u32) -> u64 {
         match number.checked_sub(1) {
             None => self.temporal_count.into(),

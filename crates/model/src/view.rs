@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What there is to see of a region: what stands there now, with the windows around it, and what stood there before.
-//! Whatever scores a region takes this, so that a new score can look at all of it.
+//! The view of a region that every score is computed from: its pixels, the windows around them, and
+//! its reference. A new score can use all of it.
 
 use foveate_camera::{Camera, Neighborhood};
 
@@ -9,19 +9,19 @@ use crate::region::Area;
 use crate::window::{Bounds, Window};
 use foveate_frame::Frame;
 
-/// What there is to see of a region, all of it denoised and row by row.
+/// The denoised pixels of a region and of its reference, in row-major order.
 pub trait RegionView {
-    /// How many pixels it has, n.
+    /// Returns the number of pixels of the region, n.
     fn n(&self) -> u64;
-    /// Its pixels.
+    /// Returns the pixels of the region.
     fn pixels(&self) -> impl Iterator<Item = u16>;
-    /// The window around each of them.
+    /// Returns the window around each pixel of the region.
     fn windows(&self) -> impl Iterator<Item = Window>;
-    /// What it is compared with: the pixels of its reference; `None` where there is no valid one.
+    /// Returns the pixels of the reference, or `None` if there is no valid one.
     fn before(&self) -> Option<impl Iterator<Item = u16>>;
 }
 
-/// A region in its padded frame.
+/// A region in its padded frame, with its reference.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameRegion<'a> {
     frame: &'a Frame,
@@ -31,7 +31,7 @@ pub(crate) struct FrameRegion<'a> {
 }
 
 impl<'a> FrameRegion<'a> {
-    /// Region `region` of a padded frame, without a reference.
+    /// Makes a view of region `region` of a padded frame, without a reference.
     pub(crate) fn new(camera: &Camera, frame: &'a Frame, region: u32) -> Self {
         let area = Area::of(camera, region);
         let bounds = match camera.neighborhood() {
@@ -48,12 +48,12 @@ impl<'a> FrameRegion<'a> {
         Self { frame, area, bounds, reference: None }
     }
 
-    /// The same, to be compared with what stands there in another padded frame.
+    /// Adds the padded frame that holds the reference of the region.
     pub(crate) fn after(self, reference: Option<&'a Frame>) -> Self {
         Self { reference, ..self }
     }
 
-    /// The window around one pixel of the region.
+    /// Returns the window around one pixel of the region.
     pub(crate) fn window(self, x: u32, y: u32) -> Window {
         let (columns, rows) = self.bounds.around(x, y);
         let mut window = [0; 9];

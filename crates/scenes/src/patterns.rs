@@ -47,9 +47,10 @@ fn hot_pixels(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     size.max() / 2
 }
 
-/// Per region a ramp along x, along y, along the diagonal, or a step, from zero on. Neighboring
-/// regions and successive frames differ by one level of slope, so that whatever the thresholds are,
-/// some region lands on them, one a level below and one a level above.
+/// Returns a pixel of a ramp along x, along y or along the diagonal, or of a step, one for each
+/// region, starting from 0. The slope grows by one level from region to region and from frame to
+/// frame. So for any threshold some region meets it exactly, one is a level below it and one a
+/// level above.
 fn ramps(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);
@@ -64,8 +65,9 @@ fn ramps(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     height.min(size.max())
 }
 
-/// The first pixels of a region are one level above the others, as many as make the mean end in
-/// one half at some number of fraction bits, then one pixel less, then one more.
+/// Returns a pixel of a region whose first pixels are one level above the others. Their number
+/// makes the mean end in one half at some number of fraction bits. In the following frames it is
+/// one pixel less, then one more.
 fn half_means(size: &SceneSize, t: u32, x: u32, y: u32) -> u32 {
     let n = size.region_size;
     let (column, row) = (x / n, y / n);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Takes an explanation from the outcome of a frame, and the hits of single pixels from the model's
-//! arithmetic.
+//! The construction of an explanation from the outcome of a frame. The hits of single pixels come
+//! from the arithmetic of the model.
 
 use foveate_camera::{Action, Camera, Irrelevant, Periphery, SpatialFeature};
 use foveate_design::Design;
@@ -10,14 +10,15 @@ use super::{Change, Explanation, Moment, Place, Rows, Spatial, Summary};
 use crate::feature::{hits, mad};
 use crate::{FunctionalOutcome, Remembered, region_pixels};
 
-/// Changes when a key changes its meaning or goes.
+/// Version of the format. It changes when a key is removed or changes its meaning.
 const FORMAT_VERSION: u32 = 1;
 
 impl Explanation {
-    /// Everything about one region of a frame: what was remembered of it before, and what the frame has led to.
+    /// Explains the decision for one region of a frame, from the state of the region before the
+    /// frame and the outcome of the frame.
     ///
     /// # Panics
-    /// When the camera has no such region, or the outcome is that of another camera.
+    /// Panics if the camera has no such region, or if the outcome is that of another camera.
     #[must_use]
     pub fn of(
         design: &Design,
@@ -147,7 +148,7 @@ fn rows<T: Copy>(camera: &Camera, items: &[T]) -> Rows<T> {
     items.chunks(camera.region_size() as usize).map(<[T]>::to_vec).collect()
 }
 
-/// The row of the decision table in words.
+/// Returns the row of the decision table as a sentence.
 fn rule(camera: &Camera, srs: bool, trs: bool, action: Action) -> String {
     let payload = camera.payload().name();
     match (trs, srs) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An explanation for people, at most 80 columns wide.
+//! The text of an explanation for users, at most 80 columns wide.
 //!
-//! Regions up to 16 x 16 are shown as numbers, hexadecimal above 8 bits, with a mark at every hit.
-//! Larger ones are shown with one character per pixel, which is cut nowhere: ten shades for pixels,
-//! `X` for a hit.
+//! Regions up to 16x16 pixels are shown as numbers, hexadecimal above 8 bits, with a mark at every
+//! hit. Larger regions are shown with one character per pixel, so that no row is cut off: ten
+//! shades for pixels, `X` for a hit.
 
 use std::fmt::{self, Display, Formatter, Write as _};
 
 use super::{Change, Explanation, Rows, Spatial, Summary};
 
-/// Columns of a terminal.
+/// Width of a terminal in columns.
 const WIDTH: usize = 80;
-/// The largest side that is shown as numbers.
+/// Largest side of a region that is shown as numbers.
 const NUMBERS: usize = 16;
 /// Shades from black to white.
 const SHADES: &[u8; 10] = b" .:-=+*#%@";
@@ -81,7 +81,7 @@ impl Spatial {
         let mut line =
             format!("{:<9} {} {sign} {}: {vote}", self.feature.name(), self.score, self.min_score);
         if self.unit > 1 {
-            // A string takes everything.
+            // Writing to a string cannot fail.
             let _ = write!(line, "; {} per pixel", thousandths(self.score, self.unit));
         }
         line
@@ -105,7 +105,7 @@ impl Change {
 }
 
 impl Summary {
-    /// The means beside those that the screen shows, row by row of blocks.
+    /// Returns the means of this frame and those that the screen shows, row by row of blocks.
     fn line(&self) -> String {
         let list = |rows: &Rows<u16>| {
             let row = |row: &Vec<u16>| row.iter().map(u16::to_string).collect::<Vec<_>>().join(" ");
@@ -123,11 +123,11 @@ impl Summary {
     }
 }
 
-/// How squares of pixels are shown.
+/// The format in which squares of pixels are shown.
 struct Grid {
     side: usize,
     max: u16,
-    /// Digits of a number and whether they are hexadecimal.
+    /// Number of digits of a pixel.
     digits: usize,
     hexadecimal: bool,
 }
@@ -155,7 +155,7 @@ impl Grid {
         if self.side > NUMBERS { 'X' } else { '*' }
     }
 
-    /// A titled square; hits are marked.
+    /// Writes a square of pixels with a title. Hits are marked.
     fn show(
         &self,
         f: &mut Formatter<'_>,
@@ -201,13 +201,13 @@ fn compared(reached: bool) -> &'static str {
     if reached { ">=" } else { "<" }
 }
 
-/// `value / unit` with three digits after the point, cut.
+/// Returns `value / unit` with three digits after the point, rounded down.
 fn thousandths(value: u64, unit: u64) -> String {
     let thousandths = u128::from(value) * 1000 / u128::from(unit);
     format!("{}.{:03}", thousandths / 1000, thousandths % 1000)
 }
 
-/// The end of a long name.
+/// Returns the end of a name that is too long.
 fn shortened(name: &str) -> String {
     const MOST: usize = 40;
     let letters = name.chars().count();

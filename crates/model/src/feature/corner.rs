@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `corner`: FAST 5/8, pixels with five contiguous neighbors all brighter or all darker.
+//! The feature `corner`, FAST 5/8: pixels with five contiguous neighbors that are all brighter or
+//! all darker.
 
 use foveate_camera::Camera;
 
@@ -7,16 +8,17 @@ use crate::view::{FrameRegion, RegionView};
 use crate::window::{CENTER, Window};
 use foveate_frame::Frame;
 
-/// The neighbors of the center, clockwise from the upper left.
+/// The positions of the neighbors of the center in a window, clockwise from the upper left.
 const RING: [usize; 8] = [0, 1, 2, 5, 8, 7, 6, 3];
-/// Contiguous neighbors that make a corner.
+/// Number of contiguous neighbors that make a corner.
 const ARC: usize = 5;
 
-/// The largest level at which the center is still a corner: it is one iff `level <= strength`, and
-/// never one if there is no strength.
+/// Returns the largest level at which the center is a corner: it is one if and only if
+/// `level <= strength`. Returns `None` if the center is not a corner at any level.
 ///
-/// An arc is brighter than `p + level` throughout iff its smallest `x - p` is above the level, so the
-/// best arc decides, and it must reach at least 1 for level 0.
+/// All pixels of an arc are brighter than `p + level` if and only if the smallest `x - p` of the
+/// arc is above the level. So the best arc decides, and its difference must be at least 1 for level
+/// 0.
 #[must_use]
 pub fn strength(window: &Window) -> Option<u32> {
     let center = i32::from(window[CENTER]);
@@ -31,10 +33,11 @@ pub fn strength(window: &Window) -> Option<u32> {
     u32::try_from(best - 1).ok()
 }
 
-/// The strength of every pixel of a region of a denoised padded frame, row by row.
+/// Returns the strength of every pixel of a region of a denoised padded frame, in row-major order.
 ///
 /// # Panics
-/// When the frame is not as large as the camera's padded frame, or has no such region.
+/// Panics if the frame does not have the size of the padded frame of the camera, or has no such
+/// region.
 #[must_use]
 pub fn corner_strengths(camera: &Camera, denoised: &Frame, region: u32) -> Vec<Option<u32>> {
     FrameRegion::new(camera, denoised, region).windows().map(|window| strength(&window)).collect()
@@ -46,13 +49,14 @@ mod tests {
 
     #[test]
     fn five_in_a_row_are_needed_and_the_weakest_counts() {
-        //   9 9 9      the arc over the top: upper row, right, and lower right or left
+        // The arc over the top has the upper row, the right pixel, and the lower right or the left
+        // pixel.
         assert_eq!(strength(&[9, 9, 9, 0, 2, 9, 0, 0, 9]), Some(6));
         assert_eq!(strength(&[9, 9, 9, 0, 2, 9, 0, 0, 5]), Some(2));
         assert_eq!(strength(&[9, 9, 9, 2, 2, 9, 2, 2, 2]), None);
-        // Around the end of the ring.
+        // The arc goes around the end of the ring.
         assert_eq!(strength(&[9, 9, 2, 9, 2, 2, 9, 9, 2]), Some(6));
-        // Darker.
+        // The arc is darker than the center.
         assert_eq!(strength(&[1, 1, 1, 5, 4, 1, 5, 5, 1]), Some(2));
         assert_eq!(strength(&[7; 9]), None);
         assert_eq!(strength(&[65535, 65535, 65535, 0, 0, 65535, 0, 0, 65535]), Some(65534));

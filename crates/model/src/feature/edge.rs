@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `edge`: pixels whose 3x3 Sobel magnitude `|Gx| + |Gy|` is above a level.
+//! The feature `edge`: pixels whose 3x3 Sobel magnitude `|Gx| + |Gy|` is above a level.
 
 use foveate_camera::Camera;
 
@@ -7,7 +7,7 @@ use crate::view::{FrameRegion, RegionView};
 use crate::window::Window;
 use foveate_frame::Frame;
 
-/// `|Gx| + |Gy|` of the center.
+/// Returns the Sobel magnitude `|Gx| + |Gy|` of the center.
 ///
 /// ```text
 ///      -1  0 +1          -1 -2 -1
@@ -23,10 +23,11 @@ pub fn magnitude(window: &Window) -> u32 {
     gx.unsigned_abs() + gy.unsigned_abs()
 }
 
-/// The magnitude of every pixel of a region of a denoised padded frame, row by row; a pixel is a
-/// hit when its magnitude is above the level.
+/// Returns the magnitude of every pixel of a region of a denoised padded frame, in row-major order.
+/// A pixel is a hit if its magnitude is above the level.
 ///
-/// # Panics
+/// Panics if the frame does not have the size of the padded frame of the camera, or has no such
+/// region.
 /// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn edge_magnitudes(camera: &Camera, denoised: &Frame, region: u32) -> Vec<u32> {

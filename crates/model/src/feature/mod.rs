@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The spatial features, one file each: what one window or one region of pixels scores.
+//! The spatial features, one file each: the score of one window or of one region.
 
 pub mod corner;
 pub mod edge;
@@ -16,7 +16,7 @@ use foveate_frame::Frame;
 pub use corner::corner_strengths;
 pub use edge::edge_magnitudes;
 
-/// The score of a region. `level` is without meaning for a feature that counts no hits.
+/// Returns the score of a region. `level` is ignored for a feature that counts no hits.
 pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> u64 {
     let sum = || region.pixels().map(u64::from).sum();
     match feature.kind() {
@@ -35,10 +35,11 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
     }
 }
 
-/// Which pixels of a region of a denoised padded frame are hits, row by row; `None` for a feature that counts
-/// no hits.
+/// Returns true for every pixel of a region of a denoised padded frame that is a hit, in row-major
+/// order. Returns `None` for a feature that counts no hits.
 ///
-/// # Panics
+/// Panics if the frame does not have the size of the padded frame of the camera, or has no such
+/// region.
 /// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn hits(
@@ -52,7 +53,8 @@ pub fn hits(
     Some(region.windows().map(|window| is_hit(feature.kind(), &window, level)).collect())
 }
 
-/// Whether the center of a window is a hit; never for features that do not count hits.
+/// Returns true if the center of a window is a hit. It is never one for a feature that counts no
+/// hits.
 #[must_use]
 pub fn is_hit(kind: FeatureKind, window: &Window, level: u32) -> bool {
     match kind {
@@ -62,8 +64,8 @@ pub fn is_hit(kind: FeatureKind, window: &Window, level: u32) -> bool {
     }
 }
 
-/// The level around which the center of a window becomes a hit or none: the largest of which it is one, or one
-/// more. `None` where it is one with no level.
+/// Returns a level next to which the center of a window changes between hit and no hit: the largest
+/// level at which it is a hit, or one more. Returns `None` if it is not a hit at any level.
 #[must_use]
 pub fn decisive_level(kind: FeatureKind, window: &Window) -> Option<u32> {
     match kind {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a window stage gives, and how it is taken out of the pixels that a stage keeps.
+//! The output of a window stage, and its extraction from the pixels that the stage stores.
 
 use super::pixel::Pixel;
 use crate::window::Window;
 
-/// What a window stage gives at a step.
+/// The output of a window stage at a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Center {
     /// The pixel at the center.
     pub(super) pixel: Pixel,
-    /// The scored values around it.
+    /// The scored values of the window around the center.
     pub(super) window: Window,
 }
 
-/// The window at column `x` and row `y` of a square of pixels, where no position is below `low` or
-/// above `high` (column, row).
+/// Returns the window at column `x` and row `y` of a square of pixels. Positions below `low` or
+/// above `high` (column, row) are moved to the nearest position inside.
 pub(super) fn center_at(
     pixels: &[Pixel],
     side: usize,

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The decision: combinational, from what the score ports show and the thresholds of the clock.
+//! The decision, which is combinational: it depends on the score ports and the thresholds of the
+//! clock.
 
 use super::plan::{FEATURES, RpuPlan};
 use crate::Thresholds;
 use crate::decision::combined;
 
-/// A valid decision.
+/// The relevance bits of a valid decision.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Decision {
     pub(super) srs: bool,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A window of an isolated region: n pixels in, n centers out, N + 1 advances later.
+//! A window stage of an isolated region: it takes n pixels and gives n centers, N + 1 advances
+//! later.
 //!
 //! ```text
 //! N = 2               one frame, silence        the next frame follows at once
@@ -10,24 +11,25 @@
 //! owed after           0  0  0  3  2  1  0      0  0  0  3  2  1  0  3
 //! ```
 //!
-//! Centers that are *owed* when the last pixel has come leave one at every edge (flush) until the
-//! next frame begins; from then on one with every pixel. They are gone before pixel N + 1.
+//! When the last pixel of a frame has come, N + 1 centers are *owed*. They leave one at every edge
+//! (flush) until the next frame begins, and from then on one with every pixel. All have left before
+//! pixel N + 1 of the next frame comes.
 
 use super::center::{Center, center_at};
 use super::pixel::Pixel;
 
-/// The window, with all pixels of the frame that comes in and of the one before. (Two rows would
-/// do, as they do in hardware; whole frames are easier to trust.)
+/// The window stage with all pixels of the current frame and of the frame before. The hardware
+/// stores two rows, which is enough. Whole frames make the model easier to check.
 #[derive(Clone, Debug)]
 pub(super) struct IsolatedWindow {
     side: usize,
-    /// The frame whose pixels come in.
+    /// The frame whose pixels are being taken.
     filling: Vec<Pixel>,
-    /// The frame that came in before it.
+    /// The frame that was taken before it.
     complete: Vec<Pixel>,
-    /// Pixels of the frame that have been taken, 0..n.
+    /// Number of pixels of the current frame that have been taken, 0..n.
     position: usize,
-    /// Centers of the complete frame that have not been given yet.
+    /// Number of centers of the previous frame that have not been given yet.
     owed: usize,
 }
 
@@ -45,7 +47,7 @@ impl IsolatedWindow {
     pub(super) fn step(&mut self, pixel: Option<Pixel>) -> Option<Center> {
         match pixel {
             Some(pixel) => self.take(pixel),
-            // Between frames: flush. Inside a frame: wait for pixels.
+            // Between frames the stage flushes. Inside a frame it waits for pixels.
             None if self.position == 0 => self.give_owed(),
             None => None,
         }

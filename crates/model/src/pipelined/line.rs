@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Registers in a row: what enters at an edge leaves a number of edges later.
+//! A line of registers: a value that enters at an edge leaves a fixed number of edges later.
 //!
 //! ```text
 //! 2 registers       edge e    e+1    e+2
@@ -9,7 +9,7 @@
 
 use std::collections::VecDeque;
 
-/// The row; with no register what enters leaves at the same edge.
+/// A line of registers. Without registers a value leaves at the edge at which it enters.
 #[derive(Clone, Debug)]
 pub(super) struct Line<T> {
     waiting: VecDeque<Option<T>>,
@@ -24,7 +24,7 @@ impl<T> Line<T> {
         self.waiting.iter_mut().for_each(|register| *register = None);
     }
 
-    /// One edge.
+    /// Applies one edge: takes the entering value and returns the leaving one.
     pub(super) fn step(&mut self, entering: Option<T>) -> Option<T> {
         self.waiting.push_back(entering);
         self.waiting.pop_front().flatten()

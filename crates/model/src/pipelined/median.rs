@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The median window with its registers: two, or three in a deep RPU.
+//! The median window with its registers: two of them, or three in a deep RPU.
 //!
 //! ```text
 //! edge                          e         e+1        e+2
@@ -9,7 +9,7 @@
 //! next stage takes                                  median
 //! ```
 //!
-//! What is in the registers between cannot be seen, so the median is taken at once.
+//! The values between the registers cannot be observed, so the model computes the median at once.
 
 use super::line::Line;
 use super::pixel::Pixel;
@@ -17,7 +17,7 @@ use super::plan::RpuPlan;
 use super::window::WindowStage;
 use crate::denoise::median;
 
-/// Raw pixels in, denoised pixels out.
+/// The stage that takes raw pixels and gives denoised pixels.
 #[derive(Clone, Debug)]
 pub(super) struct MedianStage {
     window: WindowStage,
@@ -37,9 +37,9 @@ impl MedianStage {
         self.results.reset();
     }
 
-    /// One edge; returns what the next stage takes at this edge.
+    /// Applies one edge, and returns the pixel that the next stage takes at this edge.
     pub(super) fn step(&mut self, pixel: Option<Pixel>) -> Option<Pixel> {
-        // The raw halo of a shared region repeats the frame's border already.
+        // The raw halo of a shared region already repeats the border of the frame.
         let no_border = 0;
         let center = self.window.step(pixel, no_border);
         let result =

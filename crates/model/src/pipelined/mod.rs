@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pipelined organization, clock by clock: what every output port shows after every edge.
+//! The cycle-level model of the pipelined organization: every output port after every edge.
 //!
 //! One [`PipelinedRpu::step`] is one rising edge of the clock. The blocks are those of
 //! `docs/timing.md`, one file each:
@@ -11,7 +11,7 @@
 //!            +--------+       +---------+         +------------------------------------+
 //! ```
 //!
-//! A stage that the design does not need is not there. At an edge a stage takes one pixel, or none.
+//! A stage that the design does not need is left out. At an edge a stage takes one pixel or none.
 
 mod center;
 mod decide;

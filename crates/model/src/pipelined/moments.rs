@@ -10,7 +10,7 @@
 use super::plan::RpuPlan;
 use crate::feature::{mad, variance};
 
-/// Accumulators, and the results of the last complete frame.
+/// The accumulators, and the results of the last complete frame.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Moments {
     sum: u64,
@@ -22,7 +22,7 @@ pub(super) struct Moments {
 }
 
 impl Moments {
-    /// A tail step; `last` is that of position n - 1.
+    /// Applies a tail step. `last` is true at position n - 1.
     pub(super) fn step(&mut self, plan: &RpuPlan, pixel: u16, last: bool, n: u64) {
         self.sum += u64::from(pixel);
         self.square_sum += variance::square(pixel);

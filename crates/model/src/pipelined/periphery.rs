@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of a region: its means frame by frame, which of them were sent, and when they leave.
+//! The summaries of a region: the means of the last frames, the means that were sent, and the means
+//! that leave.
 
 use foveate_design::Action;
 
@@ -8,34 +9,35 @@ use super::plan::RpuPlan;
 use crate::number::index;
 use crate::periphery::{Summary, block_means, last_of_block};
 
-/// Means and what is known of them.
+/// The means of a region and the state of its summary.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TailSummary {
-    /// The payload of the frame that comes in, as far as it has.
+    /// The payload of the current frame, as far as it has come.
     current: Vec<u16>,
-    /// The means of the last frame that is whole.
+    /// The means of the last complete frame.
     previous: Vec<u16>,
-    /// What the receiver shows.
+    /// The summary that the screen shows.
     summary: Summary,
-    /// The means that leave while this frame comes in.
+    /// The means that leave while the current frame comes in.
     sent: Option<Vec<u16>>,
 }
 
 impl TailSummary {
-    /// A tail step. Without a periphery nobody asks for means.
+    /// Applies a tail step. Without a periphery the payload is not needed.
     pub(super) fn step(&mut self, plan: &RpuPlan, payload: u16) {
         if plan.periphery.is_some() {
             self.current.push(payload);
         }
     }
 
-    /// What becomes of the region whose decision is made in this clock.
+    /// Returns the action on the region whose decision is made in this clock.
     pub(super) fn action(&self, plan: &RpuPlan, decision: Decision, level: u32) -> Action {
         let Decision { srs, trs } = decision;
         self.summary.action(plan.irrelevant, srs, trs, &self.decided(plan), level)
     }
 
-    /// The means of the frame that is decided in this clock, in which the frame that has come in is whole.
+    /// Returns the means of the frame that is decided in this clock, in which the current frame is
+    /// complete.
     fn decided(&self, plan: &RpuPlan) -> Vec<u16> {
         if plan.second_pass { self.previous.clone() } else { self.means(plan) }
     }
@@ -45,7 +47,7 @@ impl TailSummary {
         plan.periphery.map_or(Vec::new(), |periphery| block_means(&periphery, pixels))
     }
 
-    /// The edge after done.
+    /// Applies the edge after done.
     pub(super) fn finish(&mut self, plan: &RpuPlan, decision: Option<Decision>, level: u32) {
         self.sent = None;
         if let Some(decision) = decision {
@@ -57,7 +59,8 @@ impl TailSummary {
         self.current.clear();
     }
 
-    /// The mean that leaves at a tail step: that of the block whose last pixel steps.
+    /// Returns the mean that leaves at a tail step: that of the block whose last pixel has this
+    /// position.
     pub(super) fn leaving(&self, plan: &RpuPlan, position: usize) -> Option<u16> {
         let (sent, periphery) = (self.sent.as_ref()?, plan.periphery?);
         let mut blocks = (0..).zip(sent);

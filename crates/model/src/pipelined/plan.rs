@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The parameters of the blocks, taken from the design once.
+//! The parameters of the blocks of an RPU, which are taken from the design once.
 
 use foveate_design::{
     Combine, FeatureKind, Filter, Irrelevant, Neighborhood, Payload, Periphery, PipelinedDesign,
@@ -9,39 +9,39 @@ use foveate_design::{
 use crate::Thresholds;
 use crate::number::index;
 
-/// Most features that a design can have.
+/// Largest number of features of a design.
 pub(super) const FEATURES: usize = FeatureKind::COUNT;
 
-/// What the blocks of one RPU need to know of the design.
+/// The parameters of the design that the blocks of one RPU need.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct RpuPlan {
-    /// Side of a region N.
+    /// Side of a region N in pixels.
     pub(super) side: usize,
-    /// Pixels of a region n.
+    /// Number of pixels of a region, n.
     pub(super) pixels: usize,
     pub(super) neighborhood: Neighborhood,
-    /// Side of the square of pixels that comes in.
+    /// Side of the square of pixels that is streamed.
     pub(super) stream_side: usize,
     pub(super) filter: Filter,
     pub(super) has_feature_window: bool,
     pub(super) needs_border: bool,
-    /// Registers between the median window and the next stage, m.
+    /// Number of registers between the median window and the next stage, m.
     pub(super) median_registers: usize,
-    /// Registers between the last window and the tail, d.
+    /// Number of registers between the last window and the tail, d.
     pub(super) tail_delay: usize,
     /// The features in the order of the design.
     pub(super) features: [Option<FeatureKind>; FEATURES],
-    /// Fraction bits of the mean, where there is `mad`.
+    /// Fraction bits of the mean of `mad`, else 0.
     pub(super) fraction_bits: u32,
-    /// Whether the decision waits for one more frame.
+    /// True if the decision waits for one more frame.
     pub(super) second_pass: bool,
     pub(super) combine: Combine,
     pub(super) reference: Reference,
     pub(super) irrelevant: Irrelevant,
     pub(super) payload: Payload,
-    /// What irrelevant regions send.
+    /// Parameters of the summaries, if irrelevant regions send them.
     pub(super) periphery: Option<Periphery>,
-    /// The thresholds, where they are constants of the core.
+    /// The thresholds, if they are constants of the core.
     constants: Option<Thresholds>,
 }
 
@@ -79,7 +79,7 @@ impl RpuPlan {
         }
     }
 
-    /// The thresholds that the core sees: its inputs, or its constants where it has no such inputs.
+    /// Returns the thresholds that the core uses: its constants if it has them, else the inputs.
     pub(super) fn seen<'a>(&'a self, applied: &'a Thresholds) -> &'a Thresholds {
         self.constants.as_ref().unwrap_or(applied)
     }

@@ -1,41 +1,42 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of one RPU: what is applied at an edge, and what is shown after it.
+//! The ports of one RPU: the inputs at an edge, and the outputs after it.
 
 use super::plan::FEATURES;
 
-/// What is applied to the inputs of an RPU at one edge.
+/// The inputs of an RPU at one edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RpuInput {
-    /// `rst_i`.
+    /// Value of `rst_i`.
     pub reset: bool,
-    /// `valid_i`.
+    /// Value of `valid_i`.
     pub valid: bool,
-    /// `pixel_i`.
+    /// Value of `pixel_i`.
     pub pixel: u16,
-    /// `border_i`: {bottom, top, right, left}, left in bit 0; without meaning where the design
+    /// Value of `border_i`: {bottom, top, right, left}, left in bit 0. It is ignored if the design
     /// has no such port.
     pub border: u8,
 }
 
-/// What the outputs of an RPU show after an edge.
+/// The outputs of an RPU after an edge.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RpuOutput {
-    /// `decision_valid_o`.
+    /// Value of `decision_valid_o`.
     pub decision_valid: bool,
-    /// `srs_o`.
+    /// Value of `srs_o`.
     pub srs: bool,
-    /// `trs_o`.
+    /// Value of `trs_o`.
     pub trs: bool,
-    /// `active_o`.
+    /// Value of `active_o`.
     pub active: bool,
-    /// The score ports, by number of the feature in the design; 0 where there is none.
+    /// Values of the score ports, by number of the feature in the design. They are 0 for numbers
+    /// without a feature.
     pub scores: [u64; FEATURES],
-    /// `temporal_count_o`.
+    /// Value of `temporal_count_o`.
     pub temporal_count: u32,
-    /// `summary_o`.
+    /// Value of `summary_o`.
     pub summary: bool,
-    /// `forward_valid_o`.
+    /// Value of `forward_valid_o`.
     pub forward_valid: bool,
-    /// `forward_pixel_o`.
+    /// Value of `forward_pixel_o`.
     pub forward_pixel: u16,
 }

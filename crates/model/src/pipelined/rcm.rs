@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The RCM: one RPU per region, all in step.
+//! The RCM: one RPU per region, all clocked together.
 
 use foveate_design::{FeatureKind, PipelinedDesign, PortRole};
 
@@ -7,7 +7,7 @@ use super::{PipelinedRpu, RpuInput, RpuOutput};
 use crate::cycle::{CoreInput, CycleModel};
 use crate::{FrameSync, region_border};
 
-/// The cycle-level model of an RCM, as after a reset when new.
+/// The cycle-level model of an RCM. A new one is in the state after a reset.
 #[derive(Clone, Debug)]
 pub struct PipelinedRcm {
     kinds: Vec<FeatureKind>,
@@ -19,19 +19,20 @@ pub struct PipelinedRcm {
 #[derive(Clone, Debug)]
 struct Lane {
     rpu: PipelinedRpu,
-    /// None of a lone RPU, which is told at every edge.
+    /// The borders of the region, or `None` for a lone RPU, whose borders are an input.
     border: Option<u8>,
 }
 
 impl PipelinedRcm {
-    /// The RCM of the design.
+    /// Makes the RCM of the design.
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
         let border = |region| Some(region_border(&design, region));
         Self::of(design, FrameSync::new(&design), (0..design.regions()).map(border))
     }
 
-    /// Module `rpu`: one RPU of the design, whose borders are an input, and in front of which nothing finds its frames.
+    /// Makes module `rpu`: one RPU of the design, whose borders are an input. It has no logic that
+    /// finds frames.
     #[must_use]
     pub fn lone(design: PipelinedDesign<'_>) -> Self {
         Self::of(design, FrameSync::absent(), std::iter::once(None))
@@ -52,11 +53,11 @@ impl PipelinedRcm {
         }
     }
 
-    /// One rising edge: the pixel of region i in lane i of the pixels, its outputs in lane i of what
-    /// is returned.
+    /// Applies one rising edge, and returns the outputs of all regions. Element i of the pixels and
+    /// of the outputs belongs to region i.
     ///
     /// # Panics
-    /// When there is not one pixel per region.
+    /// Panics if there is not one pixel per region.
     pub fn step(&mut self, input: &CoreInput<'_>) -> &[RpuOutput] {
         let &CoreInput { reset, valid, sof, pixels, thresholds, .. } = input;
         assert_eq!(pixels.len(), self.lanes.len(), "one pixel per region is needed");
@@ -73,19 +74,19 @@ impl PipelinedRcm {
         &self.outputs
     }
 
-    /// What the outputs show after the last edge, those of region i in lane i.
+    /// Returns the outputs after the last edge. Element i belongs to region i.
     #[must_use]
     pub fn outputs(&self) -> &[RpuOutput] {
         &self.outputs
     }
 
-    /// What `sync_error_o` shows after the last edge.
+    /// Returns `sync_error_o` after the last edge.
     #[must_use]
     pub fn sync_error(&self) -> bool {
         self.sync.is_error()
     }
 
-    /// Appends a value of every lane.
+    /// Appends one value per lane.
     fn lanes(&self, values: &mut Vec<u64>, value: impl Fn(&RpuOutput) -> u64) {
         values.extend(self.outputs.iter().map(value));
     }
@@ -99,7 +100,7 @@ impl CycleModel for PipelinedRcm {
     fn show(&self, role: PortRole, values: &mut Vec<u64>) {
         match role {
             PortRole::SyncError => values.push(self.sync_error().into()),
-            // All lanes decide at once.
+            // All lanes decide in the same clock.
             PortRole::DecisionValid => values.push(self.outputs[0].decision_valid.into()),
             PortRole::Srs => self.lanes(values, |shown| shown.srs.into()),
             PortRole::Trs => self.lanes(values, |shown| shown.trs.into()),
@@ -113,7 +114,7 @@ impl CycleModel for PipelinedRcm {
             PortRole::TemporalCount => self.lanes(values, |shown| shown.temporal_count.into()),
             PortRole::ForwardValid => self.lanes(values, |shown| shown.forward_valid.into()),
             PortRole::ForwardPixel => self.lanes(values, |shown| shown.forward_pixel.into()),
-            // Inputs, and what an RCM does not have.
+            // The other roles are inputs, or outputs that an RCM does not have.
             _ => {}
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One RPU: the stages in a row.
+//! One RPU: its stages in sequence.
 
 use foveate_design::PipelinedDesign;
 
@@ -14,7 +14,7 @@ use super::window::WindowStage;
 use crate::Thresholds;
 use crate::feature::is_hit;
 
-/// The cycle-level model of one RPU, as after a reset when new.
+/// The cycle-level model of one RPU. A new one is in the state after a reset.
 #[derive(Clone, Debug)]
 pub struct PipelinedRpu {
     plan: RpuPlan,
@@ -26,7 +26,7 @@ pub struct PipelinedRpu {
 }
 
 impl PipelinedRpu {
-    /// An RPU of the design.
+    /// Makes an RPU of the design.
     #[must_use]
     pub fn new(design: PipelinedDesign<'_>) -> Self {
         let plan = RpuPlan::of(design);
@@ -34,7 +34,7 @@ impl PipelinedRpu {
             foveate_design::Filter::None => false,
             foveate_design::Filter::Median3x3 => true,
         };
-        // A shared median window gives a square that is smaller by its own halo.
+        // A shared median window gives a square that is smaller by the halo of the window.
         let feature_side = plan.side + (plan.stream_side - plan.side).min(2);
         Self {
             median: denoises.then(|| MedianStage::new(&plan)),
@@ -45,7 +45,7 @@ impl PipelinedRpu {
         }
     }
 
-    /// One rising edge; returns what every output shows after it with these inputs still applied.
+    /// Applies one rising edge, and returns every output after it, with these inputs still applied.
     pub fn step(&mut self, input: &RpuInput, thresholds: &Thresholds) -> RpuOutput {
         let plan = self.plan;
         let thresholds = plan.seen(thresholds);
@@ -79,7 +79,7 @@ impl PipelinedRpu {
         }
     }
 
-    /// Hits of a center, with the levels of the edge at which it steps.
+    /// Returns the hits of a center, with the levels of the edge at which it steps.
     fn hits(&self, center: &Center, thresholds: &Thresholds) -> [bool; FEATURES] {
         let mut hits = [false; FEATURES];
         for ((hit, kind), level) in hits.iter_mut().zip(self.plan.features).zip(thresholds.level) {

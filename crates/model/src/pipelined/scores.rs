@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scores: what counts as it runs, and the registers that hold it for one more frame with `mad`.
+//! The scores: the counters, and the registers that hold their values for one more frame with
+//! `mad`.
 //!
 //! ```text
 //!                         done(t)              done(t+1)
@@ -20,13 +21,14 @@ use crate::feature::mad;
 pub(super) struct Scores {
     hits: [u64; FEATURES],
     moments: Moments,
-    /// Second pass of `mad`, over the frame before.
+    /// The score of `mad`, which the second pass sums up over the frame before.
     deviations: u64,
     held: [u64; FEATURES],
 }
 
 impl Scores {
-    /// A tail step; `before` is the pixel at this position in the frame before, if there is one.
+    /// Applies a tail step. `before` is the pixel at this position in the frame before, or `None`
+    /// if there is none.
     pub(super) fn step(
         &mut self,
         plan: &RpuPlan,
@@ -44,14 +46,14 @@ impl Scores {
         self.moments.step(plan, step.pixel.scored, last, n);
     }
 
-    /// The edge after done.
+    /// Applies the edge after done.
     pub(super) fn finish(&mut self, plan: &RpuPlan) {
         self.held = self.running(plan);
         self.hits = [0; FEATURES];
         self.deviations = 0;
     }
 
-    /// What the score ports show.
+    /// Returns the values of the score ports.
     pub(super) fn shown(&self, plan: &RpuPlan) -> [u64; FEATURES] {
         let running = self.running(plan);
         if !plan.second_pass {
@@ -66,7 +68,7 @@ impl Scores {
         shown
     }
 
-    /// Every score where it is formed.
+    /// Returns the current value of every score in its counter or accumulator.
     fn running(&self, plan: &RpuPlan) -> [u64; FEATURES] {
         let mut scores = [0; FEATURES];
         for ((score, hits), kind) in scores.iter_mut().zip(self.hits).zip(plan.features) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A window of a shared region: a square of side S in, the centers that have all neighbors out.
+//! A window stage of a shared region: it takes a square of side S and gives the centers that have
+//! all their neighbors.
 //!
 //! ```text
 //! S = 4                row 2                       row 3
@@ -7,19 +8,20 @@
 //! center given           -     -   (1,1) (2,1)       -     -   (1,2) (2,2)
 //! ```
 //!
-//! A center leaves at the edge that takes the pixel below and right of it, so there is no flush.
+//! A center leaves at the edge that takes the pixel below and to the right of it, so there is no
+//! flush.
 
 use super::center::{Center, center_at};
 use super::pixel::Pixel;
 
 use crate::stream::{BOTTOM, LEFT, RIGHT, TOP};
 
-/// The window, with all pixels of the square that comes in.
+/// The window stage with all pixels of the current square.
 #[derive(Clone, Debug)]
 pub(super) struct SharedWindow {
     side: usize,
     square: Vec<Pixel>,
-    /// Pixels of the square that have been taken.
+    /// Number of pixels of the square that have been taken.
     position: usize,
 }
 
@@ -40,7 +42,8 @@ impl SharedWindow {
         if x < 2 || y < 2 {
             return None;
         }
-        // The outermost pixels of the square are halo: one step in where the frame ends.
+        // The outermost pixels of the square are halo. At a side of the frame the window must not
+        // use them.
         let inset = |side: u8| usize::from(border & side != 0);
         let last = self.side - 1;
         let low = (inset(LEFT), inset(TOP));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The frame store of one region. Nothing in it is ever cleared: who reads it knows from flags what
-//! is valid.
+//! The frame store of one region. It is never cleared. Flags outside of the store tell which
+//! contents are valid.
 //!
 //! ```text
 //! tail steps of frame        t            t+1          t+2
@@ -13,8 +13,8 @@
 use super::pixel::Pixel;
 use super::plan::RpuPlan;
 
-/// The last frames of the region, and the one that was last sent. (Hardware keeps fewer: banks whose
-/// roles change instead of copies.)
+/// The last frames of the region, and the frame that was sent last. The hardware stores fewer
+/// frames, in banks that change roles instead of copies.
 #[derive(Clone, Debug)]
 pub(super) struct Store {
     current: Vec<Pixel>,
@@ -33,29 +33,29 @@ impl Store {
         self.current[position] = pixel;
     }
 
-    /// The scored value in the frame before the one that is written.
+    /// Returns the scored value in the frame before the current one.
     pub(super) fn previous(&self, position: usize) -> u16 {
         self.previous[position].scored
     }
 
-    /// The scored value in the frame that was last sent.
+    /// Returns the scored value in the frame that was sent last.
     pub(super) fn sent(&self, position: usize) -> u16 {
         self.sent[position].scored
     }
 
-    /// A pixel of the frame that leaves: the last one that has been decided.
+    /// Returns a pixel of the frame that leaves, which is the last decided frame.
     pub(super) fn leaving(&self, plan: &RpuPlan, position: usize) -> Pixel {
         if plan.second_pass { self.older[position] } else { self.previous[position] }
     }
 
-    /// The frame that has just been decided becomes the one that was last sent. Comes before
+    /// Makes the frame that has just been decided the one that was sent last. Must be called before
     /// [`Store::rotate`].
     pub(super) fn send_decided(&mut self, plan: &RpuPlan) {
         let decided = if plan.second_pass { &self.previous } else { &self.current };
         self.sent.clone_from(decided);
     }
 
-    /// The current frame is complete.
+    /// Ends the current frame, which becomes the previous one.
     pub(super) fn rotate(&mut self) {
         std::mem::swap(&mut self.older, &mut self.previous);
         std::mem::swap(&mut self.previous, &mut self.current);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The tail: positions, scores, temporal score, decision, forwarding.
+//! The tail of an RPU: positions, scores, temporal score, decision, forwarding.
 //!
 //! ```text
 //! n = 4, no mad
@@ -11,7 +11,8 @@
 //! forward (after)   -   -   -   -   -  a0  a1  a2  a3     if frame a was active
 //! ```
 //!
-//! With `mad` the decision after edge 8 is that of frame a, and its pixels leave with frame c.
+//! With `mad` the decision after edge 8 is that of frame a, and its pixels leave while frame c
+//! comes in.
 
 use foveate_design::{Action, Payload};
 
@@ -25,7 +26,7 @@ use super::store::Store;
 use super::temporal::TemporalScore;
 use crate::Thresholds;
 
-/// Everything behind the windows.
+/// The part of an RPU behind the windows.
 #[derive(Clone, Debug)]
 pub(super) struct Tail {
     plan: RpuPlan,
@@ -33,19 +34,19 @@ pub(super) struct Tail {
     registers: Registers,
 }
 
-/// What a reset clears: all but the store.
+/// The state that a reset clears: everything except the frame store.
 #[derive(Clone, Debug, Default)]
 struct Registers {
     /// Position of the next tail step, 0..n.
     position: usize,
-    /// The last edge was the last tail step of a frame.
+    /// True if the last edge had the last tail step of a frame.
     done: bool,
     scores: Scores,
     temporal: TemporalScore,
     periphery: TailSummary,
-    /// With a second pass: the temporal count of the frame before.
+    /// The temporal count of the frame before, for designs with a second pass.
     held_count: u32,
-    /// The last frame that was decided is active.
+    /// True if the last decided frame is active.
     active: bool,
     forward: Option<u16>,
 }
@@ -59,7 +60,7 @@ impl Tail {
         self.registers = Registers::default();
     }
 
-    /// One edge.
+    /// Applies one edge.
     pub(super) fn step(&mut self, step: Option<Step>, thresholds: &Thresholds) {
         if self.registers.done {
             self.finish(thresholds);
@@ -71,8 +72,8 @@ impl Tail {
         }
     }
 
-    /// The edge that ends the clock of a decision: what was combinational becomes state, before the
-    /// tail step of the next frame that this edge may be, too.
+    /// Applies the edge that ends the clock of a decision. The registers take the combinational
+    /// values before the tail step of the next frame, which can be at the same edge.
     fn finish(&mut self, thresholds: &Thresholds) {
         let decision = self.decision(thresholds);
         let n = self.count_of_all();
@@ -88,7 +89,7 @@ impl Tail {
         self.store.rotate();
     }
 
-    /// A tail step.
+    /// Applies a tail step.
     fn take(&mut self, step: &Step, thresholds: &Thresholds) {
         let n = u64::from(self.count_of_all());
         let Self { plan, store, registers } = self;
@@ -110,9 +111,9 @@ impl Tail {
         registers.done = last;
     }
 
-    /// The decision of this clock, if there is one.
+    /// Returns the decision of this clock, or `None` if there is none.
     fn decision(&self, thresholds: &Thresholds) -> Option<Decision> {
-        // With a second pass the first frame that is done only starts the second pass.
+        // With a second pass, the first frame that is done only starts the second pass.
         let valid =
             self.registers.done && (!self.plan.second_pass || self.registers.temporal.has_previous);
         valid.then(|| {
@@ -129,12 +130,12 @@ impl Tail {
         }
     }
 
-    /// n as a count of pixels.
+    /// Returns n as a count of pixels.
     fn count_of_all(&self) -> u32 {
         u32::try_from(self.plan.pixels).expect("a region has at most 4096 pixels")
     }
 
-    /// What the ports show.
+    /// Returns the values of the output ports.
     pub(super) fn output(&self, thresholds: &Thresholds) -> RpuOutput {
         let decision = self.decision(thresholds);
         RpuOutput {

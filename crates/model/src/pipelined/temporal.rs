@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The temporal score against both possible references.
+//! The temporal score, counted against both possible references.
 //!
 //! ```text
 //!                       frame t-1 active?   reference of frame t
@@ -8,8 +8,8 @@
 //! last-sent             no                  what was sent before it, if still valid
 //! ```
 //!
-//! Without `mad` the answer is known at the first tail step of frame t. With `mad` it is known when
-//! frame t is done, so both counts run.
+//! Without `mad` the reference is known at the first tail step of frame t. With `mad` it is known
+//! when frame t is done, so both counts run.
 
 use foveate_design::{Irrelevant, Reference};
 
@@ -17,21 +17,22 @@ use super::decide::Decision;
 use super::plan::RpuPlan;
 use super::store::Store;
 
-/// Counters and validity of the references.
+/// The counters, and the validity of the references.
 #[derive(Clone, Debug, Default)]
 pub(super) struct TemporalScore {
-    /// Pixels that differ from the previous frame.
+    /// Number of pixels that differ from the previous frame.
     against_previous: u32,
-    /// Pixels that differ from what was last sent, as far as it is decided.
+    /// Number of pixels that differ from the last frame that was sent, as far as decisions are
+    /// known.
     against_sent: u32,
-    /// A frame has come in since reset.
+    /// True if a complete frame has come since reset.
     pub(super) has_previous: bool,
-    /// What was last sent may serve as a reference.
+    /// True if the frame that was sent last is a valid reference.
     sent_valid: bool,
 }
 
 impl TemporalScore {
-    /// A tail step.
+    /// Applies a tail step.
     pub(super) fn step(&mut self, store: &Store, position: usize, pixel: u16, level: u32) {
         let differs = |reference: u16| u32::from(pixel.abs_diff(reference)) > level;
         let from_previous = !self.has_previous || differs(store.previous(position));
@@ -40,7 +41,8 @@ impl TemporalScore {
         self.against_sent += u32::from(from_sent);
     }
 
-    /// The count as it runs, where no later decision can change it.
+    /// Returns the running count against the reference. It is valid if no later decision can change
+    /// the reference.
     pub(super) fn running(&self, plan: &RpuPlan) -> u32 {
         match plan.reference {
             Reference::Previous => self.against_previous,
@@ -48,8 +50,8 @@ impl TemporalScore {
         }
     }
 
-    /// With a second pass: the count of the frame that is done, now that the frame before it is
-    /// decided (or there was none).
+    /// Returns the count of the frame that is done, for a design with a second pass. The frame
+    /// before it is decided now, or does not exist.
     pub(super) fn settled(&self, plan: &RpuPlan, decision: Option<Decision>, n: u32) -> u32 {
         match (plan.reference, decision) {
             (Reference::Previous, _) => self.against_previous,
@@ -59,7 +61,7 @@ impl TemporalScore {
         }
     }
 
-    /// The edge after done: counters start anew, references follow the decision.
+    /// Applies the edge after done: counters are cleared, and the references follow the decision.
     pub(super) fn finish(&mut self, plan: &RpuPlan, decision: Option<Decision>) {
         self.against_previous = 0;
         self.against_sent = 0;
@@ -72,7 +74,8 @@ impl TemporalScore {
     }
 }
 
-/// Whether the region becomes black or shows its means, so that what was sent is no longer on the screen.
+/// Returns true if the region becomes black or shows its means, so that the screen no longer shows
+/// the pixels that were sent.
 fn blanks(plan: &RpuPlan, decision: Decision) -> bool {
     match plan.irrelevant {
         Irrelevant::Zero | Irrelevant::Mean => !decision.srs,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A window stage of either kind.
+//! A window stage for either neighborhood.
 
 use foveate_design::Neighborhood;
 
@@ -9,7 +9,7 @@ use super::pixel::Pixel;
 use super::plan::RpuPlan;
 use super::shared::SharedWindow;
 
-/// A 3x3 window that slides over a region.
+/// A stage with a 3x3 window that moves over a region.
 #[derive(Clone, Debug)]
 pub(super) enum WindowStage {
     Isolated(IsolatedWindow),
@@ -17,7 +17,7 @@ pub(super) enum WindowStage {
 }
 
 impl WindowStage {
-    /// A window on a square of `side` pixels.
+    /// Makes a window stage for a square of `side` pixels.
     pub(super) fn new(plan: &RpuPlan, side: usize) -> Self {
         match plan.neighborhood {
             Neighborhood::Isolated => Self::Isolated(IsolatedWindow::new(side)),
@@ -25,7 +25,8 @@ impl WindowStage {
         }
     }
 
-    /// One edge. `border` names the sides beyond which a shared window repeats its region's pixels.
+    /// Applies one edge. `border` has the sides beyond which a shared window repeats pixels of its
+    /// region.
     pub(super) fn step(&mut self, pixel: Option<Pixel>, border: u8) -> Option<Center> {
         match self {
             Self::Isolated(window) => window.step(pixel),

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where in a frame the core is: which word each advance brings, and whether the next one waits for the port.
+//! The position of the core in a frame: the word that each advance brings, and whether the next
+//! advance waits for the port.
 
 use foveate_design::RasterTiming;
 
-/// The advances of a frame, numbered from 0.
+/// A counter of the advances of a frame, from 0.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Advances {
     timing: RasterTiming,
-    /// The number of the next.
+    /// The number of the next advance.
     next: u64,
 }
 
-/// What an advance brings.
+/// The words that an advance moves.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Advance {
-    /// The word of the padded frame that comes in; none while the windows are flushed.
+    /// The word of the padded frame that comes in, or `None` while the windows are flushed.
     pub(super) word: Option<Place>,
-    /// The word that comes to the tail; none while the windows are filled.
+    /// The word that comes to the tail, or `None` while the windows are filled.
     pub(super) tail: Option<Place>,
-    /// Whether it takes the last word of a frame: its edge is T0.
+    /// True if the advance takes the last word of a frame, so that its edge is T0.
     pub(super) is_last_taken: bool,
 }
 
-/// A word of the padded frame.
+/// The position of a word in the padded frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Place {
     /// Row of pixels.
@@ -36,22 +37,23 @@ impl Advances {
         Self { timing, next: 0 }
     }
 
-    /// The next advance is the first of a frame.
+    /// Resets the counter: the next advance is the first of a frame.
     pub(super) fn forget(&mut self) {
         self.next = 0;
     }
 
-    /// Whether the next advance is the first of a frame.
+    /// Returns true if the next advance is the first of a frame.
     pub(super) fn is_between_frames(&self) -> bool {
         self.next == 0
     }
 
-    /// Whether the next advance takes a word, and so waits for one.
+    /// Returns true if the next advance takes a word, so that it waits for one.
     pub(super) fn takes_next(&self) -> bool {
         self.place(self.next).is_some_and(|place| self.is_taken(place))
     }
 
-    /// One edge; `takes` says whether it takes a word. Nothing happens where the next advance waits for one.
+    /// Applies one edge, and returns its advance. `takes` is true if the edge takes a word. There
+    /// is no advance if the next one waits for a word.
     pub(super) fn step(&mut self, takes: bool) -> Option<Advance> {
         if self.takes_next() && !takes {
             return None;
@@ -67,12 +69,12 @@ impl Advances {
         })
     }
 
-    /// Whether a word of the padded frame is a word of the frame itself.
+    /// Returns true if a word of the padded frame is a word of the frame itself.
     fn is_taken(&self, place: Place) -> bool {
         place.column < self.timing.taken_words && place.row < self.timing.taken_rows
     }
 
-    /// Where word `number` of the padded frame is; none beyond its end.
+    /// Returns the position of word `number` of the padded frame, or `None` beyond its end.
     fn place(&self, number: u64) -> Option<Place> {
         let length = u64::from(self.timing.row_words);
         let narrow = |value| u32::try_from(value).expect("a row and a column have 32 bits");

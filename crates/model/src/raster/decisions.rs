@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When a region that has been judged is decided on the ports: a fixed number of clocks after its last word
-//! has come to the tail, or after its second pass.
+//! The delay of decisions: a fixed number of clocks after the last word of a region has come to the
+//! tail, or after its second pass.
 
 use foveate_design::{Action, RasterTiming};
 
@@ -10,47 +10,47 @@ use crate::verdict::Verdict;
 /// A region of one frame, all of whose words have come to the tail.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Complete {
-    /// Its number.
+    /// The number of the region.
     pub(super) region: u32,
-    /// The number of its row of regions, counted on through all frames since reset.
+    /// The number of the row of regions, counted through all frames since reset.
     pub(super) row: u64,
-    /// The edge at which the last of them came.
+    /// The edge at which the last word came.
     pub(super) came: u64,
 }
 
-/// A region of one frame, judged.
+/// A region of one frame with its scores and relevance bits, before its decision is on the ports.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Judged {
-    /// Its number.
+    /// The number of the region.
     pub(super) region: u32,
-    /// The number of its row of regions, as of [`Complete`].
+    /// The number of the row of regions, counted through all frames since reset.
     pub(super) row: u64,
-    /// The number of its frame since reset.
+    /// The number of the frame since reset.
     pub(super) frame: u64,
     pub(super) verdict: Verdict,
-    /// Its pixels as they were scored, row by row.
+    /// The scored pixels in row-major order.
     pub(super) scored: Vec<u16>,
-    /// Its pixels as they leave.
+    /// The pixels that the region forwards if it is active.
     pub(super) payload: Vec<u16>,
-    /// The means of its blocks; none where irrelevant regions send none.
+    /// The means of the blocks of the region. They are empty if irrelevant regions send none.
     pub(super) means: Vec<u16>,
-    /// What was applied of the threshold that decides whether they leave.
+    /// The threshold of summaries that was applied when the region was scored.
     pub(super) summary_level: u32,
 }
 
-/// A region of one frame, decided.
+/// A region of one frame with its action.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Decided {
     pub(super) judged: Judged,
     pub(super) action: Action,
 }
 
-/// The regions that are judged and not yet decided, in order.
+/// The regions that are scored and not yet decided, in order.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Decisions {
     timing: RasterTiming,
     due: Due<Judged>,
-    /// The first edge at which a second pass may begin: that after the pass before.
+    /// The first edge at which a second pass may begin, after the pass before.
     pass_free: u64,
 }
 
@@ -64,12 +64,12 @@ impl Decisions {
         self.pass_free = 0;
     }
 
-    /// Whether nothing waits for its decision.
+    /// Returns true if no region waits for its decision.
     pub(super) fn is_empty(&self) -> bool {
         self.due.is_empty()
     }
 
-    /// A region has been judged, whose last word has come to the tail at edge `came`.
+    /// Appends a scored region, whose last word came to the tail at edge `came`.
     pub(super) fn push(&mut self, came: u64, judged: Judged) {
         let due = match self.timing.second_pass {
             None => came + u64::from(self.timing.decision_latency),
@@ -84,7 +84,7 @@ impl Decisions {
         self.due.push_back((due, judged));
     }
 
-    /// The region whose decision is on the ports after edge `now`.
+    /// Returns the region whose decision is on the ports after edge `now`, or `None`.
     pub(super) fn step(&mut self, now: u64) -> Option<Judged> {
         take_due(&mut self.due, now)
     }

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What comes a fixed number of clocks after something else: a queue with the edges at which each is due.
+//! A queue of events that follow others after a fixed number of clocks, with the edges at which
+//! they are due.
 
 use std::collections::VecDeque;
 
-/// Things with their edges, which rise.
+/// A queue of items with the edges at which they are due, in ascending order.
 pub(super) type Due<T> = VecDeque<(u64, T)>;
 
-/// Takes what is due at edge `now`.
+/// Removes and returns the item that is due at edge `now`, or returns `None`.
 pub(super) fn take_due<T>(queue: &mut Due<T>, now: u64) -> Option<T> {
     let is_due = queue.front().is_some_and(|(due, _)| *due == now);
     is_due.then(|| queue.pop_front()).flatten().map(|(_, thing)| thing)

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The raster organization, clock by clock: what every output port shows after every edge.
+//! The cycle-level model of the raster organization: every output port after every edge.
 //!
-//! One [`RasterRcm::step`] is one rising edge of the clock. `docs/raster.md` says how many clocks after the
-//! advance of a word everything happens, whatever the pixels are. So this model keeps whole frames, and judges
-//! a region at once when its last word comes to the tail; what follows is done at the edge at which it is due:
+//! One [`RasterRcm::step`] is one rising edge of the clock. `docs/raster.md` defines how many
+//! clocks after the advance of a word every event happens, whatever the pixels are. So the model
+//! stores whole frames, and scores a region at once when its last word comes to the tail. The
+//! events that follow are applied at the edges at which they are due:
 //!
 //! ```text
 //! valid_i   +----------+ word  +---------+
@@ -21,7 +22,7 @@
 //!                                  +---------+
 //! ```
 //!
-//! Where the frame store is outside, a region is judged when the reference of its last word is taken there.
+//! With an external frame store, a region is scored when the reference of its last word is taken.
 
 mod advances;
 mod decisions;

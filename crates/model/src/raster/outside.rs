@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The two streams of a core whose frame store is outside: when it takes the references of words, and when it
-//! gives words away to be stored. Both are a fixed number of clocks after a word has come to the tail.
+//! The two streams of a core with an external frame store: the references that it takes, and the
+//! words that it stores. Both events are a fixed number of clocks after a word has come to the
+//! tail.
 
 use foveate_design::{Camera, RasterDesign, RasterTiming};
 use foveate_frame::Frame;
@@ -11,20 +12,21 @@ use super::due::{Due, take_due};
 use crate::denoise::denoised_run;
 use crate::region::black_padded;
 
-/// The streams.
+/// The state of the two streams.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Outside {
     camera: Camera,
     timing: RasterTiming,
-    /// Words whose references have not been taken, in order, with the edges at which that is due.
+    /// Words whose references have not been taken yet, in order, with the edges at which they are
+    /// due.
     asking: Due<Asking>,
-    /// Words that have not been stored, in order, with the edges at which that is due.
+    /// Words that have not been stored yet, in order, with the edges at which they are due.
     storing: Due<Stored>,
-    /// The references of the frame that is in the tail, as they were taken.
+    /// The references of the frame in the tail, as they were taken.
     references: Frame,
-    /// Frames that have begun to come to the tail since reset.
+    /// Number of frames whose first word has come to the tail since reset.
     frames: u64,
-    /// Whether a reference was taken that was not valid.
+    /// True if a reference was taken that was not valid.
     underrun: bool,
 }
 
@@ -32,18 +34,18 @@ pub(super) struct Outside {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Asking {
     place: Place,
-    /// Not in the first frame.
+    /// True in all frames except the first.
     has_reference: bool,
-    /// The region whose last word it is.
+    /// The region whose last word this is, if it is one.
     complete: Option<Complete>,
 }
 
 /// A word on its way to the store.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Stored {
-    /// As it is scored.
+    /// The scored pixels of the word.
     pub(super) pixels: Vec<u16>,
-    /// Whether it is the last of its row.
+    /// True if the word is the last of its row.
     pub(super) is_last: bool,
 }
 
@@ -60,14 +62,15 @@ impl Outside {
         }
     }
 
-    /// Nothing is under way, and the next frame is the first.
+    /// Resets the streams: nothing is under way, and the next frame is the first.
     pub(super) fn forget(&mut self) {
         self.asking.clear();
         self.storing.clear();
         (self.frames, self.underrun) = (0, false);
     }
 
-    /// A word comes to the tail at edge `now`, perhaps the last of a region.
+    /// Records a word that comes to the tail at edge `now`. `complete` is the region whose last
+    /// word it is, if it is one.
     pub(super) fn come(
         &mut self,
         now: u64,
@@ -85,8 +88,8 @@ impl Outside {
         self.storing.push_back((now + u64::from(self.timing.store_latency), stored));
     }
 
-    /// Edge `now`, at which the port shows this word: it is taken as a reference, if one is due. Returns the
-    /// region that has all that it is compared with from now on.
+    /// Applies edge `now`, at which the port shows the word `port`. If a reference is due, the word
+    /// is taken. Returns the region that has all of its references from now on, if there is one.
     pub(super) fn take(&mut self, now: u64, valid: bool, port: &[u16]) -> Option<Complete> {
         let asking = take_due(&mut self.asking, now)?;
         if asking.has_reference {
@@ -97,22 +100,22 @@ impl Outside {
         asking.complete
     }
 
-    /// The word that is given away after edge `now`.
+    /// Returns the word that is on the store port after edge `now`, or `None`.
     pub(super) fn store(&mut self, now: u64) -> Option<Stored> {
         take_due(&mut self.storing, now)
     }
 
-    /// Whether a reference is taken at the edge after `now`.
+    /// Returns true if a reference is taken at the edge after `now`.
     pub(super) fn asks_after(&self, now: u64) -> bool {
         self.asking.front().is_some_and(|(due, asking)| *due == now + 1 && asking.has_reference)
     }
 
-    /// Whether a region waits for the reference of its last word.
+    /// Returns true if a region waits for the reference of its last word.
     pub(super) fn is_asking(&self) -> bool {
         self.asking.iter().any(|(_, asking)| asking.complete.is_some())
     }
 
-    /// The references as they were taken.
+    /// Returns the references as they were taken.
     pub(super) fn references(&self) -> &Frame {
         &self.references
     }
@@ -121,7 +124,7 @@ impl Outside {
         self.underrun
     }
 
-    /// A word of the frame as it is scored.
+    /// Returns the scored pixels of a word.
     fn scored(&self, place: Place, padded: &Frame) -> Vec<u16> {
         let Self { camera, timing, .. } = self;
         let region = place.row / camera.region_size() * camera.columns()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The padded frame as it comes in, word by word: what lies beyond the frame repeats its last column and row.
+//! The padded frame as it comes in, word by word. Beyond the frame its last column and row are
+//! repeated.
 
 use foveate_design::RasterDesign;
 use foveate_frame::Frame;
@@ -8,14 +9,14 @@ use super::advances::Place;
 use crate::number::index;
 use crate::region::black_padded;
 
-/// The raw pixels of the frame that comes in.
+/// The raw pixels of the current frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct IncomingFrame {
     padded: Frame,
-    /// Size of the frame itself.
+    /// Width of the frame without padding.
     width: u32,
     height: u32,
-    /// K.
+    /// Number of pixels of a word, K.
     word_pixels: u32,
 }
 
@@ -29,12 +30,13 @@ impl IncomingFrame {
         }
     }
 
-    /// The padded frame, as far as it has come in.
+    /// Returns the padded frame, as far as it has come in.
     pub(super) fn padded(&self) -> &Frame {
         &self.padded
     }
 
-    /// Writes a word, in the order of the advances. `port` is looked at for pixels of the frame itself.
+    /// Writes a word, in the order of the advances. `port` is used only for pixels of the frame
+    /// itself.
     pub(super) fn write(&mut self, place: Place, port: &[u16]) {
         let left = place.column * self.word_pixels;
         let pixels: Vec<u16> = (left..left + self.word_pixels)
@@ -44,7 +46,7 @@ impl IncomingFrame {
         self.padded.write(left, place.row, &pixels);
     }
 
-    /// The pixel at (x, y), which is `own` if it lies inside the frame.
+    /// Returns the pixel at (x, y), which is `own` if it lies inside of the frame.
     fn pixel(&self, x: u32, y: u32, left: u32, port: &[u16], own: u16) -> u16 {
         let last = self.width - 1;
         if y >= self.height {
@@ -52,7 +54,7 @@ impl IncomingFrame {
         } else if x <= last {
             own
         } else if last >= left {
-            // The last column comes in the same word.
+            // The last column of the frame is in the same word.
             port[index(last - left)]
         } else {
             self.padded.get(last, y)

@@ -8,72 +8,72 @@ use super::outside::Stored;
 use super::readout::Loss;
 use super::word::Word;
 
-/// What the outputs of the core show after an edge. A port that means nothing, or that the core does not have,
-/// shows 0.
+/// The outputs of the core after an edge. A port whose value has no meaning, or that the core does
+/// not have, is 0.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct RasterOutput {
-    /// `ready_o`.
+    /// Value of `ready_o`.
     pub ready: bool,
-    /// `sync_error_o`.
+    /// Value of `sync_error_o`.
     pub sync_error: bool,
-    /// `reference_ready_o`.
+    /// Value of `reference_ready_o`.
     pub reference_ready: bool,
-    /// `store_valid_o`.
+    /// Value of `store_valid_o`.
     pub store_valid: bool,
-    /// `store_pixel_o`: a word of K pixels, the left one first.
+    /// Value of `store_pixel_o`: a word of K pixels, the left one first.
     pub store_pixels: Vec<u16>,
-    /// `store_last_o`.
+    /// Value of `store_last_o`.
     pub store_last: bool,
-    /// `underrun_o`.
+    /// Value of `underrun_o`.
     pub underrun: bool,
-    /// `decision_valid_o`.
+    /// Value of `decision_valid_o`.
     pub decision_valid: bool,
-    /// `region_o`.
+    /// Value of `region_o`.
     pub region: u32,
-    /// `srs_o`.
+    /// Value of `srs_o`.
     pub srs: bool,
-    /// `trs_o`.
+    /// Value of `trs_o`.
     pub trs: bool,
-    /// `active_o`.
+    /// Value of `active_o`.
     pub active: bool,
-    /// `summary_o`.
+    /// Value of `summary_o`.
     pub summary: bool,
-    /// The scores of the features, in the order of the design.
+    /// Scores of the features, in the order of the design.
     pub scores: [u64; FeatureKind::COUNT],
-    /// `temporal_count_o`.
+    /// Value of `temporal_count_o`.
     pub temporal_count: u32,
-    /// `forward_valid_o`.
+    /// Value of `forward_valid_o`.
     pub forward_valid: bool,
-    /// `forward_region_o`.
+    /// Value of `forward_region_o`.
     pub forward_region: u32,
-    /// `forward_position_o`.
+    /// Value of `forward_position_o`.
     pub forward_position: u32,
-    /// `forward_pixel_o`: a word of K pixels, the left one first.
+    /// Value of `forward_pixel_o`: a word of K pixels, the left one first.
     pub forward_pixels: Vec<u16>,
-    /// `forward_first_o`.
+    /// Value of `forward_first_o`.
     pub forward_first: bool,
-    /// `forward_last_o`.
+    /// Value of `forward_last_o`.
     pub forward_last: bool,
-    /// `forward_abort_o`.
+    /// Value of `forward_abort_o`.
     pub forward_abort: bool,
-    /// `forward_frame_o`.
+    /// Value of `forward_frame_o`.
     pub forward_frame: u32,
-    /// `forward_summary_o`.
+    /// Value of `forward_summary_o`.
     pub forward_summary: bool,
-    /// `lost_o`.
+    /// Value of `lost_o`.
     pub lost: bool,
-    /// `lost_count_o`.
+    /// Value of `lost_count_o`.
     pub lost_count: u16,
-    /// `lost_valid_o`.
+    /// Value of `lost_valid_o`.
     pub lost_valid: bool,
-    /// `lost_region_o`.
+    /// Value of `lost_region_o`.
     pub lost_region: u32,
-    /// `lost_frame_o`.
+    /// Value of `lost_frame_o`.
     pub lost_frame: u32,
 }
 
 impl RasterOutput {
-    /// After a reset, for words of so many pixels.
+    /// Makes the outputs after a reset, for words of `word_pixels` pixels.
     pub(super) fn fresh(word_pixels: usize) -> Self {
         Self {
             ready: true,
@@ -108,7 +108,7 @@ impl RasterOutput {
         }
     }
 
-    /// Shows a word that is to be stored, or none.
+    /// Sets the store ports to a word that is to be stored, or to no word.
     pub(super) fn show_stored(&mut self, word: Option<&Stored>) {
         self.store_valid = word.is_some();
         self.store_last = word.is_some_and(|word| word.is_last);
@@ -118,7 +118,7 @@ impl RasterOutput {
         }
     }
 
-    /// Shows the decision of a region, or none.
+    /// Sets the decision ports to the decision of a region, or to no decision.
     pub(super) fn show_decision(&mut self, decided: Option<&Decided>) {
         let judged = decided.map(|decided| &decided.judged);
         let verdict = judged.map(|judged| judged.verdict).unwrap_or_default();
@@ -129,7 +129,7 @@ impl RasterOutput {
         (self.scores, self.temporal_count) = (verdict.scores, verdict.temporal_count);
     }
 
-    /// Shows a word that leaves, or none.
+    /// Sets the forward ports to a word that leaves, or to no word.
     pub(super) fn show_word(&mut self, word: Option<&Word>) {
         self.forward_valid = word.is_some();
         self.forward_region = word.map_or(0, |word| word.region);
@@ -145,20 +145,20 @@ impl RasterOutput {
         }
     }
 
-    /// Shows how many regions were lost; the count stays at its largest value.
+    /// Sets the number of regions that were lost. The port stays at its largest value.
     pub(super) fn show_lost(&mut self, lost: u64) {
         self.lost = lost > 0;
         self.lost_count = u16::try_from(lost).unwrap_or(u16::MAX);
     }
 
-    /// Shows the region that was lost at this edge, or none.
+    /// Sets the loss ports to the region that was lost at this edge, or to no region.
     pub(super) fn show_loss(&mut self, loss: Option<Loss>) {
         self.lost_valid = loss.is_some();
         self.lost_region = loss.map_or(0, |loss| loss.region);
         self.lost_frame = loss.map_or(0, |loss| number(loss.frame));
     }
 
-    /// Appends what the port of a role shows; features are those of the design in its order.
+    /// Appends the value of the port of a role. `kinds` are the features of the design in order.
     pub(super) fn show(&self, role: PortRole, kinds: &[FeatureKind], values: &mut Vec<u64>) {
         let value = match role {
             PortRole::Ready => self.ready.into(),
@@ -193,7 +193,7 @@ impl RasterOutput {
             PortRole::LostValid => self.lost_valid.into(),
             PortRole::LostRegion => self.lost_region.into(),
             PortRole::LostFrame => self.lost_frame.into(),
-            // Inputs, and what a core does not have.
+            // The other roles are inputs, or outputs that a core does not have.
             _ => return,
         };
         values.push(value);
@@ -204,7 +204,7 @@ fn extend(values: &mut Vec<u64>, word: &[u16]) {
     values.extend(word.iter().map(|&pixel| u64::from(pixel)));
 }
 
-/// The number of a frame as it is shown.
+/// Returns the number of a frame as the ports show it.
 fn number(frame: u64) -> u32 {
     u32::try_from(frame % u64::from(FRAME_NUMBERS)).expect("a remainder of 32 bits")
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The core: what an edge does to each of its parts, and what its outputs show after it.
+//! The core: the effect of an edge on each of its parts, and the outputs after it.
 
 use foveate_design::{FeatureKind, PortRole, RasterDesign, RasterTiming};
 
@@ -15,39 +15,40 @@ use crate::cycle::{CoreInput, CycleModel};
 use crate::number::index;
 use crate::{FrameSync, Thresholds};
 
-/// The cycle-level model of a raster core, as after a reset when new.
+/// The cycle-level model of a raster core. A new one is in the state after a reset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RasterRcm {
     kinds: Vec<FeatureKind>,
     timing: RasterTiming,
-    /// Regions side by side.
+    /// Number of regions in a row of regions.
     columns: u32,
-    /// Side of a region N.
+    /// Side of a region N in pixels.
     side: u32,
-    /// The thresholds, where they are constants of the core.
+    /// The thresholds, if they are constants of the core.
     constants: Option<Thresholds>,
     sync: FrameSync,
     advances: Advances,
     picture: IncomingFrame,
     staleness: Staleness,
     regions: Regions,
-    /// The streams of a frame store outside, where it is there.
+    /// The streams of an external frame store, if the core has one.
     outside: Option<Outside>,
     decisions: Decisions,
     readout: Readout,
     /// The region whose decision is on the ports.
     decided: Option<Decided>,
-    /// Edges since reset.
+    /// Number of edges since reset.
     now: u64,
-    /// Clocks until `ready_o` may be 1 again after T0.
+    /// Number of clocks after T0 until `ready_o` may be 1 again.
     closed: u64,
-    /// Whether a word would be taken at the next edge, from outside or not.
+    /// True if a word would be taken at the next edge, from the stream or from the core's own
+    /// completion of a frame.
     is_open: bool,
     output: RasterOutput,
 }
 
 impl RasterRcm {
-    /// The core of the design.
+    /// Makes the core of the design.
     #[must_use]
     pub fn new(design: RasterDesign<'_>) -> Self {
         let timing = RasterTiming::of(design);
@@ -73,10 +74,11 @@ impl RasterRcm {
         }
     }
 
-    /// One rising edge; returns what every output shows after it.
+    /// Applies one rising edge, and returns every output after it.
     ///
     /// # Panics
-    /// When there are not as many pixels as `pixel_i` has, or as `reference_pixel_i` where that is a port.
+    /// Panics if there are not as many pixels as `pixel_i` has, or as `reference_pixel_i` has in a
+    /// core with that port.
     pub fn step(&mut self, input: &CoreInput<'_>) -> &RasterOutput {
         let word = index(self.timing.word_pixels);
         assert_eq!(input.pixels.len(), word, "a word has K pixels");
@@ -96,35 +98,35 @@ impl RasterRcm {
         &self.output
     }
 
-    /// What the outputs show.
+    /// Returns the outputs after the last edge.
     #[must_use]
     pub fn output(&self) -> &RasterOutput {
         &self.output
     }
 
-    /// What the next frame of a region will be compared with: scored pixels, row by row; `None` where there
-    /// is no valid reference. With `last-sent` it is known when nothing is [pending](Self::is_pending); where
-    /// the frame store is outside, it is what that was given to store.
+    /// Returns the reference of a region for the next frame: scored pixels in row-major order, or
+    /// `None` if there is no valid reference. With `last-sent` it is known when nothing is
+    /// [pending](Self::is_pending). With an external frame store it is what the core has stored.
     ///
     /// # Panics
-    /// When the design has no such region.
+    /// Panics if the design has no such region.
     #[must_use]
     pub fn reference(&self, region: u32) -> Option<&[u16]> {
         self.regions.reference(region)
     }
 
-    /// The means that the screen shows of a region, block by block; `None` where it shows no summary. Known when nothing is
-    /// [pending](Self::is_pending).
+    /// Returns the means of a region that the screen shows, block by block, or `None` if it shows
+    /// no summary. They are known when nothing is [pending](Self::is_pending).
     ///
     /// # Panics
-    /// When the design has no such region.
+    /// Panics if the design has no such region.
     #[must_use]
     pub fn summary(&self, region: u32) -> Option<&[u16]> {
         self.regions.summary(region)
     }
 
-    /// Whether a region is not yet decided though its last word has come to the tail, or has words that have
-    /// not left.
+    /// Returns true if the last word of a region has come to the tail and the region is not decided
+    /// yet, or if it has words that have not left.
     #[must_use]
     pub fn is_pending(&self) -> bool {
         self.decided.as_ref().is_some_and(|decided| self.leaves(decided))
@@ -132,20 +134,21 @@ impl RasterRcm {
             || !self.readout.is_empty()
     }
 
-    /// Whether a region is lost in the middle at the next edge, unless that is a reset: for a sink that is to be ready
-    /// just then, or not.
+    /// Returns true if a region is lost in the middle at the next edge, unless that edge has a
+    /// reset. A test driver uses it to choose whether the sink is ready at that edge.
     #[must_use]
     pub fn aborts_next(&self) -> bool {
         self.readout.has_begun_below(self.staleness.fresh_at(self.now + 1))
     }
 
-    /// Whether a region is not yet decided though its last word has come to the tail.
+    /// Returns true if the last word of a region has come to the tail and the region is not decided
+    /// yet.
     #[must_use]
     pub fn is_deciding(&self) -> bool {
         !self.decisions.is_empty() || self.outside.as_ref().is_some_and(Outside::is_asking)
     }
 
-    /// Whether something of a region leaves.
+    /// Returns true if the region sends pixels or means.
     fn leaves(&self, decided: &Decided) -> bool {
         self.timing.words_sent(decided.action).is_some()
     }
@@ -179,7 +182,8 @@ impl RasterRcm {
         }
     }
 
-    /// A word comes to the tail: the first of a row of regions, the last of a region, or any other.
+    /// Processes a word that comes to the tail, which may be the first of a row of regions or the
+    /// last of a region.
     fn tail(&mut self, place: Place, applied: &Thresholds) {
         if place.row.is_multiple_of(self.side) && place.column == 0 {
             self.staleness.begin_row(self.now);
@@ -192,7 +196,7 @@ impl RasterRcm {
         }
     }
 
-    /// The region whose last word is at this place.
+    /// Returns the region whose last word is at this position, or `None`.
     fn complete(&self, place: Place) -> Option<Complete> {
         let wide = self.timing.region_row_words;
         let is_last = place.row % self.side == self.side - 1 && place.column % wide == wide - 1;
@@ -203,7 +207,7 @@ impl RasterRcm {
         })
     }
 
-    /// An edge of the stream from outside.
+    /// Applies an edge of the stream of references.
     fn take_reference(&mut self, input: &CoreInput<'_>) {
         let Some(outside) = &mut self.outside else { return };
         let pixels = input.reference_pixels;
@@ -213,7 +217,7 @@ impl RasterRcm {
         }
     }
 
-    /// Judges a region, all of whose references are there.
+    /// Scores a region, all of whose references are known.
     fn judge(&mut self, complete: Complete, applied: &Thresholds) {
         let thresholds = self.constants.as_ref().unwrap_or(applied);
         let taken = self.outside.as_ref().map(Outside::references);
@@ -222,7 +226,7 @@ impl RasterRcm {
         self.decisions.push(complete.came, judged);
     }
 
-    /// An edge of the stream to the outside.
+    /// Applies an edge of the stream of words to store.
     fn store(&mut self) {
         if let Some(outside) = &mut self.outside {
             let word = outside.store(self.now);
@@ -232,8 +236,8 @@ impl RasterRcm {
         }
     }
 
-    /// An edge of the readout, in which there is never anything where no pixels leave. The decision that was on
-    /// the ports before it stands there no more.
+    /// Applies an edge of the readout, which stays empty in a core without forwarding. The decision
+    /// that was on the ports before the edge is removed.
     fn read(&mut self, sink_takes: bool) {
         if let Some(decided) = self.decided.take()
             && self.leaves(&decided)

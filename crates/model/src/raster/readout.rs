@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How regions leave, their pixels or their means: the queue, the region that is held, the word that is fetched and
-//! the word on the ports.
+//! The readout, by which the pixels or means of regions leave: the queue, the region that is held,
+//! the word that is fetched, and the word on the ports.
 
 use std::collections::VecDeque;
 
@@ -8,14 +8,14 @@ use foveate_design::RasterTiming;
 
 use super::word::{Departing, Word};
 
-/// Edges from one holding to the next, at least.
+/// Least number of edges from the start of one holding to the next.
 const REST: u64 = 2;
 
 /// A region that was lost.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Loss {
     pub(super) region: u32,
-    /// The number of its frame since reset.
+    /// The number of the frame of the region since reset.
     pub(super) frame: u64,
 }
 
@@ -25,36 +25,36 @@ impl Loss {
     }
 }
 
-/// What an edge does to references.
+/// The result of an edge of the readout.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Read {
-    /// Whether a word was fetched.
+    /// True if a word was fetched.
     pub(super) has_fetched: bool,
-    /// The region that was lost.
+    /// The region that was lost, if there was one.
     pub(super) lost: Option<Loss>,
 }
 
-/// The readout.
+/// The state of the readout.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Readout {
-    /// Edges from entering the queue to holding, at least.
+    /// Least number of edges from entering the queue to holding.
     queue_latency: u64,
-    /// Regions that leave, with the edges at which they entered.
+    /// Regions that wait to leave, with the edges at which they entered the queue.
     queue: VecDeque<(u64, Departing)>,
     held: Option<Held>,
-    /// The edge at which it last started to hold a region.
+    /// The edge at which the readout last started to hold a region.
     started: Option<u64>,
     fetched: Option<Word>,
     shown: Option<Word>,
-    /// Regions lost since reset.
+    /// Number of regions lost since reset.
     lost: u64,
 }
 
-/// A region that is held.
+/// The region that the readout holds.
 #[derive(Clone, Debug, PartialEq)]
 struct Held {
     departing: Departing,
-    /// Whether a word of it was fetched.
+    /// True if a word of the region has been fetched.
     has_begun: bool,
 }
 
@@ -82,38 +82,40 @@ impl Readout {
         }
     }
 
-    /// A region enters the queue at edge `now`.
+    /// Appends a region to the queue at edge `now`.
     pub(super) fn enter(&mut self, now: u64, departing: Departing) {
         self.queue.push_back((now, departing));
     }
 
-    /// The word on the ports.
+    /// Returns the word on the ports.
     pub(super) fn shown(&self) -> Option<&Word> {
         self.shown.as_ref()
     }
 
-    /// The word that was fetched at the last step.
+    /// Returns the word that was fetched at the last step.
     pub(super) fn fetched(&self) -> Option<&Word> {
         self.fetched.as_ref()
     }
 
-    /// Regions lost since reset.
+    /// Returns the number of regions lost since reset.
     pub(super) fn lost(&self) -> u64 {
         self.lost
     }
 
-    /// Whether it holds a region that is of a row below `fresh`, and has fetched a word of it.
+    /// Returns true if the readout holds a region of a row below `fresh` and has fetched a word of
+    /// it.
     pub(super) fn has_begun_below(&self, fresh: u64) -> bool {
         self.held.as_ref().is_some_and(|held| held.departing.row < fresh && held.has_begun)
     }
 
-    /// Whether there is nothing that has to leave.
+    /// Returns true if nothing is left to leave.
     pub(super) fn is_empty(&self) -> bool {
         let on_the_way = self.fetched.is_some() || self.shown.is_some();
         self.queue.is_empty() && self.held.is_none() && !on_the_way
     }
 
-    /// Edge `now`, at which the sink takes a word or not; rows of regions below `fresh` are stale.
+    /// Applies edge `now`. `sink_takes` is true if the sink takes a word. Rows of regions below
+    /// `fresh` are stale.
     pub(super) fn step(&mut self, now: u64, sink_takes: bool, fresh: u64) -> Read {
         let mut may_start = self.held.is_none();
         let stale = self.held.take_if(|held| held.departing.row < fresh);
@@ -140,14 +142,14 @@ impl Readout {
         read
     }
 
-    /// A region is lost in the middle: the word that was fetched last is of it, and no other comes.
+    /// Marks the word that was fetched last as the last of a region that is lost in the middle.
     fn abort(&mut self) {
         if let Some(word) = &mut self.fetched {
             (word.is_last, word.is_aborted) = (true, true);
         }
     }
 
-    /// Takes the oldest region from the queue, if it may be held now.
+    /// Removes and returns the oldest region of the queue, if it may be held now.
     fn next(&mut self, now: u64) -> Option<Departing> {
         let has_rested = self.started.is_none_or(|started| now >= started + REST);
         let is_due =

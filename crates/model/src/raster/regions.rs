@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the core keeps of every region from frame to frame, and what it thinks of it.
+//! The state that the core keeps of every region from frame to frame, and its decisions.
 
 use foveate_design::{Action, Camera, RasterDesign, Reference};
 use foveate_frame::Frame;
@@ -11,20 +11,20 @@ use crate::periphery::{Summary, no_summaries};
 use crate::verdict::Verdict;
 use crate::{RegionScorer, Thresholds, region_border, region_pixels, region_stream};
 
-/// The references of all regions.
+/// The references and the summaries of all regions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Regions {
     camera: Camera,
     scorer: RegionScorer,
-    /// Pixels of a region n.
+    /// Number of pixels of a region, n.
     pixels: usize,
-    /// K.
+    /// Number of pixels of a word, K.
     word_pixels: u32,
-    /// What each region is compared with, region by region.
+    /// The references, region by region.
     references: Vec<u16>,
-    /// Which regions have a valid reference.
+    /// True for every region with a valid reference.
     referenced: Vec<bool>,
-    /// What each region has sent of itself last.
+    /// The summary that each region has sent last.
     summaries: Vec<Summary>,
 }
 
@@ -42,25 +42,25 @@ impl Regions {
         }
     }
 
-    /// The next frame is the first; pixels stay and are never seen.
+    /// Resets the state: the next frame is the first. Pixels stay, and are never seen.
     pub(super) fn forget(&mut self) {
         self.referenced.fill(false);
         self.summaries = no_summaries(&self.camera);
     }
 
-    /// What the next frame of a region is compared with.
+    /// Returns the reference of a region for the next frame.
     pub(super) fn reference(&self, region: u32) -> Option<&[u16]> {
         let region = index(region);
         self.referenced[region].then(|| &self.references[region * self.pixels..][..self.pixels])
     }
 
-    /// The means that the screen shows of a region, if it shows any.
+    /// Returns the means of a region that the screen shows, or `None` if it shows no summary.
     pub(super) fn summary(&self, region: u32) -> Option<&[u16]> {
         self.summaries[index(region)].shown()
     }
 
-    /// Judges a region of a frame. Where references come from outside, it is compared with those that were
-    /// `taken`, whatever they are.
+    /// Scores a region of a frame. With an external frame store the reference is that of `taken`,
+    /// whatever its pixels are.
     pub(super) fn judge(
         &mut self,
         Complete { region, row, .. }: Complete,
@@ -88,7 +88,7 @@ impl Regions {
         Judged { region, row, frame, verdict, scored, payload, means, summary_level }
     }
 
-    /// A region is decided: what becomes of it, and what is remembered of it.
+    /// Decides a region: returns its action, and updates its reference and its summary.
     pub(super) fn decide(&mut self, judged: Judged) -> Decided {
         let summary = &mut self.summaries[index(judged.region)];
         let Judged { verdict, means, summary_level, .. } = &judged;
@@ -98,19 +98,20 @@ impl Regions {
         match (self.camera.temporal().reference, action) {
             (Reference::Previous, _) | (Reference::LastSent, Action::Hold) => {}
             (Reference::LastSent, Action::Forward) => *referenced = true,
-            // What was sent is no longer on the screen.
+            // The screen no longer shows the pixels that were sent.
             (Reference::LastSent, Action::Blank | Action::Summarize) => *referenced = false,
         }
         Decided { judged, action }
     }
 
-    /// What leaves of a region that was decided.
+    /// Returns the words that leave of a region that was decided.
     pub(super) fn departing(&self, decided: &Decided) -> Departing {
         Departing::of(decided, &self.camera, self.word_pixels)
     }
 
-    /// A word was fetched, and will leave. That it becomes the reference an edge later cannot be seen: the
-    /// next frame of its region comes later still.
+    /// Records a word that was fetched and will leave. The hardware writes it to the reference an
+    /// edge later. That difference cannot be observed, because the next frame of the region comes
+    /// later still.
     pub(super) fn send(&mut self, word: &Word) {
         match self.camera.temporal().reference {
             Reference::Previous => {}
@@ -118,7 +119,7 @@ impl Regions {
         }
     }
 
-    /// A region was lost: what was sent of it is not known.
+    /// Records a region that was lost. It is not known how much of it was sent.
     pub(super) fn lose(&mut self, region: u32) {
         self.summaries[index(region)].forget();
         match self.camera.temporal().reference {
@@ -127,7 +128,7 @@ impl Regions {
         }
     }
 
-    /// The pixels of a region in a padded frame, row by row.
+    /// Returns the pixels of a region of a padded frame, in row-major order.
     fn pixels_of(&self, padded: &Frame, region: u32) -> Vec<u16> {
         let mut pixels = Vec::with_capacity(self.pixels);
         region_pixels(&self.camera, padded, region, &mut pixels);

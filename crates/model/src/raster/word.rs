@@ -9,41 +9,41 @@ use super::decisions::{Decided, Judged};
 use crate::number::index;
 use crate::periphery::first_of_block;
 
-/// A word on its way out.
+/// A word on its way to the forward ports.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Word {
     pub(super) region: u32,
-    /// The number of the frame of its region since reset.
+    /// The number of the frame of the region since reset.
     pub(super) frame: u64,
-    /// The number in its region of its first pixel, or of the first pixel of its block.
+    /// The number, in the region, of the first pixel of the word or of its block.
     pub(super) position: u32,
-    /// As it leaves.
+    /// The pixels on the port.
     pub(super) pixels: Vec<u16>,
-    /// The pixels that become references: as they were scored, and none of a mean.
+    /// The scored pixels, which become the reference. They are empty for a mean.
     pub(super) scored: Vec<u16>,
-    /// Whether it is the mean of a block.
+    /// True if the word is the mean of a block.
     pub(super) is_mean: bool,
-    /// The last that comes of its region.
+    /// True if no other word of the region follows.
     pub(super) is_last: bool,
-    /// It is, because its region was lost.
+    /// True if no other word follows because the region was lost.
     pub(super) is_aborted: bool,
 }
 
 /// A region that leaves.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Departing {
-    /// Its number.
+    /// The number of the region.
     pub(super) region: u32,
-    /// The number of its row of regions, counted on through all frames since reset.
+    /// The number of the row of regions, counted through all frames since reset.
     pub(super) row: u64,
-    /// The number of its frame since reset.
+    /// The number of the frame since reset.
     pub(super) frame: u64,
-    /// What is left of it, in order.
+    /// The words that have not been fetched yet, in order.
     pub(super) words: VecDeque<Word>,
 }
 
 impl Departing {
-    /// What leaves of a region that was decided, in words of so many pixels.
+    /// Makes the words, of `word_pixels` pixels each, of a region that was decided.
     pub(super) fn of(decided: &Decided, camera: &Camera, word_pixels: u32) -> Self {
         let Decided { judged, action } = decided;
         let mut words = match (action, camera.periphery()) {
@@ -80,7 +80,7 @@ fn means(judged: &Judged, periphery: &Periphery, word_pixels: u32) -> VecDeque<W
     judged.means.iter().zip(0..).map(word).collect()
 }
 
-/// A word of a region without anything in it.
+/// Makes a word of a region without pixels.
 fn blank(judged: &Judged, position: u32) -> Word {
     Word {
         region: judged.region,

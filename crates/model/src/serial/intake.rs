@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pixels of a frame as they come in, and the stream that each region makes of them.
+//! The pixels of a frame as they are taken, and the stream of each region.
 
 use foveate_design::{Feed, SerialDesign};
 
@@ -9,7 +9,7 @@ use super::streams::Streams;
 /// The raw pixels of one frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Intake {
-    /// Pixels of this frame that were taken.
+    /// Number of pixels of this frame that have been taken.
     taken: usize,
     frame: Frame,
 }
@@ -29,7 +29,7 @@ impl Intake {
         Self { taken: 0, frame }
     }
 
-    /// Pixels at the port.
+    /// Returns the number of pixels of the pixel port.
     pub(super) fn width(&self) -> usize {
         match &self.frame {
             Frame::Streams(streams) => streams.lanes(),
@@ -37,12 +37,12 @@ impl Intake {
         }
     }
 
-    /// The next pixel is the first of a frame.
+    /// Resets the intake: the next pixel is the first of a frame.
     pub(super) fn forget(&mut self) {
         self.taken = 0;
     }
 
-    /// Whether the last pixel of a frame was taken, and none of the next.
+    /// Returns true if the last pixel of a frame has been taken, and none of the next frame.
     pub(super) fn is_full(&self) -> bool {
         let frame = match &self.frame {
             Frame::Streams(streams) => streams.clocks(),
@@ -51,7 +51,7 @@ impl Intake {
         self.taken == frame
     }
 
-    /// Takes what is at the port; says how many clocks it is written for.
+    /// Takes the pixels of the port, and returns the number of clocks for which they are written.
     pub(super) fn take(&mut self, pixels: &[u16]) -> u64 {
         if self.is_full() {
             self.taken = 0;
@@ -67,7 +67,8 @@ impl Intake {
         }
     }
 
-    /// Clocks in which the rest of the frame that is under way would be written, if it came at once.
+    /// Returns the number of clocks that writing the rest of the current frame takes, if it comes
+    /// without a gap.
     pub(super) fn clocks_left(&self) -> u64 {
         match &self.frame {
             Frame::Streams(streams) => (streams.clocks() - self.taken) as u64,
@@ -75,7 +76,7 @@ impl Intake {
         }
     }
 
-    /// What a region with its halo looks like, row by row.
+    /// Writes the pixels of a region with its halo to `out`, in row-major order.
     pub(super) fn stream(&self, region: usize, out: &mut Vec<u16>) {
         out.clear();
         match &self.frame {

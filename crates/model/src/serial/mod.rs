@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The serial organization, clock by clock: what every output port shows after every edge.
+//! The cycle-level model of the serial organization: every output port after every edge.
 //!
 //! One [`SerialRcm::step`] is one rising edge of the clock. `docs/serial.md` fixes the clock of
-//! everything that is seen, whatever the pixels are; so this model is a schedule beside
-//! the arithmetic:
+//! every output, whatever the pixels are. So the model is a schedule and, apart from it, the
+//! arithmetic:
 //!
 //! ```text
 //! ready_o <------------+
@@ -15,9 +15,9 @@
 //!                               schedule: clock -> step ------+
 //! ```
 //!
-//! A frame is judged as a whole at the edge that takes its last pixel, since thresholds stay
-//! still; its scores, decisions, pixels and means are shown when they are due. A clock in which
-//! nothing is seen costs nothing, and [`SerialRcm::skip`] leaves out any number of them.
+//! A frame is scored and decided as a whole at the edge that takes its last pixel, because
+//! thresholds stay constant. The outputs show its scores, decisions, pixels and means when they are
+//! due. [`SerialRcm::skip`] skips any number of clocks in which the outputs do not change.
 
 mod intake;
 mod ports;

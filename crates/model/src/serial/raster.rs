@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `feed = "raster"`: the padded frame, pixel by pixel; the array finds the regions that want each.
+//! The buffer of `feed = "raster"`: the padded frame, pixel by pixel, from which the array makes
+//! the streams of all regions.
 
 use foveate_design::SerialDesign;
 
@@ -13,16 +14,17 @@ pub(super) struct Raster {
     pixels: Vec<u16>,
 }
 
-/// One of the two directions of a frame.
+/// One of the two axes of the grid of regions.
 #[derive(Clone, Debug, PartialEq)]
 struct Axis {
-    /// Regions side by side.
+    /// Number of regions along the axis.
     regions: usize,
-    /// Side of a region N.
+    /// Side of a region N in pixels.
     side: usize,
-    /// Its halo r.
+    /// Halo of a region r in pixels.
     halo: usize,
-    /// For every place: how many places of the windows show it, c of `docs/serial.md`.
+    /// For every coordinate, the number of positions in windows that show it: c of
+    /// `docs/serial.md`.
     shown: Vec<u32>,
 }
 
@@ -41,7 +43,8 @@ impl Axis {
         self.regions * self.side
     }
 
-    /// The places that the window of a region shows; the frame's border repeats.
+    /// Returns the coordinates that the window of a region shows. The border of the frame is
+    /// repeated.
     fn window(&self, region: usize) -> impl Iterator<Item = usize> + use<> {
         let (first, halo, last) = (region * self.side, self.halo, self.size() - 1);
         (first..first + self.side + 2 * halo).map(move |at| at.saturating_sub(halo).min(last))
@@ -55,23 +58,24 @@ impl Raster {
         Self { pixels: vec![0; columns.size() * rows.size()], columns, rows }
     }
 
-    /// Pixels of a frame.
+    /// Returns the number of pixels of a frame.
     pub(super) fn pixels(&self) -> usize {
         self.pixels.len()
     }
 
-    /// Takes pixel number `at` of the frame; says how many places want it.
+    /// Writes pixel number `at` of the frame, and returns the number of places where the array
+    /// stores it.
     pub(super) fn write(&mut self, at: usize, pixel: u16) -> u64 {
         self.pixels[at] = pixel;
         self.clocks(at)
     }
 
-    /// For how many clocks the pixels of a frame are written, from number `at` on.
+    /// Returns the number of clocks for which the pixels from number `at` on are written.
     pub(super) fn clocks_from(&self, at: usize) -> u64 {
         (at..self.pixels.len()).map(|at| self.clocks(at)).sum()
     }
 
-    /// For how many clocks pixel number `at` of the frame is written.
+    /// Returns the number of clocks for which pixel number `at` is written.
     fn clocks(&self, at: usize) -> u64 {
         let width = self.columns.size();
         u64::from(self.columns.shown[at % width]) * u64::from(self.rows.shown[at / width])
@@ -85,7 +89,7 @@ impl Raster {
         }
     }
 
-    /// Column and row of a region.
+    /// Returns the column and the row of a region in the grid.
     fn place(&self, region: usize) -> (usize, usize) {
         (region % self.columns.regions, region / self.columns.regions)
     }

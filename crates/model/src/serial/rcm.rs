@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The array: where in a frame it is, and what its outputs show there.
+//! The array: its position in a frame, and its outputs there.
 
 use foveate_design::{Action, Feed, PortRole, SerialDesign};
 
@@ -11,11 +11,11 @@ use crate::cycle::{CoreInput, CycleModel};
 use crate::number::index;
 use crate::{FrameSync, Thresholds, region_border};
 
-/// The cycle-level model of a serial array, as after a reset when new.
+/// The cycle-level model of a serial array. A new one is in the state after a reset.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SerialRcm {
     schedule: Schedule,
-    /// The thresholds, where they are constants of the core.
+    /// The thresholds, if they are constants of the core.
     constants: Option<Thresholds>,
     feed: Feed,
     borders: Vec<u8>,
@@ -24,27 +24,29 @@ pub struct SerialRcm {
     regions: Regions,
     stage: Stage,
     output: SerialOutput,
-    /// Whether a `forward_valid_o` is 1.
+    /// True if a `forward_valid_o` is 1.
     is_forwarding: bool,
 }
 
-/// Where in a frame the array is.
+/// The position of the array in a frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Stage {
-    /// Takes pixels; the last one is still being written for so many clocks. T0 of the frame before was so many
-    /// edges ago: its last step may be seen once the array is ready again.
+    /// The array takes pixels. The last one is still being written for `writing` clocks. `before`
+    /// is the number of edges since T0 of the frame before, whose last step may be seen after the
+    /// array is ready again.
     Taking { writing: u64, before: Option<u64> },
-    /// So many edges ago was T0.
+    /// T0 was `clock` edges ago.
     Working { clock: u64 },
 }
 
 impl Stage {
-    /// As after a reset.
+    /// The state after a reset.
     const EMPTY: Self = Self::Taking { writing: 0, before: None };
 }
 
 impl SerialRcm {
-    /// The array of the design. That of [`SerialDesign::one_lane`] is the core of one RPU.
+    /// Makes the array of the design. The array of [`SerialDesign::one_lane`] is the core of one
+    /// RPU.
     #[must_use]
     pub fn new(design: SerialDesign<'_>) -> Self {
         let intake = Intake::new(design);
@@ -63,10 +65,10 @@ impl SerialRcm {
         }
     }
 
-    /// One rising edge; returns what every output shows after it.
+    /// Applies one rising edge, and returns every output after it.
     ///
     /// # Panics
-    /// When there are not as many pixels as `pixel_i` has.
+    /// Panics if there are not as many pixels as `pixel_i` has.
     pub fn step(&mut self, input: &CoreInput<'_>) -> &SerialOutput {
         assert_eq!(
             input.pixels.len(),
@@ -84,11 +86,11 @@ impl SerialRcm {
         &self.output
     }
 
-    /// As many steps without reset and without a pixel, at once.
+    /// Applies `clocks` edges at once, without a reset and without a valid pixel.
     ///
     /// # Panics
-    /// When the array completes a frame by itself, and so needs pixels. It has no [quiet clocks](Self::quiet_clocks)
-    /// then.
+    /// Panics if the array completes a frame by itself, because it takes pixels then. In that state
+    /// it has no [quiet clocks](Self::quiet_clocks).
     pub fn skip(&mut self, clocks: u64) -> &SerialOutput {
         assert!(!self.sync.is_filling(), "an array that completes a frame takes pixels");
         if clocks > 0 {
@@ -99,13 +101,13 @@ impl SerialRcm {
         &self.output
     }
 
-    /// What the outputs show.
+    /// Returns the outputs after the last edge.
     #[must_use]
     pub fn output(&self) -> &SerialOutput {
         &self.output
     }
 
-    /// How many clocks without a pixel it takes until `ready_o` is 1.
+    /// Returns the number of clocks without a valid pixel until `ready_o` is 1.
     #[must_use]
     pub fn clocks_until_ready(&self) -> u64 {
         if self.sync.is_filling() {
@@ -116,7 +118,8 @@ impl SerialRcm {
         self.clocks_until_open()
     }
 
-    /// How many clocks without a pixel it takes until one would be taken, from outside or not.
+    /// Returns the number of clocks without a valid pixel until the array would take one, from the
+    /// stream or from its own completion of a frame.
     fn clocks_until_open(&self) -> u64 {
         match self.stage {
             Stage::Taking { writing, .. } if self.intake.is_full() => {
@@ -131,8 +134,8 @@ impl SerialRcm {
         self.clocks_until_open() == 0
     }
 
-    /// For how many more clocks without reset and without a pixel the outputs stay as they are, since the
-    /// array works and nothing is seen of it: a lower bound.
+    /// Returns a lower bound of the clocks, without a reset and without a valid pixel, for which
+    /// the outputs stay as they are because the array works and outputs nothing.
     #[must_use]
     pub fn quiet_clocks(&self) -> u64 {
         let Stage::Working { clock } = self.stage else { return 0 };
@@ -140,21 +143,22 @@ impl SerialRcm {
         seen.min(self.clocks_until_ready()).saturating_sub(1)
     }
 
-    /// What the next frame of a region will be compared with: scored pixels, row by row; `None` where
-    /// there is no reference. Known from the edge that takes the last pixel of a frame.
+    /// Returns the reference of a region for the next frame: scored pixels in row-major order, or
+    /// `None` if there is none. It is known from the edge on that takes the last pixel of a frame.
     ///
     /// # Panics
-    /// When the design has no such region.
+    /// Panics if the design has no such region.
     #[must_use]
     pub fn reference(&self, region: u32) -> Option<&[u16]> {
         self.regions.reference(index(region))
     }
 
-    /// The means that the screen shows of a region before the next frame, block by block; `None` where it shows no summary.
-    /// Known from the edge that takes the last pixel of a frame.
+    /// Returns the means of a region that the screen shows before the next frame, block by block,
+    /// or `None` if it shows no summary. They are known from the edge on that takes the last pixel
+    /// of a frame.
     ///
     /// # Panics
-    /// When the design has no such region.
+    /// Panics if the design has no such region.
     #[must_use]
     pub fn summary(&self, region: u32) -> Option<&[u16]> {
         self.regions.summary(index(region))
@@ -170,7 +174,8 @@ impl SerialRcm {
     fn take(&mut self, input: &CoreInput<'_>) {
         let clocks = self.intake.take(input.pixels);
         if self.intake.is_full() {
-            // The thresholds stay still from here, and nobody sees the scores before they are due.
+            // Thresholds stay constant from here on, and no score is output before it is due. So
+            // the frame can be scored now.
             self.judge(input.thresholds);
         }
         let before = match self.stage {
@@ -190,7 +195,7 @@ impl SerialRcm {
         }
     }
 
-    /// Lets clocks pass. A pixel that is written for c clocks was taken c - 1 edges before T0.
+    /// Advances the time. A pixel that is written for c clocks was taken c - 1 edges before T0.
     fn pass(&mut self, clocks: u64) {
         self.stage = match self.stage {
             Stage::Taking { writing, .. } if clocks >= writing && self.intake.is_full() => {
@@ -205,7 +210,7 @@ impl SerialRcm {
     }
 
     fn show(&mut self) {
-        // The ports of the lanes are touched only where something is seen on them.
+        // The ports of the lanes are written only in clocks in which they show something.
         if std::mem::take(&mut self.is_forwarding) {
             self.output.stop_forwarding();
         }
@@ -248,7 +253,7 @@ impl SerialRcm {
         }
     }
 
-    /// What leaves of the region of a lane, if anything does.
+    /// Writes the pixel or mean of the region of a lane to the ports, if one leaves.
     fn show_leaving(&mut self, lane: u32, slot: u32, what: Leaving, number: u32) {
         if let Some(region) = self.schedule.region(lane, slot)
             && let Some((position, pixel)) = self.regions.leaving(region, what, number)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the array keeps of every region from frame to frame, and what it thinks of it.
+//! The state that the array keeps of every region from frame to frame, and its decisions.
 
 use foveate_design::{Action, Camera, Reference, SerialDesign};
 
@@ -9,37 +9,38 @@ use crate::periphery::{Summary, last_of_block, no_summaries};
 use crate::verdict::Verdict;
 use crate::{RegionScorer, Thresholds};
 
-/// The state of every region.
+/// The state of all regions.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Regions {
     camera: Camera,
     scorer: RegionScorer,
-    /// Pixels of a region n.
+    /// Number of pixels of a region, n.
     pixels: usize,
     /// The scored pixels of the last frame, region by region.
     scored: Vec<u16>,
-    /// Those of the frame in which the region was last active; empty where that does not matter.
+    /// The scored pixels of the frame in which each region was last active. Empty unless the
+    /// reference is `last-sent`.
     sent: Vec<u16>,
-    /// Which regions have a reference.
+    /// True for every region with a valid reference.
     referenced: Vec<bool>,
-    /// What each region has sent of itself last.
+    /// The summary that each region has sent last.
     summaries: Vec<Summary>,
     judged: Vec<Judged>,
 }
 
-/// What is known of a region in the last frame.
+/// The scores, the decision and the values to send of a region in the last frame.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Judged {
     pub(super) verdict: Verdict,
     pub(super) action: Action,
-    /// Its pixels as they leave, row by row.
+    /// The pixels that the region forwards, in row-major order.
     payload: Vec<u16>,
-    /// The means of its blocks; none where irrelevant regions send none.
+    /// The means of the blocks of the region. They are empty if irrelevant regions send none.
     means: Vec<u16>,
 }
 
 impl Judged {
-    /// Before the first frame.
+    /// Makes the state before the first frame.
     fn nothing() -> Self {
         let (payload, means) = (Vec::new(), Vec::new());
         Self { verdict: Verdict::default(), action: Action::Hold, payload, means }
@@ -65,13 +66,13 @@ impl Regions {
         }
     }
 
-    /// The next frame is the first; pixels stay and are never seen.
+    /// Resets the state: the next frame is the first. Pixels stay, and are never seen.
     pub(super) fn forget(&mut self) {
         self.referenced.fill(false);
         self.summaries = no_summaries(&self.camera);
     }
 
-    /// What the next frame of a region is compared with.
+    /// Returns the reference of a region for the next frame.
     pub(super) fn reference(&self, region: usize) -> Option<&[u16]> {
         let from = match self.camera.temporal().reference {
             Reference::Previous => &self.scored,
@@ -80,17 +81,18 @@ impl Regions {
         self.referenced[region].then(|| &from[region * self.pixels..][..self.pixels])
     }
 
-    /// The means that the screen shows of a region, if it shows any.
+    /// Returns the means of a region that the screen shows, or `None` if it shows no summary.
     pub(super) fn summary(&self, region: usize) -> Option<&[u16]> {
         self.summaries[region].shown()
     }
 
-    /// What was thought of the last frame of a region.
+    /// Returns the decision for a region in the last frame.
     pub(super) fn judged(&self, region: usize) -> &Judged {
         &self.judged[region]
     }
 
-    /// Pixel or mean `number` of the last frame of a region with its position, if it leaves.
+    /// Returns pixel or mean `number` of the last frame of a region with its position, or `None` if
+    /// the region does not send it.
     pub(super) fn leaving(&self, region: u32, what: Leaving, number: u32) -> Option<(u32, u16)> {
         let Judged { action, payload, means, .. } = &self.judged[index(region)];
         match (what, action) {
@@ -104,7 +106,7 @@ impl Regions {
         }
     }
 
-    /// Judges the next frame of a region and draws the consequences for its reference and its summary.
+    /// Scores and decides the next frame of a region, and updates its reference and its summary.
     pub(super) fn judge(
         &mut self,
         region: usize,
@@ -131,7 +133,7 @@ impl Regions {
                 self.sent[own.clone()].copy_from_slice(&self.scored[own]);
             }
             (Reference::LastSent, Action::Hold) => {}
-            // What was sent is no longer on the screen.
+            // The screen no longer shows the pixels that were sent.
             (Reference::LastSent, Action::Blank | Action::Summarize) => {
                 self.referenced[region] = false;
             }

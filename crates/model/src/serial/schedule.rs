@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which step of its work the array is at, and what is seen of it.
+//! The schedule of a frame: the step of the array in every clock, and the outputs of that step.
 
 use foveate_design::{Feed, Periphery, Phase, SerialDesign, SerialTiming};
 
-/// What the outputs show in a step, if anything.
+/// The outputs in a step that has any.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Seen {
-    /// Score `number` of the region of one lane, with its decision or without.
+    /// Score `number` of the region of one lane is on the ports. With `decides`, the decision is
+    /// too.
     Score { number: u32, lane: u32, decides: bool },
-    /// Pixel or mean `number` of a slot leaves: of all lanes, or of one.
+    /// Pixel or mean `number` of a slot leaves: from all lanes, or from one.
     Leaving { what: Leaving, number: u32, lane: Option<u32> },
 }
 
-/// What leaves in a phase: the pixels of active regions, or the means of summaries.
+/// The kind of values that leave in a phase: pixels of active regions, or means of summaries.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Leaving {
     Pixel,
@@ -25,7 +26,7 @@ pub(super) struct Schedule {
     lanes: u32,
     fold: u32,
     regions: u32,
-    /// Steps of a rotation before the first that shows a score.
+    /// Number of steps of a rotation before the first score.
     settling: u64,
     /// Clocks from T0 to the clock of the first step.
     lead: u64,
@@ -36,10 +37,10 @@ pub(super) struct Schedule {
     visible: Vec<Visible>,
 }
 
-/// A phase of a slot of which something is seen.
+/// A phase of a slot with outputs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Visible {
-    /// Steps of the slot before it.
+    /// Number of steps of the slot before this phase.
     start: u64,
     steps: u64,
     what: What,
@@ -51,12 +52,12 @@ enum What {
     Unload { what: Leaving, rounds: Rounds },
 }
 
-/// How the lanes give away what they have, number after number.
+/// The order in which the lanes output their values, number after number.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Rounds {
-    /// All at once, in the last of so many steps.
+    /// All lanes output a value together, in the last of `steps` steps.
     Together { steps: u64 },
-    /// One after the other, behind a step in which nothing is seen.
+    /// The lanes output a value one after the other, behind a step without outputs.
     InTurn,
 }
 
@@ -76,7 +77,7 @@ impl Schedule {
         }
     }
 
-    /// The slot and what is seen of it, so many clocks after T0.
+    /// Returns the slot and the output `clock` clocks after T0.
     pub(super) fn at(&self, clock: u64) -> Option<(u32, Seen)> {
         let step = clock.checked_sub(self.lead).filter(|&step| step < self.steps)?;
         let slot = narrow(step / self.slot_steps);
@@ -89,7 +90,8 @@ impl Schedule {
         Some((slot, self.seen(phase.what, step)?))
     }
 
-    /// Clocks from so many after T0 to the first at which something may be seen; `None` after the last.
+    /// Returns the clocks from `clock` clocks after T0 to the first one that may have an output, or
+    /// `None` after the last.
     pub(super) fn until_seen(&self, clock: u64) -> Option<u64> {
         let lead = self.lead.saturating_sub(clock);
         let step = (clock + lead - self.lead) % self.slot_steps;
@@ -100,7 +102,7 @@ impl Schedule {
             let is_over = step >= phase.start + phase.steps;
             (!is_over).then(|| phase.start.saturating_sub(step))
         };
-        // The last phase of a slot, in which something leaves, is one of them.
+        // A slot always has one: its last phase, in which pixels or means leave.
         self.visible.iter().find_map(to).map(|steps| lead + steps)
     }
 
@@ -117,7 +119,7 @@ impl Schedule {
         }
     }
 
-    /// The number of the round, and the lane whose turn it is if it is not that of all.
+    /// Returns the number of the round, and the lane that outputs a value, or `None` for all lanes.
     fn turn(&self, rounds: Rounds, step: u64) -> Option<(u32, Option<u32>)> {
         match rounds {
             Rounds::Together { steps } => {
@@ -135,19 +137,19 @@ impl Schedule {
         self.lanes
     }
 
-    /// The region that a lane serves in a slot; `None` if the slot is empty.
+    /// Returns the region that a lane serves in a slot, or `None` if the slot is empty.
     pub(super) fn region(&self, lane: u32, slot: u32) -> Option<u32> {
         Some(lane * self.fold + slot).filter(|&region| region < self.regions)
     }
 
-    /// Clocks until `ready_o` is 1 again, so many clocks after T0.
+    /// Returns the clocks until `ready_o` is 1 again, `clock` clocks after T0.
     pub(super) fn clocks_until_ready(&self, clock: u64) -> u64 {
         self.ready.saturating_sub(clock)
     }
 }
 
-/// The phases that show something. Scores are numbered in the order in which they pass the ports; the
-/// decision comes with the last.
+/// Returns the phases with outputs. Scores are numbered in the order in which they pass the ports.
+/// The decision comes with the last score.
 fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
     let pixels = design.region_pixels();
     let means = design.periphery().map_or(0, Periphery::means);
@@ -178,7 +180,7 @@ fn visible(design: SerialDesign<'_>, phases: &[(Phase, u64)]) -> Vec<Visible> {
     visible
 }
 
-/// The rounds of a phase in which so many things leave of every region.
+/// Returns the order of a phase in which `things` values of every region leave.
 fn rounds(design: SerialDesign<'_>, steps: u64, things: u32) -> Rounds {
     match design.feed() {
         Feed::Parallel => Rounds::Together { steps: steps / u64::from(things) },
@@ -186,7 +188,7 @@ fn rounds(design: SerialDesign<'_>, steps: u64, things: u32) -> Rounds {
     }
 }
 
-/// Numbers of slots, lanes, pixels and means fit into 32 bits.
+/// Converts the number of a slot, a lane, a pixel or a mean, which fits into 32 bits.
 fn narrow(value: u64) -> u32 {
     u32::try_from(value).expect("slots, lanes, pixels and means are numbered in 32 bits")
 }

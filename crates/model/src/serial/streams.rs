@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `feed = "parallel"`: every lane is given the streams of its regions, one after the other.
+//! The buffer of `feed = "parallel"`: every lane takes the streams of its regions, one after the
+//! other.
 
 use foveate_design::SerialDesign;
 
 use crate::number::index;
 
-/// The streams of a frame, as they come: by slot, by position in the stream, by lane.
+/// The streams of a frame in the order in which they come: by slot, by position in the stream, by
+/// lane.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Streams {
     lanes: usize,
     fold: usize,
-    /// Side of a region with its halo, N + 2r.
+    /// Side of a region with its halo, N + 2r, in pixels.
     stream_side: usize,
     pixels: Vec<u16>,
 }
@@ -26,12 +28,12 @@ impl Streams {
         self.lanes
     }
 
-    /// Pixels per lane of a frame.
+    /// Returns the number of pixels per lane of a frame.
     pub(super) fn clocks(&self) -> usize {
         self.fold * self.stream_side * self.stream_side
     }
 
-    /// Takes number `at` of the frame: one pixel per lane.
+    /// Writes pixel number `at` of every lane.
     pub(super) fn write(&mut self, at: usize, pixels: &[u16]) {
         self.pixels[at * self.lanes..][..self.lanes].copy_from_slice(pixels);
     }
@@ -41,7 +43,7 @@ impl Streams {
         self.pixels[self.start(region)..].iter().step_by(self.lanes).take(length).copied()
     }
 
-    /// Where the first pixel of a region is.
+    /// Returns the index of the first pixel of a region.
     fn start(&self, region: usize) -> usize {
         let (lane, slot) = (region / self.fold, region % self.fold);
         slot * self.stream_side * self.stream_side * self.lanes + lane
