@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clocks and frames per second of the model of the paper's array (784 lanes) over random frames:
-//! `cargo run --release -p foveate-model --example serial_speed`.
+//! Measures the speed of the model of the paper's array (784 lanes) over random frames, in clocks
+//! and frames per second: `cargo run --release -p foveate-model --example serial_speed`.
 #![allow(clippy::unwrap_used, clippy::print_stdout, reason = "a measurement")]
 #![allow(clippy::cast_precision_loss, reason = "printed with one digit")]
 
@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 use foveate_design::{Config, Design};
 use foveate_model::{CoreInput, SerialRcm, Thresholds};
 
-/// How long each way is measured for.
+/// Duration of each measurement.
 const LASTS: Duration = Duration::from_secs(3);
 
 fn design(feed: &str) -> Design {
@@ -17,7 +17,8 @@ fn design(feed: &str) -> Design {
     Config::from_toml(&toml).unwrap().validate().unwrap()
 }
 
-/// A small generator (xorshift): what the pixels are does not matter, only that they differ.
+/// A small random generator (xorshift). The values of the pixels do not matter, only that they
+/// differ.
 fn noise(state: &mut u64) -> u16 {
     *state ^= *state << 13;
     *state ^= *state >> 7;

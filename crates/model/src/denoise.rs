@@ -15,9 +15,9 @@ use foveate_frame::Frame;
 pub fn median(window: &Window) -> u16 {
     let [a, b, c, d, e, f, g, h, i] = *window;
     let [low, middle, high] = [sorted(a, b, c), sorted(d, e, f), sorted(g, h, i)];
-    // The median is at least four of the nine values and at most four. So it is the median of three
-    // values: the largest of the smallest values of the rows, the middle one of their middle
-    // values, and the smallest of their largest values.
+    // The fifth of nine values has four values below it and four above. Of the smallest values of
+    // the rows only the largest can be the fifth of all nine, of the largest values only the
+    // smallest, and of the middle values only the middle one.
     let [_, _, least] = sorted(low[0], middle[0], high[0]);
     let [_, between, _] = sorted(low[1], middle[1], high[1]);
     let [most, _, _] = sorted(low[2], middle[2], high[2]);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sequences of frames that make regions come and go.
+//! Clips in which regions become active and inactive again.
 
 use foveate_frame::Frame;
 use proptest::prelude::*;
@@ -17,7 +17,7 @@ pub(crate) enum Content {
     Touch,
 }
 
-/// What each frame shows, with a seed.
+/// The content and the seed of each frame.
 pub(crate) type Script = Vec<(Content, u64)>;
 
 pub(crate) fn scripts(most: usize) -> impl Strategy<Value = Script> {
@@ -28,7 +28,7 @@ pub(crate) fn scripts(most: usize) -> impl Strategy<Value = Script> {
     proptest::collection::vec((content, any::<u64>()), 1..=most)
 }
 
-/// The frames of a script.
+/// Returns the frames of a script.
 pub(crate) fn film(recipe: &Recipe, script: &Script) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let max = recipe.pixel_max();
@@ -56,7 +56,7 @@ pub(crate) fn film(recipe: &Recipe, script: &Script) -> Vec<Frame> {
     film
 }
 
-/// A small generator (splitmix64), so that a seed says everything.
+/// A small random generator (splitmix64), whose values depend on the seed alone.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional model equals the oracle, for every kind of design.
+//! Tests that the functional model equals the oracle, for every kind of design.
 
 use foveate_design::Design;
 use foveate_frame::Frame;
@@ -40,7 +40,7 @@ pub(crate) fn check(recipe: &Recipe, frames: &[Frame]) {
     for (frame, seen) in frames.iter().zip(&history) {
         assert_same(recipe, camera.step(frame).unwrap(), seen);
     }
-    // A reset forgets everything.
+    // After a reset the camera decides as at the start.
     camera.reset();
     if let (Some(frame), Some(seen)) = (frames.first(), history.first()) {
         assert_same(recipe, camera.step(frame).unwrap(), seen);
@@ -55,13 +55,14 @@ proptest! {
         check(&recipe, &film(&recipe, &script));
     }
 
-    /// The bound of the contract: what an irrelevant region shows is within the level of the means of its blocks.
+    /// The test checks the bound of the contract: the value that an irrelevant region shows in a
+    /// block is within `level` of the mean of the block.
     #[test]
     fn every_block_that_is_shown_is_near_its_mean(
         recipe in recipes().prop_filter("a periphery", |recipe| recipe.periphery.is_some()),
         script in scripts(7),
     ) {
-        // Without padding all of a block is on the screen.
+        // Without padding the whole of every block is on the screen.
         let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
         let recipe = Recipe { width, height, ..recipe };
         let design = recipe.design();
@@ -92,7 +93,8 @@ fn check_shown(recipe: &Recipe, outcome: &FunctionalOutcome, design: &Design, re
         let sum: i64 = places().map(|(x, y)| i64::from(payload.get(x, y))).sum();
         assert!(shown.iter().all(|&value| value == shown[0]), "a block shows one value");
         let count = shown.len() as i64;
-        // Within the level of the exact mean, and half a grey level for its rounding.
+        // The shown value may differ from the exact mean by the level, plus half a grey level for
+        // the rounding of the mean.
         let distance = (shown[0] * count - sum).abs();
         assert!(2 * distance <= (2 * level + 1) * count, "region {region}, block {block}");
     }

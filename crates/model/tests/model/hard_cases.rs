@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cases at the edge of a range, with the expected numbers written out.
+//! Tests of cases at the ends of ranges, with explicit expected numbers.
 
 use foveate_design::{Config, Design};
 use foveate_frame::Frame;
@@ -28,12 +28,13 @@ fn score(toml: &str, frame: &Frame) -> u64 {
 
 #[test]
 fn ramps_on_below_and_above_the_level() {
-    // Slope 3: |Gx| is 8 * 3 inside of an isolated region and 4 * 3 in its border columns.
+    // The slope is 3. |Gx| is 8 * 3 inside of an isolated region and 4 * 3 in its border columns.
     let ramp = Frame::from_fn(8, 8, 8, |x, _| 3 * x as u16).unwrap();
     let edges =
         |level: u32| score(&format!("[[spatial]]\nfeature = \"edge\"\nlevel = {level}"), &ramp);
     assert_eq!([11, 12, 23, 24, 25].map(edges), [64, 48, 48, 0, 0]);
-    // A peak of 9 above a flat ground is darker all around by 9, and one corner for each level below.
+    // All neighbors of a peak of 9 above flat ground are darker by 9, so the peak is one corner for
+    // each level below 9.
     let peak = Frame::from_fn(8, 8, 8, |x, y| 50 + 9 * u16::from((x, y) == (4, 4))).unwrap();
     let corners =
         |level: u32| score(&format!("[[spatial]]\nfeature = \"corner\"\nlevel = {level}"), &peak);
@@ -133,7 +134,8 @@ fn a_frame_of_another_kind_is_refused_and_changes_nothing() {
     assert!(camera.step(&Frame::filled(8, 8, 8, 0).unwrap()).unwrap().trs[0], "still the first");
 }
 
-/// Black, white, checkerboards, single pixels in each corner of a region, ramps.
+/// Returns frames that are black, white, checkerboards, single pixels in each corner of a region,
+/// and a ramp.
 pub(crate) fn hard_frames(recipe: &Recipe) -> Vec<Frame> {
     let (width, height) = (recipe.width as u32, recipe.height as u32);
     let (max, side) = (recipe.pixel_max() as u16, recipe.side as u32);

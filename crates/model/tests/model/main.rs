@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The models against an oracle that shares no line with them, against each other, and against the
-//! waveforms of `docs/timing.md` and its siblings.
+//! Tests of the models against an oracle that shares no code with them, against each other, and
+//! against the waveforms of `docs/timing.md`, `docs/serial.md` and `docs/raster.md`.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 #![allow(
     clippy::cast_possible_truncation,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The contract, computed naively: whole frames, nothing incremental, everything looked up in the
-//! complete history. Shares nothing with the library but the type that carries a frame.
+//! The contract in its simplest form: whole frames, nothing incremental, every value looked up in
+//! the complete history. The oracle shares only the type of frames with the library.
 
 use foveate_frame::Frame;
 
@@ -8,7 +8,8 @@ use crate::recipe::{FeatureRecipe, Recipe};
 
 pub(crate) type Image = Vec<Vec<i64>>;
 
-/// What is known of one frame. Regions are numbered row by row; maps hold n values per region.
+/// The results of the oracle for one frame. Regions are numbered row by row. Maps hold n values per
+/// region.
 pub(crate) struct Seen {
     pub(crate) padded: Image,
     pub(crate) denoised: Image,
@@ -17,7 +18,7 @@ pub(crate) struct Seen {
 }
 
 pub(crate) struct SeenRegion {
-    /// By feature and pixel: hits, or deviations from the mean for `mad`.
+    /// Hits, or deviations from the mean for `mad`, by feature and pixel.
     pub(crate) terms: Vec<Vec<i64>>,
     pub(crate) scores: Vec<i64>,
     pub(crate) temporal_hits: Vec<bool>,
@@ -25,21 +26,21 @@ pub(crate) struct SeenRegion {
     pub(crate) srs: bool,
     pub(crate) trs: bool,
     pub(crate) payload: Vec<i64>,
-    /// Means of its blocks; none where irrelevant regions send none.
+    /// Means of the blocks of the region. They are empty if irrelevant regions send none.
     pub(crate) means: Vec<i64>,
     pub(crate) active: bool,
-    /// Whether not all was sent of what it should have sent: a loss of the raster organization.
+    /// True if the region could not send all of its output: a loss of the raster organization.
     pub(crate) lost: bool,
-    /// What becomes of the region on the screen.
+    /// The action on the region of the screen.
     pub(crate) action: &'static str,
 }
 
-/// The history of every frame of a film.
+/// Returns the results for every frame of a clip.
 pub(crate) fn watch(recipe: &Recipe, film: &[Frame]) -> Vec<Seen> {
     watch_changing(&vec![recipe.clone(); film.len()], film)
 }
 
-/// The same, with the thresholds of each frame.
+/// Returns the results for every frame of a clip, with the thresholds of each frame.
 pub(crate) fn watch_changing(recipes: &[Recipe], film: &[Frame]) -> Vec<Seen> {
     let mut history: Vec<Seen> = Vec::new();
     for (recipe, frame) in recipes.iter().zip(film) {
@@ -60,7 +61,7 @@ fn look(recipe: &Recipe, history: &[Seen], frame: &Frame) -> Seen {
     seen
 }
 
-/// A frame of which no region has been looked at.
+/// Makes the results of a frame, without its regions.
 pub(crate) fn begin(recipe: &Recipe, frame: &Frame) -> Seen {
     let (width, height) = (recipe.columns() * recipe.side, recipe.rows() * recipe.side);
     let padded: Image =
@@ -85,7 +86,7 @@ fn square() -> impl Iterator<Item = (i64, i64)> {
     (-1..=1).flat_map(|dy| (-1..=1).map(move |dx| (dx, dy)))
 }
 
-/// The pixel beside (x, y), as the neighborhood of that pixel's region has it.
+/// Returns the pixel next to (x, y), by the neighborhood of the region of that pixel.
 fn neighbor(recipe: &Recipe, image: &Image, (x, y): (i64, i64), (dx, dy): (i64, i64)) -> i64 {
     let (mut nx, mut ny) = (x + dx, y + dy);
     if !recipe.shared && nx.div_euclid(recipe.side) != x / recipe.side {
@@ -99,7 +100,7 @@ fn neighbor(recipe: &Recipe, image: &Image, (x, y): (i64, i64), (dx, dy): (i64, 
     image[ny as usize][nx as usize]
 }
 
-/// Positions of a region, row by row.
+/// Returns the positions of a region in row-major order.
 fn positions(recipe: &Recipe, region: i64) -> Vec<(i64, i64)> {
     let (left, top) = (region % recipe.columns(), region / recipe.columns());
     (0..recipe.n())
@@ -111,7 +112,8 @@ pub(crate) fn cut(recipe: &Recipe, image: &Image, region: i64) -> Vec<i64> {
     positions(recipe, region).iter().map(|&(x, y)| image[y as usize][x as usize]).collect()
 }
 
-/// A region of a frame after those of the history; its reference comes from those that were `kept`.
+/// Returns the results for a region of the frame after `history`. Its reference comes from the
+/// frames in `kept`.
 pub(crate) fn look_at_region(
     recipe: &Recipe,
     (history, kept): (&[Seen], &[Seen]),
@@ -179,7 +181,7 @@ pub(crate) fn look_at_region(
     }
 }
 
-/// The means of the blocks of a region, rounded to the nearest, halves up.
+/// Returns the means of the blocks of a region, rounded to the nearest integer, halves up.
 fn means(recipe: &Recipe, pixels: &[i64]) -> Vec<i64> {
     let Some(periphery) = recipe.periphery else { return Vec::new() };
     let side = recipe.side / periphery.blocks;
@@ -197,7 +199,8 @@ fn means(recipe: &Recipe, pixels: &[i64]) -> Vec<i64> {
     (0..periphery.blocks * periphery.blocks).map(mean).collect()
 }
 
-/// The means that the screen shows of a region before a frame, if it does.
+/// Returns the means that the screen shows of a region before a frame, or `None` if it shows no
+/// summary.
 fn shown(history: &[Seen], region: i64) -> Option<&[i64]> {
     let regions = history.iter().rev().map(|seen| &seen.regions[region as usize]);
     let last = regions.into_iter().find(|region| matches!(region.action, "forward" | "summarize"));
@@ -240,13 +243,13 @@ fn terms(recipe: &Recipe, feature: &FeatureRecipe, denoised: &Image, region: i64
             let mean = (pixels.iter().sum::<i64>() * scale + recipe.n() / 2) / recipe.n();
             pixels.iter().map(|pixel| (pixel * scale - mean).abs()).collect()
         }
-        // It is no sum over pixels.
+        // The variance is not a sum over pixels.
         "variance" => vec![0; places.len()],
         other => panic!("the oracle does not know {other}"),
     }
 }
 
-/// `n^2 sigma^2` by way of the deviations: `sum((n x - sum)^2) / n`.
+/// Returns `n^2 sigma^2`, computed from the deviations: `sum((n x - sum)^2) / n`.
 fn scaled_variance(pixels: &[i64]) -> i64 {
     let n = pixels.len() as i128;
     let sum: i128 = pixels.iter().map(|&pixel| i128::from(pixel)).sum();
@@ -255,7 +258,7 @@ fn scaled_variance(pixels: &[i64]) -> i64 {
     (squares / n) as i64
 }
 
-/// The frame that the next one is compared with in this region.
+/// Returns the number of the frame that is the reference of this region for the next frame.
 fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
     if !recipe.last_sent {
         return history.len().checked_sub(1);
@@ -272,7 +275,7 @@ fn reference(recipe: &Recipe, history: &[Seen], region: i64) -> Option<usize> {
     None
 }
 
-/// The screen after the last frame of the history.
+/// Returns the screen after the last frame of the history.
 fn render(recipe: &Recipe, history: &[Seen]) -> Image {
     let pixel = |x: i64, y: i64| {
         let region = (y / recipe.side * recipe.columns() + x / recipe.side) as usize;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cycle-level model shows, after every edge, what the schedule and the oracle say; and its
-//! decisions are those of the functional model.
+//! Tests that the cycle-level model shows the outputs of the schedule and the oracle after every
+//! edge, and that its decisions are those of the functional model.
 
 use foveate_design::{Action, PipelinedTiming};
 use foveate_frame::Frame;
@@ -14,12 +14,12 @@ use crate::oracle::watch;
 use crate::recipe::{Recipe, recipes};
 use crate::schedule::{Expected, expect, tail_steps};
 
-/// How pixels and gaps alternate.
+/// The pattern of pixels and gaps of a stream.
 #[derive(Clone, Copy, Debug)]
 struct Gaps {
-    /// Percent of clocks inside a frame without a pixel.
+    /// Percentage of clocks inside a frame without a pixel.
     inside: i64,
-    /// Longest gap between frames.
+    /// Longest gap between frames in clocks.
     between: i64,
     seed: u64,
 }
@@ -34,7 +34,7 @@ fn gaps() -> impl Strategy<Value = Gaps> {
     })
 }
 
-/// The edges that take each pixel of each frame.
+/// Returns the edges that take each pixel of each frame.
 fn stream_edges(recipe: &Recipe, gaps: Gaps, frames: usize) -> Vec<Vec<usize>> {
     let pixels = recipe.design().stream_pixels();
     let mut random = Random(gaps.seed);
@@ -55,7 +55,7 @@ fn stream_edges(recipe: &Recipe, gaps: Gaps, frames: usize) -> Vec<Vec<usize>> {
     edges
 }
 
-/// Streams a film and returns what every region shows after every edge.
+/// Streams a clip, and returns the outputs of every region after every edge.
 fn run(
     recipe: &Recipe,
     rcm: &mut PipelinedRcm,
@@ -86,7 +86,7 @@ fn run(
     let mut shown = Vec::new();
     for clock in 0..clocks {
         let now = taken.next_if(|&(edge, ..)| edge == clock);
-        // Without a valid pixel the port holds anything.
+        // Without a valid pixel the port holds an arbitrary value.
         let idle = vec![(clock * 7) as u16 & (u16::MAX >> (16 - recipe.bits)); streams[0].len()];
         let pixels = now.map_or(idle, |(_, frame, place)| {
             streams[frame].iter().map(|stream| stream[place]).collect()
@@ -112,7 +112,7 @@ fn observed(recipe: &Recipe, output: &RpuOutput) -> Expected {
     }
 }
 
-/// Frames back to back, without a gap.
+/// Checks a clip whose frames follow each other without a gap.
 pub(crate) fn check_dense(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame]) {
     check(recipe, rcm, film, Gaps { inside: 0, between: 0, seed: 0 });
 }
@@ -137,7 +137,8 @@ fn check(recipe: &Recipe, rcm: &mut PipelinedRcm, film: &[Frame], gaps: Gaps) {
     check_latency(recipe, gaps, film, &shown);
 }
 
-/// Decisions in order are those of the functional model, and so are the pixels that leave.
+/// Checks that the decisions are those of the functional model in order, and that the pixels that
+/// leave are, too.
 fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     let design = recipe.design();
     let timing = PipelinedTiming::of(design.pipelined().unwrap());
@@ -175,7 +176,7 @@ fn check_against_camera(recipe: &Recipe, film: &[Frame], shown: &[Vec<RpuOutput>
     }
 }
 
-/// Without gaps a decision is valid exactly when `PipelinedTiming` says so.
+/// Checks that without gaps a decision is valid exactly at the clocks of `PipelinedTiming`.
 fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOutput>]) {
     if gaps.inside != 0 || gaps.between != 0 {
         return;
@@ -188,7 +189,7 @@ fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOu
     };
     let expected: Vec<usize> = (timing.decision_frames as usize..film.len()).map(due).collect();
     assert_eq!(valid, expected);
-    // The last pixel of an active region leaves when `Departure` says so.
+    // The last pixel of an active region leaves at the clock of `Departure`.
     let design = recipe.design();
     let departure = design.timing().departure();
     let mut camera = FunctionalCamera::new(&design);
@@ -198,7 +199,7 @@ fn check_latency(recipe: &Recipe, gaps: Gaps, film: &[Frame], shown: &[Vec<RpuOu
         let taken = (later + 1) * departure.take_clocks as usize - 1;
         let outputs = &shown[taken + departure.forward_clocks as usize];
         let left: Vec<bool> = outputs.iter().map(|output| output.forward_valid).collect();
-        // Of a region or of a summary the last thing leaves then.
+        // At this clock the last pixel of a region or the last mean of a summary leaves.
         let sent = |action: &Action| matches!(action, Action::Forward | Action::Summarize);
         let actions = &camera.step(frame).unwrap().actions;
         assert_eq!(left, actions.iter().map(sent).collect::<Vec<_>>());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A random design as plain numbers. The oracle reads these, never the `Design`.
+//! A random design as plain numbers. The oracle reads these numbers, never the `Design`.
 
 use std::fmt::Write;
 
@@ -21,7 +21,7 @@ pub(crate) struct Recipe {
     pub(crate) temporal_min: i64,
     pub(crate) last_sent: bool,
     pub(crate) blank_irrelevant: bool,
-    /// `render.irrelevant = "mean"`, whatever the above says.
+    /// `render.irrelevant = "mean"` with this periphery. It overrides `blank_irrelevant`.
     pub(crate) periphery: Option<PeripheryRecipe>,
     pub(crate) raw_payload: bool,
     pub(crate) constant: bool,
@@ -29,7 +29,7 @@ pub(crate) struct Recipe {
     pub(crate) deep: bool,
 }
 
-/// `[periphery]`.
+/// The table `[periphery]`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PeripheryRecipe {
     pub(crate) blocks: i64,
@@ -37,7 +37,8 @@ pub(crate) struct PeripheryRecipe {
 }
 
 impl PeripheryRecipe {
-    /// None, or one that regions of this side can have, for pixels up to `max`; numbers go through all of them.
+    /// Returns a periphery for regions of this side and pixels up to `max`, or `None`. Successive
+    /// numbers go through all peripheries.
     pub(crate) fn number(number: usize, side: i64, max: i64) -> Option<Self> {
         let blocks = [None, Some(1), Some(2), Some(4)][number % 4]?;
         let level = [0, max / 8, max - 1][number / 4 % 3];
@@ -49,7 +50,7 @@ impl PeripheryRecipe {
 pub(crate) struct FeatureRecipe {
     pub(crate) name: &'static str,
     pub(crate) level: i64,
-    /// Minimum score in thousandths of grey levels, squared grey levels, or hits.
+    /// Minimum score in thousandths of hits, grey levels or squared grey levels.
     pub(crate) min_milli: i64,
     pub(crate) fraction_bits: u32,
 }
@@ -63,7 +64,8 @@ impl Recipe {
         self.side * self.side
     }
 
-    /// Whether what an irrelevant region has sent is no longer on the screen.
+    /// Returns true if the screen no longer shows the sent pixels of a region once it is
+    /// irrelevant.
     pub(crate) fn forgets_irrelevant(&self) -> bool {
         self.blank_irrelevant || self.periphery.is_some()
     }
@@ -135,13 +137,13 @@ impl Recipe {
     }
 }
 
-/// Every kind of pipelined design, with frames of about three regions.
+/// Generates every kind of pipelined design, with frames of about three regions.
 pub(crate) fn recipes() -> impl Strategy<Value = Recipe> {
     let sides = prop_oneof![4 => select(vec![2i64, 3, 4, 5, 7, 8]), 1 => 2i64..=12];
     (recipes_of(sides), any::<bool>()).prop_map(|(recipe, deep)| Recipe { deep, ..recipe })
 }
 
-/// The same with regions of these sides, plain.
+/// Generates every kind of design with plain pipelining, for regions of these sides.
 pub(crate) fn recipes_of(sides: impl Strategy<Value = i64>) -> impl Strategy<Value = Recipe> {
     let blocks = select(vec![None, None, Some(1i64), Some(2), Some(4)]);
     (without_periphery(sides), blocks).prop_flat_map(|(recipe, blocks)| {
@@ -188,14 +190,15 @@ fn without_periphery(sides: impl Strategy<Value = i64>) -> impl Strategy<Value =
     })
 }
 
-/// Mostly small numbers up to `max`, so that thresholds are both passed and missed.
+/// Generates mostly small numbers up to `max`, so that thresholds are both reached and missed.
 fn small(max: i64) -> impl Strategy<Value = i64> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }
 
 fn feature(name: &'static str, side: i64, bits: u32) -> BoxedStrategy<FeatureRecipe> {
     let (max, n) = ((1i64 << bits) - 1, side * side);
-    // Permille of the pixel range (or its square) that some region is sure to reach.
+    // The minimum score is a share of the pixel range or of its square, in thousandths, that some
+    // region is sure to reach.
     let (level_max, minimum) = match name {
         "edge" => (6 * max - 1, small(n).prop_map(|hits| 1000 * hits).boxed()),
         "corner" => (max - 1, small(n).prop_map(|hits| 1000 * hits).boxed()),

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When things happen, from the list of edges that take a pixel, with no clocked state: every step is
-//! an edge number that follows from other edge numbers by the rules of `docs/timing.md`.
+//! The times of events, computed from the list of edges that take a pixel, without any clocked
+//! state. Every step is an edge number that follows from other edge numbers by the rules of
+//! `docs/timing.md`.
 
 use crate::oracle::Seen;
 use crate::recipe::Recipe;
 
-/// What the ports of one region's RPU must show after an edge.
+/// The expected outputs of the RPU of one region after an edge.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Expected {
     pub(crate) valid: bool,
@@ -17,14 +18,14 @@ pub(crate) struct Expected {
     pub(crate) forward: Option<i64>,
 }
 
-/// Edges of the centers of an isolated window of side N, given the edges of its pixels, both by
-/// frame.
+/// Returns the edges of the centers of an isolated window of side N for the edges of its pixels,
+/// both by frame.
 fn isolated_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
     let mut centers = Vec::new();
     for (frame, own) in pixels.iter().enumerate() {
         let last = *own.last().unwrap();
         let next: &[usize] = pixels.get(frame + 1).map_or(&[], Vec::as_slice);
-        // The edges at which the window advances after the frame's last pixel.
+        // These are the edges at which the window advances after the last pixel of the frame.
         let begin = next.first().copied().unwrap_or(usize::MAX);
         let mut advances: Vec<usize> = (last + 1..begin).take(side + 1).collect();
         advances.extend(next);
@@ -34,7 +35,7 @@ fn isolated_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
     centers
 }
 
-/// Edges of the centers of a shared window on squares of side S.
+/// Returns the edges of the centers of a shared window on squares of side S.
 fn shared_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
     let inner = |(place, _): &(usize, &usize)| place % side >= 2 && place / side >= 2;
     let edges = |frame: &Vec<usize>| {
@@ -43,7 +44,7 @@ fn shared_centers(pixels: &[Vec<usize>], side: usize) -> Vec<Vec<usize>> {
     pixels.iter().map(edges).collect()
 }
 
-/// Edges of the tail steps by frame, given those of the pixels of the stream.
+/// Returns the edges of the tail steps by frame for the edges of the pixels of the stream.
 pub(crate) fn tail_steps(recipe: &Recipe, stream: &[Vec<usize>]) -> Vec<Vec<usize>> {
     let windows = recipe.has("edge") || recipe.has("corner");
     let median_delay = if recipe.deep { 3 } else { 2 };
@@ -68,7 +69,7 @@ pub(crate) fn tail_steps(recipe: &Recipe, stream: &[Vec<usize>]) -> Vec<Vec<usiz
     steps
 }
 
-/// Edges from a step of the last window to its tail step.
+/// Returns the edges from a step of the last window to its tail step.
 pub(crate) fn tail_delay(recipe: &Recipe) -> usize {
     match recipe.deep {
         true => 2,
@@ -76,7 +77,7 @@ pub(crate) fn tail_delay(recipe: &Recipe) -> usize {
     }
 }
 
-/// What must be seen at `region` after each of the first `edges` edges.
+/// Returns the expected outputs of `region` after each of the first `edges` edges.
 pub(crate) fn expect(
     recipe: &Recipe,
     history: &[Seen],
@@ -97,10 +98,12 @@ fn expect_at(
     let mad = recipe.has("mad");
     let frame = |index: usize| &history[index].regions[region];
     let done_at = |index: usize| *steps[index].last().unwrap();
-    // Frames that are done by this edge, and those whose done clock is over.
+    // `done` counts the frames that are done by this edge, and `over` those whose done clock is
+    // over.
     let done = (0..steps.len()).filter(|&index| done_at(index) <= edge).count();
     let over = (0..steps.len()).filter(|&index| done_at(index) < edge).count();
-    // The frame whose counters run, and how many of its steps have happened.
+    // `running` is the frame whose counters run, and `counted` is the number of its steps that have
+    // happened.
     let running = over;
     let counted =
         steps.get(running).map_or(0, |frame| frame.iter().take_while(|&&at| at <= edge).count());
@@ -149,7 +152,7 @@ fn expect_at(
     }
 }
 
-/// The block whose last pixel, the lower right one, stands at a position of the region.
+/// Returns the block whose last pixel, the lower right one, is at a position of the region.
 fn last_of_block(recipe: &Recipe, position: i64) -> Option<usize> {
     let blocks = recipe.periphery?.blocks;
     let side = recipe.side / blocks;

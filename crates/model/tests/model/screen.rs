@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The screen behind an array or core: what leaves it is shown at once.
+//! The screen of a receiver behind an array or core, which shows the output at once.
 
 use foveate_design::{Action, Design};
 
 pub(crate) struct Screen {
     pub(crate) design: Design,
-    /// The padded frame, row by row.
+    /// The padded frame in row-major order.
     pub(crate) pixels: Vec<u16>,
-    /// The regions of which means leave.
+    /// True for every region whose means leave.
     pub(crate) summaries: Vec<bool>,
 }
 
@@ -24,12 +24,12 @@ impl Screen {
         (y * columns * side + x) as usize
     }
 
-    /// What a decision does; `summary` is whether means will leave.
+    /// Applies a decision. `summary` is true if means will leave.
     pub(crate) fn act(&mut self, region: u32, (srs, trs, summary): (bool, bool, bool)) {
         let action = foveate_model::action(self.design.irrelevant(), srs, trs, || summary);
         assert_eq!(action == Action::Summarize, summary, "means leave of irrelevant regions only");
         self.summaries[region as usize] = summary;
-        // What the array does not send must not look like what was there before.
+        // Pixels that the array fails to send must differ from those that were shown before.
         let value = match action {
             Action::Hold => return,
             Action::Blank => 0,
@@ -41,7 +41,8 @@ impl Screen {
         }
     }
 
-    /// A pixel has left of a region, or the mean of the block in which the position lies: all of the block shows it.
+    /// Shows a pixel that has left. If it is the mean of a block, the whole block that contains the
+    /// position shows it.
     pub(crate) fn show(&mut self, region: u32, position: u32, value: u16) {
         let size = self.design.region_size();
         let block = match self.design.periphery() {

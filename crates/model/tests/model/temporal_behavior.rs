@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the two references do over time: the first frame, drift, blanked regions, long silence.
+//! Tests of the two references over time: the first frame, drift, blanked regions, and long periods
+//! without changes.
 
 use foveate_design::{Config, Design};
 use foveate_frame::Frame;
@@ -15,7 +16,7 @@ fn design(toml: &str) -> Design {
     Config::from_toml(&format!("{size}{toml}")).unwrap().validate().unwrap()
 }
 
-/// A textured scene, shifted to the left by `shift`.
+/// Returns a textured frame, which is shifted to the left by `shift`.
 fn scene(shift: u32, offset: i64, mut noise: impl FnMut() -> i64) -> Frame {
     Frame::from_fn(WIDTH, HEIGHT, 8, |x, y| {
         let texture = i64::from((x + shift) / 3 % 2 * 90 + y / 5 % 2 * 40);
@@ -57,7 +58,8 @@ fn previous_never_sees_a_slow_fade_and_last_sent_does() {
     assert_eq!(fade("last-sent"), 8);
 }
 
-/// Regions with SRS = 1 that hold a pixel too many; and how many were inactive at all.
+/// Returns the number of regions with SRS = 1 in which min_count or more pixels of the screen
+/// differ from the frame, and the number of inactive regions with SRS = 1.
 fn stale_regions(design: &Design, outcome: &FunctionalOutcome) -> (usize, usize) {
     let level = design.temporal().level;
     let (mut stale, mut held) = (0, 0);
@@ -112,7 +114,7 @@ fn last_sent_never_drifts() {
                     all_held += held;
                 }
                 assert!(all_held > 0 || *name == "shake", "{name}: nothing was ever held");
-                // The same scenes do make the other reference drift.
+                // The same clips make the reference `previous` drift.
                 let design = rendering("previous");
                 let mut camera = FunctionalCamera::new(&design);
                 for frame in frames {
@@ -124,7 +126,7 @@ fn last_sent_never_drifts() {
     }
 }
 
-/// One bright pixel on its way through the scene.
+/// Returns a frame with one bright pixel that moves through the texture.
 fn moving_pixel(t: u32) -> Frame {
     let scene = scene(0, 0, || 0);
     let bright = |x, y| (x, y) == (t % WIDTH, 3 + t / 8);
@@ -132,14 +134,15 @@ fn moving_pixel(t: u32) -> Frame {
         .unwrap()
 }
 
-/// Contrast sinks below the edge level and comes back, while most pixels change slowly.
+/// Returns a frame whose contrast falls below the edge level and rises again, while most pixels
+/// change slowly.
 fn coming_and_going(t: u32) -> Frame {
     let contrast = [60, 30, 12, 6, 12, 30][(t / 2 % 6) as usize];
     Frame::from_fn(WIDTH, HEIGHT, 8, |x, _| (100 + x / 4 % 2 * contrast) as u16).unwrap()
 }
 
-/// A flat region with one bright pixel that goes away and comes back: SRS falls and returns, while
-/// one changed pixel is too little for TRS.
+/// A flat region has one bright pixel that disappears and comes back. SRS falls and returns, while
+/// one changed pixel is too few for TRS.
 #[test]
 fn a_static_region_that_was_blanked_once() {
     let bright =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds that change at any clock: which clock's value counts for what.
+//! Tests of thresholds that change at any clock: each threshold must be used with its value at the
+//! right clock.
 
 use foveate_design::{Design, PipelinedTiming};
 use foveate_frame::Frame;
@@ -15,7 +16,8 @@ use crate::oracle::{Seen, cut, watch};
 use crate::recipe::{Recipe, recipes};
 use crate::schedule::{tail_delay, tail_steps};
 
-/// Thresholds of one clock: each is the design's, or anything that its port can carry.
+/// Returns the thresholds of one clock. Each is that of the design or any value that its port can
+/// carry.
 fn jittered(design: &Design, random: &mut Random) -> Thresholds {
     let mut thresholds = Thresholds::of(design);
     let mut pick = |own: u64, bits: u32| {
@@ -37,7 +39,7 @@ fn jittered(design: &Design, random: &mut Random) -> Thresholds {
     thresholds
 }
 
-/// Scores of one frame and what was decided about it.
+/// The expected scores and decisions of a clip whose thresholds change at every clock.
 struct Frames<'a> {
     recipe: &'a Recipe,
     design: Design,
@@ -47,7 +49,7 @@ struct Frames<'a> {
     applied: Vec<Thresholds>,
 }
 
-/// A finished frame: srs and active as they were registered.
+/// SRS and active of a finished frame, as the registers took them.
 type Registered = (bool, bool);
 
 impl Frames<'_> {
@@ -100,7 +102,7 @@ impl Frames<'_> {
 fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError> {
     let design = recipe.design();
     let mut random = Random(seed);
-    // Pixels with random gaps, and what is applied at every edge.
+    // Pixels come with random gaps, and every edge has its own inputs.
     let mut stream = Vec::new();
     let mut inputs = Vec::new();
     for frame in film {
@@ -150,7 +152,8 @@ fn check(recipe: &Recipe, film: &[Frame], seed: u64) -> Result<(), TestCaseError
         let (scores, count) = (frames.scores(frame), frames.temporal_count(frame, &registered));
         prop_assert_eq!(&decision.scores[..scores.len()], &scores[..]);
         prop_assert_eq!(decision.temporal_count, count);
-        // Shown with the thresholds of the edge it follows, kept with those of the edge that ends it.
+        // The outputs show the decision with the thresholds of the edge before, and the registers
+        // take it with those of the edge that ends the clock.
         prop_assert_eq!((decision.srs, decision.trs), frames.decide(&scores, count, done));
         let (srs, trs) = frames.decide(&scores, count, done + 1);
         registered.push((srs, srs && trs));

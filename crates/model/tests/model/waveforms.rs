@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Waveforms written by hand from `docs/timing.md`, the first one being its own.
+//! Tests against waveforms that are written by hand from `docs/timing.md`. The first is the example
+//! of that page.
 
 use foveate_design::{Config, Design};
 use foveate_model::{PipelinedRpu, RpuInput, RpuOutput, Thresholds};
@@ -9,7 +10,7 @@ fn tiny(toml: &str) -> Design {
     Config::from_toml(&format!("{head}{toml}")).unwrap().validate().unwrap()
 }
 
-/// One edge per item: a pixel, or none.
+/// Returns the outputs after every edge. Each edge has a pixel or none.
 fn run(design: &Design, pixels: &[Option<u16>]) -> Vec<RpuOutput> {
     let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
     let thresholds = Thresholds::of(design);
@@ -25,7 +26,8 @@ fn column<T>(outputs: &[RpuOutput], port: impl Fn(&RpuOutput) -> T) -> Vec<T> {
     outputs.iter().map(port).collect()
 }
 
-/// Edges that are all hits at level 0, votes at one hit, and a temporal score that any frame passes.
+/// A configuration in which every pixel is an edge at level 0, one hit is enough to vote, and any
+/// frame passes the temporal score.
 const EDGES: &str = "[[spatial]]\nfeature = \"edge\"\nlevel = 0\nmin_score = 1\n\
                      [temporal]\nlevel = 0\nmin_count = 0\n";
 
@@ -43,6 +45,8 @@ fn two_frames_back_to_back_then_silence() {
     assert_eq!(column(&shown, |o| o.forward_pixel), [0, 0, 0, 0, 0, 0, 0, 10, 20, 40, 80, 0]);
 }
 
+/// The waveform of the first stream:
+///
 /// ```text
 /// edge           0  1  2  3  4  5  6  7  8  9 10 11 12
 /// pixel         a0 a1 a2 a3  -  - b0  -  - b1 b2 b3  -
@@ -57,7 +61,8 @@ fn a_new_frame_ends_the_flush_and_its_own_centers_wait() {
     let shown = run(&tiny(EDGES), &all);
     assert_eq!(column(&shown, |o| o.scores[0]), [0, 0, 0, 1, 2, 3, 4, 0, 0, 0, 0, 1, 2]);
 
-    // One clock of silence less: the last old center waits for the next pixel of the new frame.
+    // With one clock of silence less, the last old center waits for the next pixel of the new
+    // frame.
     let mut all: Vec<_> = a.map(Some).to_vec();
     all.extend([None, Some(b[0]), None, None, Some(b[1]), Some(b[2]), None, Some(b[3]), None]);
     let shown = run(&tiny(EDGES), &all);
@@ -65,14 +70,14 @@ fn a_new_frame_ends_the_flush_and_its_own_centers_wait() {
     assert_eq!(column(&shown, |o| o.forward_pixel), [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 10, 20]);
 }
 
-/// Tail steps are one edge behind the pixels; frame a is decided when frame b is done.
+/// Tail steps are one edge behind the pixels. Frame a is decided when frame b is done.
 #[test]
 fn the_second_pass_of_mad_runs_during_the_next_frame() {
     let design = tiny(
         "[[spatial]]\nfeature = \"mad\"\nmean_fraction_bits = 2\nmin_score = 1.0\n\
          [temporal]\nlevel = 1\nmin_count = 3\n",
     );
-    // Means 2.5 and 0.5, in quarters 10 and 2.
+    // The means are 2.5 and 0.5, which are 10 and 2 in quarters.
     let (a, b) = ([1, 2, 3, 4], [0, 0, 0, 2]);
     let all: Vec<_> = [a, b, b].concat().into_iter().map(Some).chain([None; 3]).collect();
     let shown = run(&design, &all);
@@ -95,7 +100,7 @@ fn the_score_of_variance_stands_until_the_next() {
     let shown = run(&design, &all);
     assert_eq!(column(&shown, |o| o.scores[0]), [0, 0, 0, 0, 20, 20, 20, 20]);
     assert_eq!(column(&shown, |o| o.temporal_count), [0, 1, 2, 3, 4, 0, 0, 0]);
-    // A minimum of 0 always votes, but nothing votes while no decision is valid.
+    // A minimum of 0 always votes, but SRS is 0 while no decision is valid.
     let valid = [0, 0, 0, 0, 1, 0, 0, 0].map(|bit| bit == 1);
     assert_eq!(column(&shown, |o| o.srs), valid);
     assert_eq!(column(&shown, |o| o.decision_valid), valid);

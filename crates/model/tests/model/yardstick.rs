@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The integer scores against the textbook formulas in floating point.
+//! Tests of the integer scores against the usual formulas in floating point.
 
 use foveate_design::Config;
 use foveate_frame::Frame;
@@ -37,7 +37,7 @@ fn mad_and_variance_are_what_their_names_say() {
             for fraction_bits in [0, exact_bits / 2, exact_bits] {
                 let (got_mad, got_variance) = scores(side, bits, fraction_bits, &pixels);
                 assert!((got_variance - variance).abs() <= 1e-9 * variance, "{side} {bits}");
-                // No deviation is off by more than the mean is.
+                // No deviation differs from the exact one by more than the mean does.
                 let exact = n.is_power_of_two() && fraction_bits == exact_bits;
                 let off = if exact { 0.0 } else { 0.5 / f64::from(1 << fraction_bits) };
                 assert!((got_mad - mad).abs() <= off + 1e-9 * mad, "{side} {bits} {fraction_bits}");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whole films: scores, decisions and the rendered frame, against the functional camera, over a matrix of
-//! designs that has every value of every choice beside every other.
+//! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
+//! The designs are a matrix in which every value of every choice meets every other.
 
 use foveate_design::{Action, Design, Payload, Store};
 use foveate_frame::Frame;
@@ -12,7 +12,7 @@ use crate::hard_cases::hard_frames;
 use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
 use crate::screen::Screen;
 
-/// The decisions of a frame are those of the camera.
+/// Checks that the decision on the ports is that of the camera.
 fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
     let at = shown.region as usize;
     let summary = outcome.actions[at] == Action::Summarize;
@@ -24,8 +24,8 @@ fn compare(shown: &RasterOutput, outcome: &FunctionalOutcome) {
     assert!(scores.eq(shown.scores.into_iter().take(outcome.scores.len())), "region {at}");
 }
 
-/// `Departure` says when the last decision comes, and when the last word leaves if all regions are active and any
-/// leaves.
+/// Checks that the last decision comes at the clock of `Departure`. If all regions are active, the
+/// last word leaves at its clock; otherwise it leaves no later.
 fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &Trace) {
     let departure = design.timing().departure();
     let last = |which: fn(&RasterOutput) -> bool| trace.shown.iter().rposition(which);
@@ -39,7 +39,8 @@ fn check_departure(design: &Design, outcome: &FunctionalOutcome, trace: &Trace) 
     }
 }
 
-/// Whoever keeps the frame elsewhere, raw or as it is scored, has the pixels of an active region.
+/// Writes the pixels of an active region to the screen for a core without forwarding. A receiver
+/// gets them from its own copy of the frame, raw or as it is scored.
 fn keep(screen: &mut Screen, driver: &Driver, frame: &Frame, region: u32) {
     let scored = driver.rcm.reference(region).unwrap();
     let width = screen.design.columns() * screen.design.region_size();
@@ -53,7 +54,8 @@ fn keep(screen: &mut Screen, driver: &Driver, frame: &Frame, region: u32) {
     }
 }
 
-/// Frame after frame, each drained, so that the screen can be compared.
+/// Plays one frame after the other. Each frame leaves completely before the next, so that the
+/// screen can be compared.
 fn check(recipe: &RasterRecipe, film: &[Frame]) {
     let design = recipe.design();
     let thresholds = foveate_model::Thresholds::of(&design);
@@ -100,7 +102,7 @@ fn check(recipe: &RasterRecipe, film: &[Frame]) {
     }
 }
 
-/// The recipe of a number: choices turn at different speeds.
+/// Returns the recipe of a number. Its choices change at different rates with the number.
 pub(super) fn recipe(number: usize) -> RasterRecipe {
     let on = |speed: usize| number / speed % 2 == 1;
     let feature =
@@ -153,7 +155,7 @@ fn every_kind_of_core_shows_what_the_camera_shows() {
     }
 }
 
-/// A store of one port and one outside, in cores that forward and in cores that do not.
+/// The test uses single-port and external stores, in cores with and without forwarding.
 #[test]
 fn a_core_with_any_store_shows_what_the_camera_shows() {
     for number in 0..56 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Wrong expectations must be noticed: the same check, with one thing changed in what it expects.
+//! Tests that wrong expectations are noticed: the checks of this module, with one thing changed in
+//! what they expect.
 
 use std::collections::BTreeSet;
 
@@ -17,7 +18,7 @@ fn feature(name: &'static str, level: i64, min_milli: i64) -> FeatureRecipe {
     FeatureRecipe { name, level, min_milli, fraction_bits: 1 }
 }
 
-/// 4x4 regions of 4x4 pixels, of which the last are ragged.
+/// Returns 4x4 regions of 4x4 pixels. The last column and the last row are ragged.
 fn recipe(last: FeatureRecipe) -> RasterRecipe {
     RasterRecipe {
         base: Recipe {
@@ -55,10 +56,10 @@ fn script() -> Script {
 /// A sink that loses regions.
 const SLOW: Manner =
     Manner { gaps: 3, pushing: 50, sink: Sink::Often(45), faults: FEW, ..Manner::DENSE };
-/// A memory outside that fails now and then.
+/// An external memory that fails occasionally.
 const FEW: Faults = Faults { missing: 4, wrong: 4 };
 
-/// Runs the core of a recipe against what another expects.
+/// Runs the core of `built`, and checks it against the changed expectations.
 fn expect(built: &RasterRecipe, change: impl Fn(&mut RasterRecipe)) -> Check {
     expect_of(built, &script(), SLOW, change)
 }
@@ -119,7 +120,7 @@ fn every_planted_fault_is_noticed() {
     assert!(expect(&mad, |recipe| recipe.base.features[1].fraction_bits = 2).is_err(), "fraction");
 }
 
-/// Words of two pixels, and frames that wait for pending regions.
+/// The frames have words of two pixels and wait for pending regions.
 #[test]
 fn faults_of_small_frames_in_wide_words_are_noticed() {
     let mut built = recipe(feature("variance", 0, 900_000));
@@ -135,7 +136,8 @@ fn faults_of_small_frames_in_wide_words_are_noticed() {
     }
 }
 
-/// A store outside that fails now and then, in both pipelinings and with a second pass.
+/// The external store fails occasionally. The designs have both pipelinings, and one has a second
+/// pass.
 #[test]
 fn faults_of_a_store_outside_are_noticed() {
     for (last, deep) in [
@@ -164,7 +166,7 @@ fn faults_of_a_store_outside_are_noticed() {
     }
 }
 
-/// Summaries, of which a slow sink loses some.
+/// Returns a recipe with summaries, of which a slow sink loses some.
 fn with_summaries(pixels: i64) -> RasterRecipe {
     let mut recipe = recipe(feature("variance", 0, 900_000));
     (recipe.base.side, recipe.base.width, recipe.base.height) = (8, 31.max(16 * pixels - 3), 37);
@@ -175,7 +177,7 @@ fn with_summaries(pixels: i64) -> RasterRecipe {
     recipe
 }
 
-/// Flat and busy regions, some of which stay as they are.
+/// Returns a script of flat and busy regions, some of which do not change.
 fn flat_script() -> Script {
     use Content::{AlmostFlat, Noise, Nudge, Repeat, Touch};
     let contents =
@@ -214,14 +216,14 @@ fn faults_of_summaries_are_noticed() {
     small.base.height = 14;
     assert_eq!(expect(&small, |_| {}), Ok(()));
     assert!(expect(&small, |recipe| recipe.misread.never_waits = true).is_err(), "waiting");
-    // One mean, for which the readout rests.
+    // The summary has one mean, after which the readout waits before it holds the next region.
     let mut one = with_summaries(1);
     one.base.periphery = Some(PeripheryRecipe { blocks: 1, level: 3 });
     assert_eq!(expect(&one, |_| {}), Ok(()));
     assert!(expect(&one, |recipe| recipe.misread.rest = -1).is_err(), "not resting");
 }
 
-/// Of a slow sink's losses some are summaries, before a word of them is fetched and in the middle.
+/// A slow sink loses summaries too, both before a word of them is fetched and in the middle.
 #[test]
 fn a_slow_sink_loses_summaries() {
     let built = with_summaries(2);
@@ -241,7 +243,7 @@ fn a_slow_sink_loses_summaries() {
     assert!(sent.len() > 50 && lost > 10 && aborted > 0, "{} {lost} {aborted}", sent.len());
 }
 
-/// The controls and the properties are worth something only if these happen.
+/// The other tests are meaningful only if the losses and waits that this test counts occur.
 #[test]
 fn a_slow_sink_loses_regions_and_holds_small_frames_back() {
     let built = recipe(feature("variance", 0, 900_000));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Behind a sensor that reads words at a rate of its own, the core decides every row of regions, and its last word
-//! leaves, when [`RasterStream`] says.
+//! Tests that the last decision and the last word of every row of regions leave at the times of
+//! [`RasterStream`], behind a sensor that reads words at its own rate.
 
 use std::collections::VecDeque;
 
@@ -14,10 +14,11 @@ use super::recipe::RasterRecipe;
 use crate::frames::Random;
 use crate::hard_cases::hard_frames;
 
-/// How a sensor reads a frame: clocks from word to word, and clocks between frames.
+/// The pace of a sensor: clocks from word to word, and clocks between frames.
 type Pace = (u64, u64);
 
-/// What is fed: words with the edges at which they have been read, and when each frame begins.
+/// The stream of a sensor: the words with the edges at which they have been read, and the begin and
+/// the pace of each frame.
 struct Sensor {
     words: VecDeque<(u64, Vec<u16>)>,
     begins: Vec<(u64, Pace)>,
@@ -36,7 +37,7 @@ fn sensor(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace]) -> Sensor {
     sensor
 }
 
-/// What the core shows after every edge until nothing is under way.
+/// Returns the outputs of the core after every edge until nothing is under way.
 fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<RasterOutput> {
     let design = recipe.design();
     let (mut rcm, thresholds) = (RasterRcm::new(design.raster().unwrap()), Thresholds::of(&design));
@@ -66,8 +67,8 @@ fn shown(recipe: &RasterRecipe, mut words: VecDeque<(u64, Vec<u16>)>) -> Vec<Ras
     shown
 }
 
-/// What was seen of a frame: what became of its regions, and of every row of regions the edges after which its last decision
-/// and its last word were on the ports.
+/// The observed results of a frame: the actions of its regions, and for every row of regions the
+/// edges after which its last decision and its last word were on the ports.
 #[derive(Default)]
 struct Seen {
     actions: Vec<Action>,
@@ -106,15 +107,15 @@ fn seen(recipe: &RasterRecipe, shown: &[RasterOutput]) -> Vec<Seen> {
     frames
 }
 
-/// Rows of regions that have been compared.
+/// Counts of the rows of regions that have been compared.
 #[derive(Debug, Default)]
 struct Rows {
     compared: usize,
-    /// Those that sent the pixels of some of their regions, but nothing of others.
+    /// Rows that sent the pixels of some of their regions, and nothing of others.
     partly: usize,
-    /// Those that sent a summary.
+    /// Rows that sent a summary.
     with_summaries: usize,
-    /// Those that sent pixels, too.
+    /// Rows that sent both a summary and pixels.
     mixed: usize,
 }
 
@@ -141,7 +142,8 @@ fn check(recipe: &RasterRecipe, film: &[Frame], paces: &[Pace], rows: &mut Rows)
     }
 }
 
-/// Frames in which every other region, as chance has it, is another than in the frame before.
+/// Returns frames in which each region changes, with equal probability, or stays as it was in the
+/// frame before.
 fn blinking(recipe: &RasterRecipe) -> Vec<Frame> {
     let (width, height) = (recipe.base.width as u32, recipe.base.height as u32);
     let mut random = Random(3);
@@ -158,19 +160,20 @@ fn blinking(recipe: &RasterRecipe) -> Vec<Frame> {
     (0..4).map(frame).collect()
 }
 
-/// What leaves of a frame.
+/// The regions of a frame that leave.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Leaving {
-    /// All regions.
+    /// All regions leave.
     All,
-    /// Regions by chance.
+    /// Random regions leave.
     Some,
-    /// Regions and summaries by chance.
+    /// Random regions leave, with pixels or with summaries.
     Mixed,
 }
 
-/// K of 1, 2 and 4, N of 2 to 8, ragged frames, with and without median, windows, second pass, summaries and pixels that
-/// leave, plain and deep; frames that come as fast as words can, and slower ones, with and without pauses.
+/// The designs have K of 1, 2 and 4, N of 2 to 8, and ragged frames. They have or lack a median,
+/// windows, a second pass, summaries and forwarding, and are plain or deep. Frames come as fast as
+/// words can, or slower, with and without pauses.
 #[test]
 fn every_row_of_regions_leaves_when_the_design_says() {
     let mut rows = Rows::default();
@@ -194,7 +197,7 @@ fn every_row_of_regions_leaves_when_the_design_says() {
             }
         }
     }
-    // Enough of all kinds: the queue has something to do, and something to leave out.
+    // There must be enough rows of all kinds, so that the queue is both filled and bypassed.
     assert!(rows.compared > 4_000 && rows.partly > 1_000, "{rows:?}");
     assert!(rows.with_summaries > 300 && rows.mixed > 50, "{rows:?}");
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Feeds frames to a core, word by word, in front of a sink that is not always ready, and keeps what was
-//! applied and what was shown.
+//! A driver that feeds frames to a core, word by word, in front of a sink that is not always ready.
+//! It records inputs and outputs.
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
@@ -10,26 +10,26 @@ use super::memory::{Faults, Memory};
 use super::recipe::RasterRecipe;
 use crate::frames::Random;
 
-/// When the sink is ready.
+/// The clocks at which the sink is ready.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Sink {
-    /// This percent of clocks.
+    /// The sink is ready in this percentage of clocks, at random.
     Often(i64),
-    /// In turns of up to so many clocks, ready and not.
+    /// The sink is alternately ready and not ready for up to this number of clocks.
     Turns(i64),
 }
 
-/// How words come and go.
+/// The pattern in which words come and leave.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Manner {
-    /// Percent of clocks in which there is no word though the core is ready.
+    /// Percentage of clocks without a word although the core is ready.
     pub(crate) gaps: i64,
-    /// Longest pause between frames.
+    /// Longest pause between frames in clocks.
     pub(crate) between: i64,
-    /// Percent of clocks with a word though the core is not ready.
+    /// Percentage of clocks with a word although the core is not ready.
     pub(crate) pushing: i64,
     pub(crate) sink: Sink,
-    /// Of the memory outside, where there is one.
+    /// Faults of the external memory, if there is one.
     pub(crate) faults: Faults,
     pub(crate) seed: u64,
 }
@@ -45,24 +45,25 @@ impl Manner {
     };
 }
 
-/// A frame and its thresholds.
+/// A frame with its thresholds.
 pub(crate) struct Job {
     pub(crate) frame: Frame,
     pub(crate) thresholds: Thresholds,
 }
 
-/// What was applied and shown since a reset; edge x is number x, and number 0 is before the first.
+/// The inputs and outputs since a reset. Element x belongs to edge x, and element 0 to the time
+/// before the first edge.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Trace {
     pub(crate) valid: Vec<bool>,
     pub(crate) sink: Vec<bool>,
-    /// Whether a reference was valid, and the reference, where these are ports.
+    /// The references and their valid bits, if the core has these ports.
     pub(crate) references: Vec<(bool, Vec<u16>)>,
     pub(crate) shown: Vec<RasterOutput>,
 }
 
 impl Trace {
-    /// The number of the last edge.
+    /// Returns the number of the last edge.
     pub(crate) fn end(&self) -> i64 {
         self.shown.len() as i64 - 1
     }
@@ -75,9 +76,9 @@ pub(crate) struct Driver {
     memory: Memory,
     random: Random,
     trace: Trace,
-    /// Clocks that are left before everything ends.
+    /// Clocks that are left until the run ends.
     left: i64,
-    /// Clocks left of the sink's turn, and whether it is ready in it.
+    /// Clocks left of the current phase of the sink, and true if the sink is ready in it.
     turn: (i64, bool),
     decisions: i64,
     noise: Thresholds,
@@ -103,7 +104,7 @@ impl Driver {
         driver
     }
 
-    /// Resets the core for one or two clocks with anything at its ports.
+    /// Resets the core for some clocks, with random values at its ports.
     pub(crate) fn reset(&mut self, clocks: i64) {
         for _ in 0..clocks {
             let (word, thresholds) = (self.junk(), self.noise());
@@ -125,7 +126,7 @@ impl Driver {
         self.begin();
     }
 
-    /// Forgets what was applied and shown.
+    /// Starts a new record of inputs and outputs.
     pub(crate) fn begin(&mut self) {
         self.decisions = 0;
         let shown = vec![self.rcm.output().clone()];
@@ -133,8 +134,8 @@ impl Driver {
         self.trace = Trace { valid: vec![false], sink: vec![false], references, shown };
     }
 
-    /// Feeds frame after frame, lets `rest` clocks pass, and says what was seen; ends after `clocks` clocks,
-    /// whatever is under way.
+    /// Feeds the frames, lets `rest` clocks pass, and returns the record. The run ends after
+    /// `clocks` clocks, whatever is under way.
     pub(crate) fn run(&mut self, jobs: &[Job], rest: i64, clocks: i64) -> Trace {
         self.left = clocks;
         for (number, job) in (1..).zip(jobs) {
@@ -143,7 +144,7 @@ impl Driver {
                 self.idle(&job.thresholds);
             }
             self.feed(job);
-            // Until the thresholds may change.
+            // Thresholds may change only from here on.
             while !self.is_settled(number) && self.left > 0 {
                 self.idle(&job.thresholds);
             }
@@ -155,7 +156,8 @@ impl Driver {
         std::mem::take(&mut self.trace)
     }
 
-    /// Without `mad` frames follow at once; with it thresholds may change only after the last decision.
+    /// Returns true if the thresholds may change: without `mad` when the core is ready again, with
+    /// `mad` after the last decision.
     fn is_settled(&self, frames: i64) -> bool {
         let regions = self.recipe.base.columns() * self.recipe.base.rows();
         let is_decided = self.decisions == frames * regions;
@@ -220,13 +222,13 @@ impl Driver {
         }
     }
 
-    /// A word that nobody may look at.
+    /// Returns a word that the core must ignore.
     fn junk(&mut self) -> Vec<u16> {
         let top = self.recipe.base.pixel_max() + 1;
         (0..self.recipe.pixels).map(|_| self.random.below(top) as u16).collect()
     }
 
-    /// Thresholds that nobody may look at.
+    /// Returns thresholds that the core must ignore.
     fn noise(&mut self) -> Thresholds {
         let mut noise = self.noise;
         noise.temporal_level = self.random.below(2) as u32;
@@ -238,7 +240,7 @@ impl Driver {
     }
 }
 
-/// The words of a frame; pixels beyond its right border are anything.
+/// Returns the words of a frame. Pixels beyond its right border are random.
 pub(crate) fn words(recipe: &RasterRecipe, frame: &Frame, random: &mut Random) -> Vec<Vec<u16>> {
     let top = recipe.base.pixel_max() + 1;
     let mut words = Vec::new();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small frames with every clock worked out by hand from `docs/raster.md`. The edge that takes the first word
-//! is number 1.
+//! Tests of small frames with every clock computed by hand from `docs/raster.md`. The edge that
+//! takes the first word has number 1.
 
 use std::ops::RangeInclusive;
 
 use foveate_design::{Config, Design, RasterTiming};
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
-/// A design with one feature, all of whose regions are active in every frame.
+/// Returns a design with one feature, in which all regions are active in every frame.
 pub(super) fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
     let toml = format!(
         "[frame]\nwidth = {}\nheight = {}\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
@@ -18,8 +18,8 @@ pub(super) fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design 
     Config::from_toml_with(&toml, more).unwrap().validate().unwrap()
 }
 
-/// The outputs after every edge up to `last` while one frame of ones is applied as fast as it is taken; `sink`
-/// says at which edges it is ready.
+/// Returns the outputs after every edge up to `last` while one frame of ones is applied as fast as
+/// it is taken. `sink` returns true for edges at which the sink is ready.
 pub(super) fn play(
     design: &Design,
     last: usize,
@@ -58,29 +58,31 @@ pub(super) fn list(edges: RangeInclusive<usize>) -> Vec<usize> {
     edges.collect()
 }
 
-/// Edges and regions of decisions.
+/// Returns the edges and the regions of decisions.
 pub(super) fn decisions(outputs: &[RasterOutput]) -> Vec<(usize, u32)> {
     let edges = edges(outputs, |output| output.decision_valid);
     edges.into_iter().map(|edge| (edge, outputs[edge].region)).collect()
 }
 
-/// The first edge at which each region was lost in turn.
+/// Returns the edges at which regions were lost.
 fn losses(outputs: &[RasterOutput]) -> Vec<usize> {
     let rises = |edge: &usize| outputs[*edge].lost_count > outputs[edge - 1].lost_count;
     (1..outputs.len()).filter(rises).collect()
 }
 
-/// 16x8 pixels, 4x2 regions, rows of 16 words, one window: word i comes to the tail at edge i + 18, S is 3
-/// and D is 7. The last words of the regions are 51, 55, 59, 63, then 115 and so on.
+/// The frame has 16x8 pixels in 4x2 regions, rows of 16 words, and one window. Word i comes to the
+/// tail at edge i + 18, S is 3 and D is 7. The last words of the regions are 51, 55, 59, 63, then
+/// 115 and so on.
 #[test]
 fn a_frame_with_one_window() {
     let design = design("edge", (16, 8), &[]);
     let outputs = play(&design, 240, |_| true);
-    // T0 is 128, Z is 17.
+    // T0 is 128 and Z is 17.
     assert_eq!(edges(&outputs, |output| !output.ready), list(128..=151));
     let due = [(76, 0), (80, 1), (84, 2), (88, 3), (140, 4), (144, 5), (148, 6), (152, 7)];
     assert_eq!(decisions(&outputs), due);
-    // Region 0 enters at 77, is held at 79 and fetched from 80 on; then one word follows the other.
+    // Region 0 enters the queue at edge 77, is held at 79 and fetched from 80 on. From then on the
+    // words follow each other without a gap.
     assert_eq!(edges(&outputs, |output| output.forward_valid), list(81..=208));
     for (word, output) in outputs[81..=208].iter().enumerate() {
         let (region, position) = (word / 16, word % 16);
@@ -95,18 +97,20 @@ fn a_frame_with_one_window() {
     assert_eq!(departure.forward_clocks, 208 - 128);
 }
 
-/// 29x7 pixels in words of two, regions of 8x8: a row has 16 words, of which 15 are taken, and a row is added
-/// below. One median: word i comes to the tail at edge i + 18, S is 6, and D with variance 13.
+/// The frame has 29x7 pixels in words of two, and regions of 8x8. A row has 16 words, of which 15
+/// are taken, and the core adds a row below. There is one median. Word i comes to the tail at edge
+/// i + 18, S is 6, and D with variance is 13.
 #[test]
 fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let more = ["region.size=8", "denoise.filter=median3x3", "hardware.pixels_per_clock=2"];
     let previous = design("variance", (29, 7), &more);
     let outputs = play(&previous, 300, |_| true);
-    // After the last word of each of the first six rows; then T0 is 111 and Z is 1 + 16 + 17.
+    // `ready_o` is 0 after the last word of each of the first six rows. T0 is 111 and Z is 1 + 16 +
+    // 17.
     let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=157)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
     assert_eq!(decisions(&outputs), [(146, 0), (150, 1), (154, 2), (158, 3)]);
-    // Region 0 is held at 149. Four regions of 32 words.
+    // Region 0 is held at edge 149. Four regions of 32 words leave.
     assert_eq!(edges(&outputs, |output| output.forward_valid), list(151..=278));
     let positions: Vec<u32> = (151..=182).map(|edge| outputs[edge].forward_position).collect();
     assert_eq!(positions, (0..32).map(|word| 2 * word).collect::<Vec<u32>>());
@@ -114,19 +118,21 @@ fn a_ragged_frame_waits_for_its_pixels_with_last_sent() {
     let more = [&more[..], &["temporal.reference=last-sent"]].concat();
     let last_sent = design("variance", (29, 7), &more);
     let outputs = play(&last_sent, 300, |_| true);
-    // The last word is on the ports after edge 278 and taken at 279.
+    // The last word is on the ports after edge 278 and is taken at 279.
     let closed = [vec![15, 31, 47, 63, 79, 95], list(111..=278)].concat();
     assert_eq!(edges(&outputs, |output| !output.ready), closed);
     let most = |design| RasterTiming::of(design).most_clocks_per_frame();
     assert_eq!((most(previous.raster().unwrap()), most(last_sent.raster().unwrap())), (158, 279));
 }
 
-/// The first word of row of regions g is stored at edge 64 g + 21. The sink is not ready before edge 400: the
-/// regions of rows 0 and 1 are lost, those of rows 2 and 3 are not, since no frame follows.
+/// The first word of row of regions g is stored at edge 64 g + 21. The sink is not ready before
+/// edge 400. The regions of rows 0 and 1 are lost. Those of rows 2 and 3 are not lost, because no
+/// frame follows.
 #[test]
 fn a_sink_that_stalls_loses_two_rows_of_regions() {
     let outputs = play(&design("edge", (16, 16), &[]), 540, |edge| edge >= 400);
-    // One is held when its row becomes stale, the others are lost instead of being held, two edges apart.
+    // One region is held when its row becomes stale. The others are lost instead of being held, two
+    // edges apart.
     let due = [149, 150, 152, 154, 213, 214, 216, 218];
     assert_eq!(losses(&outputs), due);
     assert_eq!(edges(&outputs, |output| output.lost), list(149..=540));
@@ -137,7 +143,8 @@ fn a_sink_that_stalls_loses_two_rows_of_regions() {
     assert!((81..400).all(|edge| word(edge) == (0, 0)));
     assert_eq!([400, 401, 402, 416, 417].map(word), [(0, 1), (8, 0), (8, 1), (8, 15), (9, 0)]);
     assert_eq!(word(528), (15, 15));
-    // First, last, abort: of region 0 two words leave, of the others that do all. The word that was fetched is the last.
+    // The tuples are first, last and abort. Two words of region 0 leave, and all words of the
+    // regions that are not lost. The word of region 0 that was fetched is its last one.
     let ends = |edge: usize| {
         let output = &outputs[edge];
         (output.forward_first, output.forward_last, output.forward_abort)
@@ -152,8 +159,9 @@ fn a_sink_that_stalls_loses_two_rows_of_regions() {
     assert_eq!(edges(&outputs, |output| output.lost_valid), due);
 }
 
-/// The sink takes a word at edge 149, at which region 0 is lost, and stops: word 1 comes to the ports as the last. Or it
-/// takes one word before that: the word that was fetched is the first, and the last.
+/// In the first run the sink takes a word at edge 149, at which region 0 is lost, and then stops,
+/// so word 1 comes to the ports as the last one. In the second run the only word of region 1 that
+/// was fetched is both the first and the last one.
 #[test]
 fn a_region_that_is_lost_in_the_middle_ends_with_the_word_that_was_fetched_last() {
     let design = design("edge", (16, 16), &[]);
@@ -167,21 +175,23 @@ fn a_region_that_is_lost_in_the_middle_ends_with_the_word_that_was_fetched_last(
         [(0, 0, (true, false, false)), (0, 1, (false, true, true))]
     );
     assert!((149..400).all(|edge| beat(&outputs[edge]) == (0, 1, (false, true, true))));
-    // No word was fetched at that edge, so that the next comes two edges after the step at 400.
+    // No word was fetched at that edge, so the next word comes two edges after the step at 400.
     assert_eq!(
         (outputs[400].forward_valid, beat(&outputs[401])),
         (false, (8, 0, (true, false, false)))
     );
 
-    // After edge 96 the last word of region 0 is on the ports, and the first of region 1 has been fetched.
+    // After edge 96 the last word of region 0 is on the ports, and the first word of region 1 has
+    // been fetched.
     let outputs = play(&design, 540, |edge| edge <= 96 || edge >= 400);
     assert_eq!(beat(&outputs[96]), (0, 15, (false, true, false)));
     assert_eq!(beat(&outputs[400]), (1, 0, (true, true, true)));
     assert_eq!(beat(&outputs[401]), (8, 0, (true, false, false)));
 }
 
-/// No window: word i comes to the tail at edge i + 1, S is 2, D is 6. The first pass begins at edge 52 + 2 + 8.
-/// Four passes of 16 edges take as long as a row of regions comes in.
+/// There is no window. Word i comes to the tail at edge i + 1, S is 2 and D is 6. The first pass
+/// begins at edge 52 + 2 + 8. Four passes of 16 edges take as long as a row of regions takes to
+/// come in.
 #[test]
 fn the_second_pass_decides_one_region_after_the_other() {
     let design = design("mad", (16, 8), &[]);
@@ -194,9 +204,9 @@ fn the_second_pass_decides_one_region_after_the_other() {
     assert_eq!((departure.decision_clocks, departure.forward_clocks), (193 - 128, 213 - 128));
 }
 
-/// How many clocks a sink may stall after the first word has come, while all regions are active and words come at
-/// every clock: L - N/K - (D - S) - 3, and (N+1) L - (n+N)/K - 14 with a second pass: there
-/// `deep` and `variance` take 3 more each.
+/// The bounds are the clocks for which a sink may stall after the first word has come, while all
+/// regions are active and words come at every clock: L - N/K - (D - S) - 3, or (N+1) L - (n+N)/K -
+/// 14 with a second pass. There `deep` adds 4 clocks and `variance` adds 3.
 #[test]
 fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
     const BOTH: &str = "spatial=[{feature=\"variance\",min_score=0},{feature=\"mad\",min_score=0}]";
@@ -218,8 +228,8 @@ fn nothing_is_lost_while_the_sink_stalls_for_less_than_a_row() {
     }
 }
 
-/// Frames are counted from a reset on, modulo 256, whether regions leave or are lost. A frame of one row of regions: the
-/// sink takes nothing during every fifth group of three frames.
+/// Frames are counted modulo 256 from a reset on, whether their regions leave or are lost. A frame
+/// has one row of regions. The sink takes nothing during every fifth group of three frames.
 #[test]
 fn frames_have_numbers() {
     let design = design("edge", (16, 4), &[]);
@@ -250,7 +260,7 @@ fn frames_have_numbers() {
     }
     assert!(whole.len() > 1_000 && lost.len() > 300, "{} {}", whole.len(), lost.len());
     assert!(whole.len() + lost.len() + 12 >= decided && decided > 4 * 590);
-    // Every region of every frame is in one of both lists, in its turn.
+    // Every region of every frame is in one of the two lists, in order.
     let (mut whole, mut lost) = (whole.iter().peekable(), lost.iter().peekable());
     for region in 0..4 * 590 {
         let due = (region / 4 % 256, region % 4);

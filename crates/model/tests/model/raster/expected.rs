@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the ports must show after every edge, computed from what was applied: the edges of all advances of a
-//! frame at once by the formulas of `docs/raster.md`, then decisions and readout edge by edge.
+//! The expected outputs after every edge, computed from the inputs: the edges of all advances of a
+//! frame at once by the formulas of `docs/raster.md`, then decisions and the readout edge by edge.
 
 use std::collections::BTreeMap;
 
@@ -13,27 +13,28 @@ use super::recipe::RasterRecipe;
 use super::streams::Streams;
 use crate::oracle::{Seen, begin, look_at_region};
 
-/// What differs, and where.
+/// The result of a check: a description of the first difference, if there is one.
 pub(crate) type Check = Result<(), String>;
 
 pub(crate) struct Oracle<'a> {
     recipe: &'a RasterRecipe,
     trace: &'a Trace,
     history: Vec<Seen>,
-    /// Edges at which regions are decided, with frame and region.
+    /// The frame and the region that are decided at an edge.
     decisions: BTreeMap<i64, (usize, i64)>,
     readings: Readings,
     streams: Streams,
-    /// Edges from which on rows of regions are stale, counted through all frames.
+    /// The edges at which the first words of rows of regions are stored, counted through all
+    /// frames.
     begun: Vec<i64>,
     ready: Vec<bool>,
-    /// The last edge of the second pass before.
+    /// The last edge of the latest second pass.
     passed: i64,
 }
 
 impl<'a> Oracle<'a> {
-    /// Compares what was shown with what follows from the frames and what was applied; `recipes` has the
-    /// thresholds of each frame.
+    /// Compares the outputs with those that follow from the frames and the inputs. `recipes` has
+    /// the thresholds of each frame.
     pub(crate) fn check(
         recipe: &'a RasterRecipe,
         recipes: &[RasterRecipe],
@@ -64,7 +65,8 @@ impl<'a> Oracle<'a> {
         oracle.until(trace.end(), recipes)
     }
 
-    /// A frame, before which `ready_o` is 1 from edge `ready` on; returns that edge of the next.
+    /// Processes a frame before which `ready_o` is 1 from edge `ready` on, and returns that edge of
+    /// the next frame.
     fn frame(
         &mut self,
         ready: i64,
@@ -99,7 +101,8 @@ impl<'a> Oracle<'a> {
         let mut next = last_taken + recipe.after_last() + recipe.decided();
         if recipe.waits() {
             self.until(next - 1, recipes)?;
-            // Everything but `ready_o` is compared before it is known whether that is 1.
+            // All outputs except `ready_o` are compared before the expected value of `ready_o` is
+            // known.
             while next <= self.trace.end() {
                 self.edge(next, recipes)?;
                 let undecided = self.decisions.keys().any(|&edge| edge > next);
@@ -114,7 +117,7 @@ impl<'a> Oracle<'a> {
         Ok(next)
     }
 
-    /// The edges of all advances of a frame, as far as they came.
+    /// Returns the edges of all advances of a frame, as far as they came.
     fn advances(&mut self, ready: i64) -> Vec<i64> {
         let (mut edges, mut last) = (Vec::new(), ready);
         for a in 0..self.recipe.advances() {
@@ -140,7 +143,7 @@ impl<'a> Oracle<'a> {
         }
     }
 
-    /// When a region is decided whose last word came to the tail at that edge.
+    /// Returns the edge of the decision of a region whose last word came to the tail at that edge.
     fn decided(&mut self, edge: i64) -> i64 {
         if !self.recipe.has_mad() {
             return edge + self.recipe.decided();
@@ -150,7 +153,7 @@ impl<'a> Oracle<'a> {
         self.passed + self.recipe.decided_after_pass()
     }
 
-    /// Looks at all edges up to that one that have not been looked at.
+    /// Processes and compares all edges up to `last` that have not been processed.
     fn until(&mut self, last: i64, recipes: &[RasterRecipe]) -> Check {
         for edge in self.readings.shown.len() as i64..=last.min(self.trace.end()) {
             self.edge(edge, recipes)?;
@@ -159,7 +162,7 @@ impl<'a> Oracle<'a> {
         Ok(())
     }
 
-    /// What happens at an edge.
+    /// Processes an edge: losses and decisions.
     fn edge(&mut self, edge: i64, recipes: &[RasterRecipe]) -> Check {
         self.stale();
         self.readings.edge(edge, self.trace.sink[edge as usize]);
@@ -187,7 +190,7 @@ impl<'a> Oracle<'a> {
         Ok(())
     }
 
-    /// Tells the readings which rows of regions have been begun.
+    /// Sets the edges from which on regions are stale, as far as they are known.
     fn stale(&mut self) {
         let rows = self.recipe.base.rows();
         for reading in self.readings.all.iter_mut().filter(|reading| reading.stale == i64::MAX) {
@@ -222,7 +225,7 @@ impl<'a> Oracle<'a> {
         agrees.then_some(()).ok_or_else(|| format!("after edge {edge} lost {shown:?}, not {due:?}"))
     }
 
-    /// The number of a frame as the ports show it.
+    /// Returns the number of a frame as the ports show it.
     fn number(&self, frame: usize) -> i64 {
         (frame as i64 + self.recipe.misread.frame) % 256
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memory outside of a core: a queue of the words that were given to it, which now and then fails.
+//! A model of the external memory of a core: a queue of the words that the core stored, which fails
+//! occasionally.
 
 use std::collections::VecDeque;
 
@@ -8,12 +9,12 @@ use foveate_model::RasterOutput;
 use super::recipe::RasterRecipe;
 use crate::frames::Random;
 
-/// How often, of a thousand words that are asked for.
+/// The rates of faults, per thousand words that the core asks for.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Faults {
-    /// None is valid, and the word comes one later, or never.
+    /// No word is valid. The word comes one later, or never.
     pub(crate) missing: i64,
-    /// It is valid and wrong.
+    /// The word is valid and wrong.
     pub(crate) wrong: i64,
 }
 
@@ -41,13 +42,13 @@ impl Memory {
         self.queue.clear();
     }
 
-    /// What is at the ports of references at the next edge, where the outputs show this before it.
+    /// Returns the reference port at the next edge, for the outputs before it.
     pub(crate) fn show(&mut self, before: &RasterOutput) -> (bool, Vec<u16>) {
         if !self.is_there {
             return (self.random.below(2) > 0, Vec::new());
         }
         if !before.reference_ready {
-            // Nobody may look at it.
+            // The core must ignore this value.
             return (self.random.below(2) > 0, self.junk());
         }
         let chance = self.random.below(1000);
@@ -64,7 +65,7 @@ impl Memory {
         }
     }
 
-    /// The outputs show this after an edge.
+    /// Stores the word of the outputs after an edge, if there is one.
     pub(crate) fn store(&mut self, after: &RasterOutput) {
         if after.store_valid {
             self.queue.push_back(after.store_pixels.clone());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The raster core against waveforms that are computed from `docs/raster.md` and the oracle, against waveforms
-//! worked out by hand, and against the functional camera.
+//! Tests of the raster core against outputs that are computed from `docs/raster.md` and the oracle,
+//! against waveforms that are computed by hand, and against the functional camera.
 
 mod camera;
 mod controls;

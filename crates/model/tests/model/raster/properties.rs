@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every port after every edge, for every kind of design: with gaps, pauses, words that are not taken, sinks
-//! that stall, memories that fail, thresholds that change between frames, and resets at any edge.
+//! Tests of every port after every edge, for every kind of design: with gaps, pauses, words that
+//! are not taken, sinks that stall, memories that fail, thresholds that change between frames, and
+//! resets at any edge.
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
@@ -41,7 +42,7 @@ fn manners() -> impl Strategy<Value = Manner> {
     )
 }
 
-/// The recipe with other thresholds, where they are inputs.
+/// Returns the recipe with other thresholds, if they are inputs.
 fn changed(recipe: &RasterRecipe, seed: u64) -> RasterRecipe {
     let mut recipe = recipe.clone();
     let mut random = Random(seed);
@@ -50,7 +51,7 @@ fn changed(recipe: &RasterRecipe, seed: u64) -> RasterRecipe {
     }
     for feature in &mut recipe.base.features {
         feature.level /= 1 + random.below(3);
-        // Whole, as hits must be.
+        // The threshold stays a whole number, as counts of hits must be.
         feature.min_milli = feature.min_milli / (1 + random.below(3)) / 1000 * 1000;
     }
     recipe.base.temporal_level /= 1 + random.below(3);
@@ -61,7 +62,7 @@ fn changed(recipe: &RasterRecipe, seed: u64) -> RasterRecipe {
     recipe
 }
 
-/// What is at the threshold inputs; anything where the core has constants.
+/// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
 fn applied(recipe: &RasterRecipe) -> Thresholds {
     if recipe.base.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
@@ -76,7 +77,7 @@ fn applied(recipe: &RasterRecipe) -> Thresholds {
     Thresholds::of(&recipe.design())
 }
 
-/// A film with thresholds for each frame.
+/// A clip with the thresholds of each frame.
 pub(crate) struct Film {
     pub(crate) frames: Vec<Frame>,
     pub(crate) recipes: Vec<RasterRecipe>,
@@ -97,7 +98,7 @@ impl Film {
     }
 }
 
-/// Frames after a reset, cut after some clocks.
+/// Plays frames after a reset, and stops after some clocks.
 fn sequence(driver: &mut Driver, recipe: &RasterRecipe, script: &Script, clocks: i64) -> Check {
     let film = Film::new(recipe, script);
     let rest = 40 + recipe.words() / 2;
@@ -115,7 +116,8 @@ proptest! {
         manner in manners(),
     ) {
         let mut driver = Driver::new(&recipe, manner);
-        // A sink that is never ready lets no frame pass that waits for it.
+        // A sink that is never ready stops every frame that waits for it, so the number of clocks
+        // is limited.
         let clocks = 60 * recipe.advances();
         prop_assert_eq!(sequence(&mut driver, &recipe, &script, clocks), Ok(()));
     }

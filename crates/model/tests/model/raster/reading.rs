@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The readout of `docs/raster.md`, looked up edge by edge in the complete history of what was read.
+//! The readout of `docs/raster.md`, computed edge by edge from the complete history.
 
-/// A region that leaves: what happened to it, by edge.
+/// A region that leaves, with the edges of its events.
 #[derive(Clone, Debug)]
 pub(crate) struct Reading {
     pub(crate) frame: usize,
     pub(crate) region: i64,
     pub(crate) words: i64,
-    /// The edge after which its decision stands on the ports.
+    /// The edge after which its decision is on the ports.
     decided: i64,
-    /// The edge from which on it is stale, once that is known.
+    /// The edge from which on it is stale, or the largest number while that is not known.
     pub(crate) stale: i64,
     held: Option<i64>,
     fetched: Vec<i64>,
@@ -26,45 +26,48 @@ impl Reading {
         is_held && self.lost.is_none() && !self.is_fetched()
     }
 
-    /// Whether that word ends the region because it was lost: it is the last that was fetched.
+    /// Returns true if the word ends the region because the region was lost: it is the last word
+    /// that was fetched.
     pub(crate) fn is_abort(&self, word: i64) -> bool {
         self.lost.is_some() && word + 1 == self.fetched.len() as i64
     }
 }
 
-/// A word: the number of its reading, and its number in its region.
+/// A word: the index of its region in the history, and its number in the region.
 pub(crate) type Word = (usize, i64);
 
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Readings {
     pub(crate) all: Vec<Reading>,
-    /// Edges from one holding to the next, at least.
+    /// Least number of edges from one holding to the next.
     rest: i64,
-    /// Edges from entering the queue to holding, at least.
+    /// Least number of edges from entering the queue to holding.
     wait: i64,
     /// The word on the ports after every edge.
     pub(crate) shown: Vec<Option<Word>>,
-    /// Regions that had been lost after every edge.
+    /// Number of regions that had been lost after every edge.
     pub(crate) lost: Vec<i64>,
     /// The word that was fetched at the last step.
     fetched: Option<Word>,
 }
 
 impl Readings {
-    /// `wrong` is by how many clocks resting is misread.
+    /// Makes an empty history. `wrong` is a planted fault: the clocks that are added to both
+    /// latencies.
     pub(crate) fn new(deep: bool, wrong: i64) -> Self {
         let (rest, wait) = (2 + wrong, if deep { 3 } else { 2 } + wrong);
         Self { rest, wait, shown: vec![None], lost: vec![0], ..Self::default() }
     }
 
-    /// So many words of a region leave; its decision is on the ports after that edge.
+    /// Appends a region of which `words` words leave. Its decision is on the ports after edge
+    /// `decided`.
     pub(crate) fn enter(&mut self, frame: usize, region: i64, words: i64, decided: i64) {
         let (held, fetched) = (None, Vec::new());
         let (stale, lost) = (i64::MAX, None);
         self.all.push(Reading { frame, region, words, decided, stale, held, fetched, lost });
     }
 
-    /// The next edge.
+    /// Processes the next edge.
     pub(crate) fn edge(&mut self, edge: i64, sink: bool) {
         let before = self.shown[edge as usize - 1];
         let steps = before.is_none() || sink;
@@ -93,7 +96,7 @@ impl Readings {
     }
 
     fn hold(&mut self, edge: i64) {
-        // Lost instead of held is as good as held.
+        // A region that is lost instead of being held counts as held for the rule of two edges.
         let starts = self.all.iter().filter_map(|reading| reading.held);
         let has_rested = starts.max().is_none_or(|last| edge - last >= self.rest);
         let next = self.all.iter_mut().find(|reading| reading.held.is_none());
@@ -108,12 +111,12 @@ impl Readings {
         }
     }
 
-    /// The regions that are lost at that edge.
+    /// Returns the regions that are lost at that edge.
     pub(crate) fn lost_at(&self, edge: i64) -> Vec<&Reading> {
         self.all.iter().filter(|reading| reading.lost == Some(edge)).collect()
     }
 
-    /// Whether a region is pending after that edge, the last that was looked at.
+    /// Returns true if a region is pending after the last edge that was processed.
     pub(crate) fn is_pending(&self) -> bool {
         let is_shown = self.shown.last().is_some_and(Option::is_some);
         let is_left = |reading: &Reading| reading.lost.is_none() && !reading.is_fetched();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow.
+//! A random raster design as plain numbers, and the numbers of `docs/raster.md` that follow from
+//! it.
 
 use foveate_design::{Design, Organization, Pipelining, Store};
 use proptest::prelude::*;
@@ -10,42 +11,43 @@ use crate::recipe::{Recipe, recipes_of};
 #[derive(Clone, Debug)]
 pub(crate) struct RasterRecipe {
     pub(crate) base: Recipe,
-    /// K.
+    /// Pixels of a word, K.
     pub(crate) pixels: i64,
     pub(crate) deep: bool,
-    /// `hardware.store`.
+    /// The key `hardware.store`.
     pub(crate) store: Store,
-    /// `hardware.forward`.
+    /// The key `hardware.forward`.
     pub(crate) forward: bool,
     pub(crate) misread: Misread,
 }
 
-/// How the page is misread on purpose, for the controls: by so many clocks, or in what it says.
+/// Planted misreadings of `docs/raster.md` for the control tests. Numbers are added to the right
+/// value; flags change a rule.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Misread {
-    /// S; D stays what it is.
+    /// Added to S. D is not changed.
     pub(crate) stored: i64,
-    /// D.
+    /// Added to D.
     pub(crate) decided: i64,
-    /// The first edge of the second pass.
+    /// Added to the first edge of the second pass.
     pub(crate) pass: i64,
-    /// The edges between entering and holding, and between holding and holding.
+    /// Added to the edges between entering and holding, and between two holdings.
     pub(crate) rest: i64,
-    /// Rows of the buffer, B.
+    /// Added to the rows of the buffer, B.
     pub(crate) rows: i64,
-    /// A region that was lost keeps its reference, and its summary.
+    /// A lost region keeps its reference and its summary.
     pub(crate) keeps_reference: bool,
-    /// The edge at which a reference is taken.
+    /// Added to the edge at which a reference is taken.
     pub(crate) taken: i64,
     /// The first frame takes references, too.
     pub(crate) always_takes: bool,
-    /// References are what was stored, whatever came.
+    /// References are the stored words, whatever the memory returned.
     pub(crate) trusts: bool,
     /// A frame does not wait for pending regions.
     pub(crate) never_waits: bool,
-    /// A region that is lost in the middle has no end.
+    /// A region that is lost in the middle has no last word.
     pub(crate) endless: bool,
-    /// The number of a frame.
+    /// Added to the number of a frame.
     pub(crate) frame: i64,
 }
 
@@ -73,44 +75,45 @@ impl RasterRecipe {
         self.base.has("mad")
     }
 
-    /// L.
+    /// Returns the words of a row of the padded frame, L.
     pub(crate) fn row(&self) -> i64 {
         self.base.columns() * self.base.side / self.pixels
     }
 
-    /// V.
+    /// Returns the words of a row that are taken, V.
     pub(crate) fn taken_of_row(&self) -> i64 {
         (self.base.width + self.pixels - 1) / self.pixels
     }
 
-    /// R*N*L.
+    /// Returns the words of the padded frame, R*N*L.
     pub(crate) fn words(&self) -> i64 {
         self.base.rows() * self.base.side * self.row()
     }
 
-    /// w (L + 1).
+    /// Returns the advances that flush the windows, w (L + 1).
     pub(crate) fn flush(&self) -> i64 {
         (self.median() + self.window()) * (self.row() + 1)
     }
 
-    /// A.
+    /// Returns the advances of a frame, A.
     pub(crate) fn advances(&self) -> i64 {
         self.words() + self.flush()
     }
 
-    /// Z.
+    /// Returns the clocks from T0 to the last advance, Z.
     pub(crate) fn after_last(&self) -> i64 {
         let below = self.base.rows() * self.base.side - self.base.height;
         (self.row() - self.taken_of_row()) + below * self.row() + self.flush()
     }
 
-    /// S.
+    /// Returns the clocks from the tail to the store, S.
     pub(crate) fn stored(&self) -> i64 {
         let (m, f) = (self.median(), self.window());
         self.misread.stored + if self.deep { 4 + 9 * m + 3 * f } else { 2 + 4 * m + f }
     }
 
-    /// From e(a(i)) to the edge that takes the reference of word i, of a store outside.
+    /// Returns the clocks from e(a(i)) to the edge that takes the reference of word i from an
+    /// external store.
     pub(crate) fn taking(&self) -> i64 {
         let stored = self.stored() - self.misread.stored;
         self.misread.taken + stored - if self.deep { 2 } else { 1 }
@@ -120,33 +123,34 @@ impl RasterRecipe {
         self.store == Store::External
     }
 
-    /// D.
+    /// Returns the clocks from the tail to the decision, D.
     pub(crate) fn decided(&self) -> i64 {
         let stored = self.stored() - self.misread.stored;
         self.misread.decided + stored + if self.deep { 6 } else { 4 } + self.of_variance()
     }
 
-    /// Clocks that the variance takes more.
+    /// Returns the clocks that the variance adds.
     fn of_variance(&self) -> i64 {
         if self.base.has("variance") { 3 } else { 0 }
     }
 
-    /// From e(a(i)) to the first edge of the second pass, if it does not wait.
+    /// Returns the clocks from e(a(i)) to the first edge of the second pass, if the pass does not
+    /// wait.
     pub(crate) fn passing(&self) -> i64 {
         self.misread.pass + self.stored() + if self.deep { 9 } else { 8 } + self.of_variance()
     }
 
-    /// From the last edge of the second pass to the decision.
+    /// Returns the clocks from the last edge of the second pass to the decision.
     pub(crate) fn decided_after_pass(&self) -> i64 {
         if self.deep { 6 } else { 4 }
     }
 
-    /// n/K.
+    /// Returns the words of a region, n/K.
     pub(crate) fn region_words(&self) -> i64 {
         self.base.n() / self.pixels
     }
 
-    /// The position of the first pixel that lies in a block.
+    /// Returns the position of the first pixel of a block.
     pub(crate) fn first_of_block(&self, number: i64) -> i64 {
         let blocks = self.base.periphery.unwrap().blocks;
         let block = |at: i64, of: i64| at % of * blocks / of;
@@ -157,7 +161,7 @@ impl RasterRecipe {
             .unwrap()
     }
 
-    /// B.
+    /// Returns the rows of regions in the buffer, B.
     pub(crate) fn buffer_rows(&self) -> i64 {
         self.misread.rows + if self.has_mad() { 3 } else { 2 }
     }
@@ -168,14 +172,14 @@ impl RasterRecipe {
         compares && is_small && !self.misread.never_waits
     }
 
-    /// Whether advance `a` takes a word.
+    /// Returns true if advance `a` takes a word.
     pub(crate) fn takes(&self, a: i64) -> bool {
         a < self.words()
             && a % self.row() < self.taken_of_row()
             && a / self.row() < self.base.height
     }
 
-    /// The number of the last word of a region, i.
+    /// Returns the number i of the last word of a region.
     pub(crate) fn last_word(&self, region: i64) -> i64 {
         let (row, column) = (region / self.base.columns(), region % self.base.columns());
         let wide = self.base.side / self.pixels;
@@ -183,7 +187,7 @@ impl RasterRecipe {
     }
 }
 
-/// Every kind of raster design, with about four regions side by side or sixteen words.
+/// Generates every kind of raster design, with about four regions or sixteen words in a row.
 pub(crate) fn raster_recipes() -> impl Strategy<Value = RasterRecipe> {
     let sides = prop_oneof![6 => select(vec![2i64, 3, 4, 4, 5, 6, 8, 8]), 1 => 2i64..=9];
     let size = (0i64..=100, 0i64..=100, 0i64..=1);
@@ -197,9 +201,9 @@ pub(crate) fn raster_recipes() -> impl Strategy<Value = RasterRecipe> {
             let forward = forward || base.periphery.is_some();
             let columns = 4.max((16 * pixels + side - 1) / side) + more;
             base.width = (columns - 1) * side + 1 + wide % side;
-            // Up to five rows of regions.
+            // The frame has up to five rows of regions.
             base.height = 1 + high % (5 * side);
-            // Others need the previous frame.
+            // All other designs need the reference `previous`.
             base.last_sent &= forward && matches!(store, Store::Block | Store::Ultra);
             RasterRecipe { base, pixels, deep, store, forward, misread: Misread::default() }
         },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The frame store outside and cores without forwarding, with every clock worked out by hand from
-//! `docs/raster.md`. The edge that takes the first word is number 1.
+//! Tests of the external frame store and of cores without forwarding, with every clock computed by
+//! hand from `docs/raster.md`. The edge that takes the first word has number 1.
 
 use std::collections::VecDeque;
 use std::ops::RangeInclusive;
@@ -8,7 +8,7 @@ use std::ops::RangeInclusive;
 use foveate_design::{Config, Design};
 use foveate_model::{CoreInput, RasterOutput, RasterRcm, Thresholds};
 
-/// A design with one feature and regions of 4x4 pixels, all of which are relevant.
+/// Returns a design with one feature and regions of 4x4 pixels, all of which are relevant.
 fn design(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
     let toml = format!(
         "[frame]\nwidth = {}\nheight = {}\n[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
@@ -23,14 +23,15 @@ fn outside(feature: &str, frame: (u32, u32), more: &[&str]) -> Design {
     design(feature, frame, &[more, &["hardware.store=external"]].concat())
 }
 
-/// A core with a queue behind it whose words fall through.
+/// A test bench of a core with an external store: a queue that can return a word as soon as it is
+/// stored.
 struct Play {
     rcm: RasterRcm,
     thresholds: Thresholds,
     width: u64,
     pixels: usize,
     queue: VecDeque<Vec<u16>>,
-    /// After every edge.
+    /// The outputs after every edge.
     outputs: Vec<RasterOutput>,
 }
 
@@ -48,8 +49,9 @@ impl Play {
         }
     }
 
-    /// Edges up to `last` at which frames come as fast as they are taken, with no word at the edges of `gaps`.
-    /// Word x of a row has pixels of `picture(x)`; `fault` says what is wrong at an edge.
+    /// Applies edges up to `last`, at which frames come as fast as they are taken, without a word
+    /// at the edges of `gaps`. The pixels of word x of a row are `picture(x)`. `fault` returns the
+    /// fault of the memory at an edge.
     fn run(
         &mut self,
         last: usize,
@@ -118,7 +120,7 @@ impl Play {
         self.edges(|output| output.store_valid)
     }
 
-    /// The changed pixels of every region of the second frame.
+    /// Returns the temporal count of every region of the second frame.
     fn counts(&self, regions: usize) -> Vec<u32> {
         let decided = self.edges(|output| output.decision_valid);
         let second = decided[regions..2 * regions].iter();
@@ -126,13 +128,13 @@ impl Play {
     }
 }
 
-/// What the memory does wrong at an edge.
+/// The fault of the memory at an edge.
 #[derive(Clone, Copy)]
 enum Fault {
     None,
-    /// It has no word; the same comes at the next.
+    /// The memory has no word. The same word comes at the next edge.
     Late,
-    /// It has a word of this pixel.
+    /// The memory has a word of this pixel instead of the right one.
     Wrong(u16),
 }
 
@@ -144,9 +146,10 @@ fn list(ranges: &[RangeInclusive<usize>]) -> Vec<usize> {
     ranges.iter().cloned().flatten().collect()
 }
 
-/// 16x8 pixels, one window: word i of a frame that begins at edge b + 1 comes to the tail at edge b + i + 18. S is
-/// 3: it is stored after edge b + i + 21, and its reference is taken at edge b + i + 20, so `reference_ready_o` is
-/// 1 after the edge before. The second frame begins at edge 153, b is 152.
+/// The frame has 16x8 pixels and one window. Word i of a frame that begins at edge b + 1 comes to
+/// the tail at edge b + i + 18. S is 3, so the word is stored after edge b + i + 21. Its reference
+/// is taken at edge b + i + 20, so `reference_ready_o` is 1 after the edge before. The second frame
+/// begins at edge 153, so b is 152.
 #[test]
 fn words_are_stored_and_references_taken_in_plain_pipelining() {
     let mut play = Play::new(&outside("edge", (16, 8), &[]));
@@ -158,13 +161,14 @@ fn words_are_stored_and_references_taken_in_plain_pipelining() {
     assert_eq!(last, rows(21).chain(rows(173)).collect::<Vec<_>>());
     assert!(play.edges(|output| output.underrun).is_empty());
     assert_eq!(play.counts(8), [0; 8]);
-    // 128 words of the first frame were taken, those of the second wait.
+    // The 128 words of the first frame were taken, and those of the second frame wait.
     assert_eq!(play.queue.len(), 128);
 }
 
-/// The same without a word at two edges of the second frame. Word 10 comes at edge 164 instead of 163, before there
-/// is a word in the tail, so all of the frame is a clock later. Word 39 comes at 194 instead of 193, and with it word
-/// 22 of the tail: that and what follows are another clock later.
+/// The frame is that of the test before, without a word at two edges of the second frame. Word 10
+/// comes at edge 164 instead of 163. No word is in the tail yet, so the whole frame is one clock
+/// later. Word 39 comes at edge 194 instead of 193, and with it word 22 of the tail. That word and
+/// all later ones are another clock later.
 #[test]
 fn a_gap_delays_what_the_tail_does() {
     let mut play = Play::new(&outside("edge", (16, 8), &[]));
@@ -173,8 +177,9 @@ fn a_gap_delays_what_the_tail_does() {
     assert_eq!(play.stores(), list(&[21..=148, 174..=195, 197..=302]));
 }
 
-/// 29x7 pixels in words of two, regions of 8x8, one median, `deep`: word i comes to the tail at edge b + i + 18, S
-/// is 13, references are taken 11 later, D is 22. T0 is 111, Z is 34: the second frame begins at edge 168, b is 167.
+/// The frame has 29x7 pixels in words of two, regions of 8x8, one median, and deep pipelining. Word
+/// i comes to the tail at edge b + i + 18, S is 13, references are taken 11 clocks later, and D is
+/// 22. T0 is 111 and Z is 34, so the second frame begins at edge 168, and b is 167.
 #[test]
 fn references_are_taken_a_clock_earlier_in_deep_pipelining() {
     let more = [
@@ -187,7 +192,7 @@ fn references_are_taken_a_clock_earlier_in_deep_pipelining() {
     play.run(340, &[], |x| if x < 15 { 7 } else { 9 }, quiet);
     let decided = play.edges(|output| output.decision_valid);
     assert_eq!(decided[..4], [155, 159, 163, 167]);
-    // A row has 16 words, of which the core makes one, and makes a row.
+    // A row has 16 words. The core makes one of them, and one whole row.
     assert_eq!(play.stores(), list(&[31..=158, 198..=325]));
     assert_eq!(play.asks(), list(&[195..=322]));
     let last = play.edges(|output| output.store_valid && output.store_last);
@@ -195,12 +200,13 @@ fn references_are_taken_a_clock_earlier_in_deep_pipelining() {
     assert!(play.outputs[31..=158].iter().all(|output| output.store_pixels == [7, 7]));
 }
 
-/// No window: word i comes to the tail at edge b + i + 1 and is stored after b + i + 3, the least S there is; its
-/// reference is taken at the edge after that of the tail. D is 6, the second frame begins at edge 135.
+/// There is no window. Word i comes to the tail at edge b + i + 1 and is stored after b + i + 3,
+/// with the smallest possible S. Its reference is taken at the edge after that of the tail. D is 6,
+/// and the second frame begins at edge 135.
 #[test]
 fn the_least_latency_asks_at_once() {
     let mut play = Play::new(&outside("mad", (16, 8), &[]));
-    // The third frame begins at edge 269, before the last decision of the second at 327.
+    // The third frame begins at edge 269, before the last decision of the second frame at 327.
     play.run(330, &[], |_| 1, quiet);
     assert_eq!(play.asks(), list(&[135..=262, 269..=330]));
     assert_eq!(play.stores(), list(&[3..=130, 137..=264, 271..=330]));
@@ -218,25 +224,28 @@ fn what_comes_from_outside_is_what_counts() {
     };
     let wrong = counts(&|edge| if edge == 177 { Fault::Wrong(200) } else { Fault::None });
     assert_eq!(wrong, (vec![0, 1, 0, 0, 0, 0, 0, 0], vec![]));
-    // 9 levels differ from 1 by the level, which is no change; nobody asks at 171 and 300.
+    // The level is 8, so a reference of 9 is no change from 1. At edges 171 and 300 the core takes
+    // no reference.
     for (edge, pixel) in [(177, 9), (171, 200), (300, 200)] {
         let same = counts(&|at| if at == edge { Fault::Wrong(pixel) } else { Fault::None });
         assert_eq!(same, (vec![0; 8], vec![]), "{edge}");
     }
 }
 
-/// Column 3 is 200 and others are 1. One reference is late, that of word 0: from there on a word is compared with
-/// that on its left, so columns 3 and 4 have changed in every row. (0 instead of 1 is no change.)
+/// Column 3 has the value 200, and all others have 1. One reference is late, that of word 0. From
+/// there on every word is compared with the word on its left, so columns 3 and 4 have changed in
+/// every row. (The value 0 instead of 1 is no change.)
 #[test]
 fn a_reference_that_is_late_shifts_all_that_follow() {
     let mut play = Play::new(&outside("edge", (16, 8), &[]));
     let picture = |x| if x == 3 { 200 } else { 1 };
     play.run(320, &[], picture, |edge| if edge == 172 { Fault::Late } else { Fault::None });
     assert_eq!(play.counts(8), [4, 4, 0, 0, 4, 4, 0, 0]);
-    // From the edge on that took it.
+    // `underrun_o` is 1 from the edge on that took the missing reference.
     assert_eq!(play.edges(|output| output.underrun), list(&[172..=320]));
     assert_eq!(play.queue.len(), 129, "one is left");
-    // An edge at which nobody asks has no underrun: the last reference is taken at 299.
+    // At an edge that takes no reference there is no underrun. The last reference is taken at edge
+    // 299.
     for (late, first) in [(171, None), (299, Some(299)), (300, None)] {
         let mut play = Play::new(&outside("edge", (16, 8), &[]));
         play.run(320, &[], picture, |edge| if edge == late { Fault::Late } else { Fault::None });
@@ -254,7 +263,7 @@ fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
     let fresh = RasterRcm::new(outside("edge", (16, 8), &[]).raster().unwrap()).output().clone();
     assert_eq!(play.outputs[0], fresh);
     assert!(!fresh.reference_ready && !fresh.store_valid && !fresh.underrun);
-    // The frame after it is a first frame.
+    // The frame after the reset is a first frame.
     play.run(320, &[], |_| 1, quiet);
     assert_eq!(play.stores(), list(&[21..=148, 173..=300]));
     assert_eq!(play.asks(), list(&[171..=298]));
@@ -263,7 +272,7 @@ fn a_reset_in_the_middle_of_a_frame_forgets_the_store() {
     assert_eq!(play.counts(8), [0; 8]);
 }
 
-/// Inside, of whatever it is built, nothing can be told from outside.
+/// Without external streams, the kind of store inside of the core makes no difference at the ports.
 #[test]
 fn a_store_inside_has_no_streams() {
     let outputs = |store: &str| {
@@ -277,8 +286,9 @@ fn a_store_inside_has_no_streams() {
     assert_eq!((outputs("ultra") == block, outputs("single-port") == block), (true, true));
 }
 
-/// Decisions and `ready_o` as with forwarding, at the edges of `a_frame_with_one_window`; all regions are active in
-/// the first frame, and nothing of them leaves or is pending.
+/// Decisions and `ready_o` are the same as with forwarding, at the edges of
+/// `a_frame_with_one_window`. All regions are active in the first frame, and nothing of them leaves
+/// or is pending.
 #[test]
 fn without_forwarding_only_decisions_leave() {
     for feature in ["edge", "mad"] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The streams to and from a frame store outside, as `docs/raster.md` says: all edges of a frame at once.
+//! The streams to and from an external frame store by the rules of `docs/raster.md`, for all edges
+//! of a frame at once.
 
 use std::collections::BTreeMap;
 
@@ -11,18 +12,19 @@ use crate::oracle::{Image, Seen};
 
 #[derive(Default)]
 pub(crate) struct Streams {
-    /// Edges that take a reference.
+    /// The edges that take a reference.
     taking: Vec<i64>,
-    /// Words that are given away after edges, and whether each is the last of its row.
+    /// The words to store after each edge, each with true if it is the last of its row.
     stored: BTreeMap<i64, (Vec<i64>, bool)>,
-    /// Of every frame a history in which the frame before looks as it came from outside.
+    /// For every frame, a history in which the frame before has the pixels that the memory
+    /// returned.
     given: Vec<Vec<Seen>>,
     /// The first edge that takes a reference that is not valid.
     underrun: Option<i64>,
 }
 
 impl Streams {
-    /// A frame, whose word i comes to the tail at edge `tail(i)`, if it comes.
+    /// Adds a frame whose word i comes to the tail at edge `tail(i)`, if it comes.
     pub(crate) fn frame(
         &mut self,
         recipe: &RasterRecipe,
@@ -62,14 +64,14 @@ impl Streams {
         self.given.push(if is_first { Vec::new() } else { vec![seen(given)] });
     }
 
-    /// With what a frame is compared.
+    /// Returns the history that a frame is compared with.
     pub(crate) fn history(&self, frame: usize) -> &[Seen] {
         &self.given[frame]
     }
 
-    /// What the ports show after an edge.
+    /// Compares the ports after an edge.
     pub(crate) fn compare(&self, edge: i64, end: i64, got: &RasterOutput) -> Result<(), String> {
-        // What is taken beyond the end of the trace is not known.
+        // Whether a reference is taken after the end of the trace is not known.
         let takes = self.taking.binary_search(&(edge + 1)).is_ok();
         if edge < end && got.reference_ready != takes {
             return Err(format!("reference_ready_o is {} after edge {edge}", got.reference_ready));

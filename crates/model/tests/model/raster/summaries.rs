@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Means that leave, with every clock worked out by hand from `docs/raster.md`. The edge that takes the first word is number 1.
+//! Tests of means that leave, with every clock computed by hand from `docs/raster.md`. The edge
+//! that takes the first word has number 1.
 
 use super::examples::{decisions, design, edges, list, play};
 
-/// No region of a flat frame is relevant.
+/// A feature for which no region of a flat frame is relevant.
 const IRRELEVANT: &str = "spatial=[{feature=\"edge\",min_score=1}]";
 
-/// The frame of [`super::examples`] with one window, with irrelevant regions of four blocks: their words are four means, one
-/// after the other.
+/// The frame is that of [`super::examples`] with one window. Irrelevant regions have four blocks,
+/// so their words are four means, one after the other.
 #[test]
 fn means_leave_as_pixels_do() {
     let more = [IRRELEVANT, "render.irrelevant=mean", "periphery.blocks=2"];
@@ -30,8 +31,8 @@ fn means_leave_as_pixels_do() {
     }
 }
 
-/// 64x8 pixels in words of four: regions are decided at every clock, from 73 on. A region of one mean is held for an edge, and
-/// the next at the edge after.
+/// The frame has 64x8 pixels in words of four. Regions are decided at every clock, from edge 73 on.
+/// A region of one mean is held for one edge, and the next region is held two edges later.
 #[test]
 fn regions_of_one_mean_leave_at_every_other_clock() {
     let more =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Applies frames to an array and compares every port after every edge.
+//! A bench that applies frames to an array and compares every port after every edge.
 
 use foveate_design::FeatureKind;
 use foveate_frame::Frame;
@@ -9,16 +9,16 @@ use super::recipe::SerialRecipe;
 use super::waveform::{Facts, Shown, Timeline};
 use crate::frames::Random;
 
-/// How pixels come.
+/// The pattern in which pixels come.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Manner {
-    /// Percent of clocks in which there is no pixel though the array is ready.
+    /// Percentage of clocks without a pixel although the array is ready.
     pub(crate) gaps: i64,
-    /// Longest pause between frames.
+    /// Longest pause between frames in clocks.
     pub(crate) between: i64,
-    /// Percent of clocks with a pixel though the array is not ready.
+    /// Percentage of clocks with a pixel although the array is not ready.
     pub(crate) pushing: i64,
-    /// Whether clocks in which nothing is applied are skipped.
+    /// True if clocks without inputs are skipped at once.
     pub(crate) skips: bool,
     pub(crate) seed: u64,
 }
@@ -27,14 +27,14 @@ impl Manner {
     pub(crate) const DENSE: Self = Self { gaps: 0, between: 0, pushing: 0, skips: false, seed: 0 };
 }
 
-/// The pixels of a frame as the ports take them, and what must come of them.
+/// The pixels of a frame in the order of the ports, and the expected results.
 pub(crate) struct Job {
     pub(crate) pixels: Vec<Vec<u16>>,
     pub(crate) thresholds: Thresholds,
     pub(crate) facts: Vec<Facts>,
 }
 
-/// What differs, and where.
+/// The result of a check: a description of the first difference, if there is one.
 pub(crate) type Check = Result<(), String>;
 
 pub(crate) struct Bench {
@@ -45,11 +45,12 @@ pub(crate) struct Bench {
     random: Random,
     /// The number of the last edge.
     pub(crate) edge: i64,
-    /// The edge after which everything ends.
+    /// The edge after which the run ends.
     until: i64,
-    /// Applied between frames.
+    /// Thresholds that are applied between frames.
     noise: Thresholds,
-    /// How many clocks too late everything is expected: none, unless an error is wanted.
+    /// The number of clocks by which all expectations are late. It is 0 unless a test wants an
+    /// error.
     pub(crate) late: i64,
 }
 
@@ -68,7 +69,7 @@ impl Bench {
         }
     }
 
-    /// Stops at that edge, whatever is under way.
+    /// Stops the run at that edge, whatever is under way.
     pub(crate) fn stop_after(&mut self, edge: i64) {
         self.until = edge;
     }
@@ -77,7 +78,7 @@ impl Bench {
         self.edge >= self.until
     }
 
-    /// Feeds frame after frame, then waits until all is seen.
+    /// Feeds the frames, each until all of its outputs have come.
     pub(crate) fn run(&mut self, jobs: &[Job]) -> Check {
         for job in jobs {
             let pause = self.random.below(self.manner.between + 1);
@@ -106,7 +107,7 @@ impl Bench {
         Ok(())
     }
 
-    /// Until the array is ready again.
+    /// Waits until the array is ready again.
     fn wait(&mut self, thresholds: &Thresholds) -> Check {
         while !self.timeline.ready(self.edge) && !self.is_over() {
             if self.manner.skips && self.random.below(3) > 0 {
@@ -164,7 +165,7 @@ impl Bench {
         Ok(())
     }
 
-    /// Thresholds that nobody may look at.
+    /// Changes the thresholds between frames, which the array must ignore.
     fn shake(&mut self) {
         self.noise.temporal_level = self.random.below(2) as u32;
         self.noise.temporal_min_count = self.random.below(5) as u32;
@@ -173,7 +174,7 @@ impl Bench {
         self.noise.min_score = [self.random.below(9) as u64; FeatureKind::COUNT];
     }
 
-    /// Pixels that nobody may look at.
+    /// Returns pixels that the array must ignore.
     fn junk(&mut self) -> Vec<u16> {
         let top = self.recipe.base.pixel_max() + 1;
         let seed = self.random.below(top);
@@ -182,7 +183,8 @@ impl Bench {
     }
 }
 
-/// What a frame is at the ports of the array. Lanes with an empty slot are given anything.
+/// Returns the pixels of a frame in the order of the ports. A lane with an empty slot gets the
+/// pixels of another region.
 pub(crate) fn applied(recipe: &SerialRecipe, frame: &Frame) -> Vec<Vec<u16>> {
     let design = recipe.design();
     let padded = pad(&design, frame).unwrap();
@@ -199,7 +201,7 @@ pub(crate) fn applied(recipe: &SerialRecipe, frame: &Frame) -> Vec<Vec<u16>> {
     by_port(recipe, &streams)
 }
 
-/// Streams by region, as the lanes take them.
+/// Converts streams by region to the order of the lanes.
 pub(crate) fn by_port(recipe: &SerialRecipe, streams: &[Vec<u16>]) -> Vec<Vec<u16>> {
     let mut pixels = Vec::new();
     for slot in 0..recipe.fold {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whole films: scores, decisions and the rendered frame, against the functional camera, over a
-//! matrix of designs that has every value of every choice beside every other.
+//! Tests of whole clips against the functional camera: scores, decisions and the rendered frame.
+//! The designs are a matrix in which every value of every choice meets every other.
 
 use foveate_design::{Action, Design};
 use foveate_frame::Frame;
@@ -15,7 +15,8 @@ use crate::hard_cases::hard_frames;
 use crate::recipe::{FeatureRecipe, PeripheryRecipe, Recipe};
 use crate::screen::Screen;
 
-/// Feeds a frame as fast as it is taken; returns the clocks until the array is ready again.
+/// Feeds a frame as fast as it is taken. Returns the number of clocks until the array is ready
+/// again.
 fn play(
     recipe: &SerialRecipe,
     rcm: &mut SerialRcm,
@@ -77,7 +78,7 @@ fn play(
     clocks
 }
 
-/// What will be said of a frame is known before it is fed.
+/// Checks that the scorer knows the results of a frame before the frame is fed.
 fn predict(rcm: &SerialRcm, frame: &Frame, outcome: &FunctionalOutcome, design: &Design) {
     let (thresholds, mut scorer) = (Thresholds::of(design), RegionScorer::new(design));
     for region in 0..design.regions() {
@@ -122,7 +123,7 @@ fn check(recipe: &SerialRecipe, film: &[Frame]) {
     }
 }
 
-/// Some of the four features; `which` has a bit for each.
+/// Returns some of the four features. `which` has one bit for each.
 fn features(which: usize, side: i64, bits: u32) -> Vec<FeatureRecipe> {
     let max = (1i64 << bits) - 1;
     let feature =
@@ -142,7 +143,7 @@ fn films_over_the_matrix() {
     for side in [4i64, 5, 8, 16] {
         for bits in [1, 8, 12, 16] {
             for switches in 0..32usize {
-                // What is not in the loops goes through its values at its own pace.
+                // The choices that are not in the loops change at their own rates.
                 number += 1;
                 let on = |bit: usize| switches >> bit & 1 == 1;
                 let size = [(2 * side + 1, side + 2), (3 * side, side), (side, 1)][number % 3];

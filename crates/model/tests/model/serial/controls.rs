@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Wrong expectations must be noticed: the same bench, with one thing changed in what it expects.
+//! Tests that wrong expectations are noticed: the bench, with one thing changed in what it expects.
 
 use foveate_model::SerialRcm;
 
@@ -37,8 +37,8 @@ fn recipe() -> SerialRecipe {
     }
 }
 
-/// Runs the array of the recipe above against an expectation that `spoil` has had its hands on: the
-/// recipe it is made from, or the frames.
+/// Runs the array of `built` against expectations with the fault `spoil`, which changes the recipe
+/// or the expected results of the frames.
 fn expect(built: &SerialRecipe, spoil: &Spoil) -> Check {
     use Content::{AlmostFlat, Noise, Nudge, Repeat, Touch};
     let contents = [Noise, Touch, Repeat, AlmostFlat, Nudge, Touch, Noise];
@@ -121,7 +121,7 @@ fn set(recipe: &mut SerialRecipe, blocks: i64, level: i64) {
     recipe.base.periphery = Some(PeripheryRecipe { blocks, level });
 }
 
-/// Every fault is noticed with both feeds, and none where there is none.
+/// Checks that every fault is noticed with both feeds, and that there is no error without a fault.
 fn check(recipe: &SerialRecipe, faults: &[(&str, Spoil)]) {
     for raster in [false, true] {
         let recipe = SerialRecipe { raster, ..recipe.clone() };

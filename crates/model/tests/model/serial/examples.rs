@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small frames with every clock worked out by hand from `docs/serial.md`. The edge that takes the first
-//! pixel is number 1.
+//! Tests of small frames with every clock computed by hand from `docs/serial.md`. The edge that
+//! takes the first pixel has number 1.
 
 use std::ops::RangeInclusive;
 
@@ -11,8 +11,8 @@ fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()
 }
 
-/// The outputs after every edge of a frame of ones, applied as fast as it is taken, from edge 1 to the
-/// one after which the array is ready again; and the edges that took a pixel.
+/// Applies a frame of ones as fast as it is taken. Returns the outputs after every edge from 1 to
+/// the one after which the array is ready again, and the edges that took a pixel.
 fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
     let mut rcm = SerialRcm::new(design.serial().unwrap());
     let ones = vec![1; rcm.output().forward_valid.len()];
@@ -22,20 +22,20 @@ fn play(design: &Design, pixels: usize) -> (Vec<SerialOutput>, Vec<usize>) {
         if rcm.output().ready {
             taken.push(outputs.len());
         }
-        // A pixel is there even when the array is not ready.
+        // The pixel is valid even when the array is not ready.
         let input = CoreInput { valid: true, ..CoreInput::idle(&ones, &thresholds) };
         outputs.push(rcm.step(&input).clone());
     }
     (outputs, taken)
 }
 
-/// Edge, number and region of each score.
+/// Returns the edge, the number and the region of each score.
 fn scores(outputs: &[SerialOutput]) -> Vec<(usize, u32, u32)> {
     let said = outputs.iter().enumerate().filter(|(_, output)| output.score_valid);
     said.map(|(edge, output)| (edge, output.score_index, output.region)).collect()
 }
 
-/// Edge and region of each decision.
+/// Returns the edge and the region of each decision.
 fn decisions(outputs: &[SerialOutput]) -> Vec<(usize, u32)> {
     let said = outputs.iter().enumerate().filter(|(_, output)| output.decision_valid);
     said.map(|(edge, output)| (edge, output.region)).collect()
@@ -46,13 +46,13 @@ fn forwarding(outputs: &[SerialOutput]) -> Vec<usize> {
     (0..outputs.len()).filter(any).collect()
 }
 
-/// The edges in `edges` after which `ready_o` is 0.
+/// Returns the edges in `edges` after which `ready_o` is 0.
 fn busy(outputs: &[SerialOutput], edges: RangeInclusive<usize>) -> Vec<usize> {
     edges.filter(|&edge| !outputs[edge].ready).collect()
 }
 
-/// 64 pixels, then 64 * 83 steps to denoise, 784 for the count, 14 * 64 for edges, 784 for their score,
-/// 64 to unload. Step j is seen after edge 64 + 1 + j.
+/// The array takes 64 pixels, then 64 * 83 steps to denoise, 784 for the count, 14 * 64 for edges,
+/// 784 for their score, and 64 to unload. Step j is seen after edge 64 + 1 + j.
 #[test]
 fn the_papers_frame() {
     let always = "[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0\n";
@@ -72,8 +72,9 @@ fn the_papers_frame() {
     assert_eq!(outputs.len() - 1, 7905, "the next frame's first pixel is taken at edge 7906");
 }
 
-/// Three regions in two lanes of two slots; slot 1 of lane 1 is empty. Per slot 3 * 16 steps to compare,
-/// 2, 14 * 16 for edges, 2, 16 to unload: 292. The last of 2 * 16 pixels is taken at edge 32.
+/// Three regions are in two lanes of two slots, and slot 1 of lane 1 is empty. A slot takes 3 * 16
+/// steps to compare, 2, 14 * 16 for edges, 2, and 16 to unload: 292. The last of 2 * 16 pixels is
+/// taken at edge 32.
 #[test]
 fn two_slots_one_of_them_empty() {
     let design = design(
@@ -98,8 +99,10 @@ fn two_slots_one_of_them_empty() {
     assert_eq!(outputs.len() - 1, 32 + 584 + 1);
 }
 
-/// The same with irrelevant regions of four blocks: 4 * (4 + 2 + 2) steps for means after the count, and after the 16 to
-/// unload pixels 4 * (2 + 2) to unload means, together in every fourth; with raster feed 4 * 3 after 48, one by one.
+/// The frame is that of the test before, and irrelevant regions have four blocks. The means take 4
+/// * (4 + 2 + 2) steps after the count. With parallel feed, 4 * (2 + 2) steps unload them after the
+/// 16 steps of pixels, all lanes together in every fourth step. With raster feed, 4 * 3 steps
+/// unload them after 48, one by one.
 #[test]
 fn means_leave_where_pixels_have_left() {
     let toml = "[frame]\nwidth = 12\nheight = 4\npixel_bits = 1\n[region]\nsize = 4\n\
@@ -130,8 +133,9 @@ fn means_leave_where_pixels_have_left() {
     assert_eq!(outputs.len() - 1, 48 + 2 * 368 + 1);
 }
 
-/// Two regions of 4x4 with a halo of 1. Column x is shown 2 1 1 2 2 1 1 2 times, row y 2 1 1 2 times; so
-/// the first row takes 24 clocks, the next two 12, the last 24, and T0 is edge 72.
+/// The frame has two regions of 4x4 pixels with a halo of 1. The columns are shown 2 1 1 2 2 1 1 2
+/// times, and the rows 2 1 1 2 times. So the first row takes 24 clocks, the next two take 12 each,
+/// and the last takes 24, and T0 is edge 72.
 #[test]
 fn a_raster_frame_with_halos() {
     let design = design(
@@ -144,7 +148,7 @@ fn a_raster_frame_with_halos() {
     assert_eq!(taken[..9], [1, 5, 7, 9, 13, 17, 19, 21, 25]);
     assert_eq!((taken[16], taken[24], taken[31]), (37, 49, 69));
     assert_eq!(busy(&outputs, 0..=12), [1, 2, 3, 5, 7, 9, 10, 11]);
-    // 48 steps to compare, 2, 224, 2, then 16 rounds of 3.
+    // The phases take 48 steps to compare, 2, 224, 2, then 16 rounds of 3.
     assert_eq!(scores(&outputs), [(121, 0, 0), (122, 0, 1), (347, 1, 0), (348, 1, 1)]);
     assert_eq!(decisions(&outputs), [(347, 0), (348, 1)]);
     let rounds = (0..16).flat_map(|round| [350 + 3 * round, 351 + 3 * round]);
@@ -155,8 +159,9 @@ fn a_raster_frame_with_halos() {
     assert_eq!(outputs.len() - 1, 72 + 324 + 1);
 }
 
-/// 3 * 256 words of 16 bits are 1024 deep: 256 LUTs, so block memory, and all is seen a clock later. The
-/// last pixel leaves in the clock in which the array is ready again.
+/// The memory of 3 * 256 words of 16 bits has a depth of 1024. It would take 256 LUTs, so it is
+/// block memory, and all outputs are one clock later. The last pixel leaves in the clock in which
+/// the array is ready again.
 #[test]
 fn block_memory_is_a_clock_late() {
     let design = design(
@@ -165,7 +170,8 @@ fn block_memory_is_a_clock_late() {
          [[spatial]]\nfeature = \"mad\"\nmin_score = 0\n[hardware]\norganization = \"serial\"\n",
     );
     let (outputs, _) = play(&design, 256);
-    // 256 * 165 steps to denoise, 1, 2 * 256 + 16 + 3 for the deviation, 1, 3 * 256 to copy, 256.
+    // The phases take 256 * 165 steps to denoise, 1, 2 * 256 + 16 + 3 for the deviation, 1, 3 * 256
+    // to copy, and 256.
     assert_eq!(scores(&outputs), [(258 + 42_240, 0, 0), (258 + 42_240 + 1 + 531, 1, 0)]);
     assert_eq!(decisions(&outputs), [(43_030, 0)]);
     assert_eq!(forwarding(&outputs), (43_799..=44_054).collect::<Vec<_>>());
@@ -173,8 +179,8 @@ fn block_memory_is_a_clock_late() {
     assert_eq!(outputs.len() - 1, 256 + 43_797 + 1);
 }
 
-/// Block memory and `mad`, deep: three clocks from an address to the accumulator, so that the last pixel is seen
-/// two clocks after the array is ready again, while the next frame enters.
+/// With block memory and `mad`, a deep array needs three clocks from an address to the accumulator.
+/// So the last pixel leaves two clocks after the array is ready again, while the next frame enters.
 #[test]
 fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
     let design = design(
@@ -182,7 +188,8 @@ fn the_last_pixels_of_a_deep_array_leave_while_the_next_frame_enters() {
          [temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"mad\"\nmin_score = 0\n\
          [hardware]\norganization = \"serial\"\nmemory = \"block\"\npipelining = \"deep\"\n",
     );
-    // n = 16: 16 * 6 to compare, 1 + 1, 32 + 8 + 3 for the deviation, 1 + 1, 16 pixels.
+    // With n = 16 the phases take 16 * 6 steps to compare, 1 + 1, 32 + 8 + 3 for the deviation, 1 +
+    // 1, and 16 for the pixels.
     let steps = 96 + 2 + 43 + 2 + 16;
     let ready = 16 + 1 + steps;
     let mut rcm = SerialRcm::new(design.serial().unwrap());
@@ -224,7 +231,8 @@ fn a_reset_takes_no_pixel_and_makes_ready() {
     assert!(!step(false, true));
 }
 
-/// The core of one RPU with three slots: a row of three regions, whose border is the frame's.
+/// The core of one RPU with three slots is a row of three regions, whose borders are those of the
+/// frame.
 #[test]
 fn one_lane_is_a_row_of_its_slots() {
     let design = design(
@@ -241,7 +249,8 @@ fn one_lane_is_a_row_of_its_slots() {
     );
 }
 
-/// While the array says that it is quiet, a step changes nothing of what is seen, and skipping it is the same.
+/// While the array reports quiet clocks, a step changes none of its outputs, and skipping the step
+/// has the same result.
 #[test]
 fn quiet_clocks_are_quiet_and_can_be_skipped() {
     for fold in [1, 3] {
@@ -273,7 +282,7 @@ fn quiet_clocks_are_quiet_and_can_be_skipped() {
     }
 }
 
-/// What `Departure` says of every slot is what the array shows.
+/// The array shows the decisions and pixels of every slot at the clocks of `Departure`.
 #[test]
 fn decisions_and_pixels_leave_when_the_design_says() {
     let always = "[temporal]\nmin_count = 0\n[[spatial]]\nfeature = \"edge\"\nmin_score = 0\n";

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The serial array against waveforms that are written out step by step from `docs/serial.md` and
-//! the oracle, against the functional camera, and against the pipelined array.
+//! Tests of the serial array against outputs that are computed step by step from `docs/serial.md`
+//! and the oracle, against the functional camera, and against the pipelined array.
 
 mod bench;
 mod camera;

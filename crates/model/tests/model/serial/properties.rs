@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every port after every edge, for every kind of design: with gaps, pauses, pixels that are not
-//! taken, thresholds that change between frames, skipped clocks, and resets at any edge.
+//! Tests of every port after every edge, for every kind of design: with gaps, pauses, pixels that
+//! are not taken, thresholds that change between frames, skipped clocks, and resets at any edge.
 
 use foveate_design::FeatureKind;
 use foveate_model::{CoreInput, SerialRcm, Thresholds};
@@ -21,7 +21,7 @@ fn manners() -> impl Strategy<Value = Manner> {
     )
 }
 
-/// The recipe with other thresholds, where they are inputs.
+/// Returns the recipe with other thresholds, if they are inputs.
 fn changed(recipe: &Recipe, seed: u64) -> Recipe {
     let mut recipe = recipe.clone();
     let mut random = Random(seed);
@@ -30,7 +30,7 @@ fn changed(recipe: &Recipe, seed: u64) -> Recipe {
     }
     for feature in &mut recipe.features {
         feature.level /= 1 + random.below(3);
-        // Whole, as hits must be.
+        // The threshold stays a whole number, as counts of hits must be.
         feature.min_milli = feature.min_milli / (1 + random.below(3)) / 1000 * 1000;
     }
     recipe.temporal_level /= 1 + random.below(3);
@@ -41,7 +41,7 @@ fn changed(recipe: &Recipe, seed: u64) -> Recipe {
     recipe
 }
 
-/// What is at the threshold inputs; anything where the core has constants.
+/// Returns the values of the threshold inputs. They are arbitrary if the core has constants.
 fn applied_thresholds(recipe: &Recipe) -> Thresholds {
     if recipe.constant {
         let (level, min_score) = ([1; FeatureKind::COUNT], [1; FeatureKind::COUNT]);
@@ -56,7 +56,7 @@ fn applied_thresholds(recipe: &Recipe) -> Thresholds {
     Thresholds::of(&recipe.design())
 }
 
-/// A film with thresholds for each frame, and what the oracle says of it.
+/// Returns a clip with the thresholds of each frame and the results of the oracle.
 pub(crate) fn jobs(recipe: &SerialRecipe, script: &Script) -> Vec<Job> {
     let film = film(&recipe.base, script);
     let recipes: Vec<Recipe> =
@@ -70,7 +70,7 @@ pub(crate) fn jobs(recipe: &SerialRecipe, script: &Script) -> Vec<Job> {
     film.iter().zip(&history).zip(&recipes).map(job).collect()
 }
 
-/// Resets after some edges, then everything from the start.
+/// Runs some edges, resets the array, and runs a new clip from its start.
 fn interrupted(bench: &mut Bench, before: &[Job], after: &[Job], edges: i64, held: bool) -> Check {
     bench.stop_after(edges);
     bench.run(before)?;
@@ -105,7 +105,8 @@ proptest! {
     ) {
         let mut bench = Bench::new(&recipe, SerialRcm::new(recipe.design().serial().unwrap()), manner);
         let frame = recipe.frame_pixels() + recipe.steps_per_frame() + 1;
-        // Often while pixels are taken, though that is the smaller part of a frame.
+        // A third of the resets come while pixels are taken, although that is the smaller part of a
+        // frame.
         let whole = frame * before.len() as i64;
         let edges = Random(cut).below(if cut % 3 == 0 { recipe.frame_pixels() } else { whole });
         let (before, after) = (jobs(&recipe, &before), jobs(&recipe, &after));

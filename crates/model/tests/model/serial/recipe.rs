@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow.
+//! A random serial design as plain numbers, and the numbers of `docs/serial.md` that follow from
+//! it.
 
 use foveate_design::{Design, Feed, Organization};
 use proptest::prelude::*;
@@ -14,7 +15,7 @@ pub(crate) struct SerialRecipe {
     pub(crate) fold: i64,
 }
 
-/// A phase of a slot and its steps.
+/// A phase of a slot.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Phase {
     Hidden(i64),
@@ -40,7 +41,7 @@ impl SerialRecipe {
         (self.regions() + self.fold - 1) / self.fold
     }
 
-    /// Pixels at the port.
+    /// Returns the number of pixels of the pixel port.
     pub(crate) fn ports(&self) -> i64 {
         if self.raster { 1 } else { self.lanes() }
     }
@@ -57,12 +58,12 @@ impl SerialRecipe {
         }
     }
 
-    /// S.
+    /// Returns the side of the denoised square, S.
     fn denoised_side(&self) -> i64 {
         self.base.side + if self.base.shared && self.has_window() { 2 } else { 0 }
     }
 
-    /// Q.
+    /// Returns the clocks from an address to the accumulator, Q.
     pub(crate) fn address_to_data(&self) -> i64 {
         let mut words = (self.base.side + 2 * self.halo()).pow(2);
         if self.base.median {
@@ -80,12 +81,12 @@ impl SerialRecipe {
         i64::from(luts > 128) + i64::from(self.base.deep) * if sums { 2 } else { 1 }
     }
 
-    /// s.
+    /// Returns the steps of a rotation before the first score, s.
     pub(crate) fn settling(&self) -> i64 {
         i64::from(self.base.deep)
     }
 
-    /// The phases of a slot.
+    /// Returns the phases of a slot.
     pub(crate) fn phases(&self) -> Vec<Phase> {
         use Phase::{Hidden, Rotation, Unload, UnloadMeans};
         let (n, p, q) = (self.base.n(), i64::from(self.base.bits), self.address_to_data());
@@ -133,7 +134,7 @@ impl SerialRecipe {
         }
     }
 
-    /// Steps of a phase.
+    /// Returns the steps of a phase.
     pub(crate) fn steps(&self, phase: Phase) -> i64 {
         match phase {
             Phase::Hidden(steps) => steps,
@@ -143,7 +144,7 @@ impl SerialRecipe {
         }
     }
 
-    /// Steps in which a pixel or a mean of every lane leaves.
+    /// Returns the steps in which one pixel or mean of every lane leaves.
     pub(crate) fn round(&self, phase: Phase) -> i64 {
         match phase {
             _ if self.raster => 1 + self.lanes(),
@@ -152,17 +153,17 @@ impl SerialRecipe {
         }
     }
 
-    /// q*q.
+    /// Returns the means of a region, q*q.
     pub(crate) fn means(&self) -> i64 {
         self.base.periphery.map_or(0, |periphery| periphery.blocks.pow(2))
     }
 
-    /// J.
+    /// Returns the steps of a frame, J.
     pub(crate) fn steps_per_frame(&self) -> i64 {
         self.fold * self.phases().into_iter().map(|phase| self.steps(phase)).sum::<i64>()
     }
 
-    /// Pixels per port of a frame.
+    /// Returns the pixels per port of a frame.
     pub(crate) fn frame_pixels(&self) -> i64 {
         if self.raster {
             self.regions() * self.base.n()
@@ -171,7 +172,7 @@ impl SerialRecipe {
         }
     }
 
-    /// How many clocks it takes to take a pixel of a frame.
+    /// Returns the number of clocks in which a pixel of a frame is written.
     pub(crate) fn clocks_of_pixel(&self, pixel: i64) -> i64 {
         if !self.raster {
             return 1;
@@ -188,7 +189,7 @@ impl SerialRecipe {
     }
 }
 
-/// Every kind of serial design, with a few regions.
+/// Generates every kind of serial design, with a few regions.
 pub(crate) fn serial_recipes() -> impl Strategy<Value = SerialRecipe> {
     let sides = prop_oneof![6 => select(vec![4i64, 4, 5, 6, 7, 8]), 1 => 4i64..=11];
     (recipes_of(sides), any::<[bool; 2]>(), 0i64..=9).prop_map(|(base, [raster, deep], fold)| {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Lanes that are given any streams, with halos that no frame has: what the serial array says of them
-//! is what the pipelined array says.
+//! Tests of lanes with arbitrary streams, whose halos belong to no frame. The outputs of the serial
+//! array must be those of the pipelined array.
 
 use foveate_model::{CoreInput, PipelinedRcm, SerialRcm, Thresholds};
 use proptest::prelude::*;
@@ -10,7 +10,8 @@ use super::recipe::{SerialRecipe, serial_recipes};
 use super::waveform::Facts;
 use crate::frames::Random;
 
-/// By frame, region and place; every frame keeps some of the one before.
+/// Returns streams by frame, region and position. Every frame keeps some pixels of the frame
+/// before.
 fn streams(recipe: &SerialRecipe, frames: usize, seed: u64) -> Vec<Vec<Vec<u16>>> {
     let mut random = Random(seed);
     let top = recipe.base.pixel_max() + 1;
@@ -29,7 +30,7 @@ fn streams(recipe: &SerialRecipe, frames: usize, seed: u64) -> Vec<Vec<Vec<u16>>
     all
 }
 
-/// What the pipelined array says of every frame and region.
+/// Returns the results of the pipelined array for every frame and region.
 fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>> {
     let design = recipe.base.design();
     let thresholds = Thresholds::of(&design);
@@ -37,7 +38,7 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
     let mut facts = vec![Vec::new(); regions];
     let mut leaving = vec![Vec::new(); regions];
     let mut rcm = PipelinedRcm::new(design.pipelined().unwrap());
-    // Black frames behind the last drive out what is still inside.
+    // Black frames behind the last one push its results out.
     for clock in 0..(streams.len() + 3) * places {
         let at = |region: usize| {
             streams.get(clock / places).map_or(0, |frame| frame[region][clock % places])
@@ -74,7 +75,7 @@ fn pipelined(recipe: &SerialRecipe, streams: &[Vec<Vec<u16>>]) -> Vec<Vec<Facts>
     (0..streams.len()).map(|frame| facts.iter().map(|of| of[frame].clone()).collect()).collect()
 }
 
-/// How many pixels and how many means leave of a region.
+/// Returns the number of pixels and the number of means that leave of a region.
 fn lengths(recipe: &SerialRecipe, facts: &Facts) -> (usize, usize) {
     let pixels = if facts.active() { recipe.base.n() } else { 0 };
     let means = if facts.summary { recipe.means() } else { 0 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the ports must show after every edge: a list of edges at which something is seen, written
-//! out frame by frame, with no state but the list.
+//! The expected outputs after every edge: a list of edges with outputs, written frame by frame,
+//! with no other state.
 
 use std::collections::BTreeMap;
 
@@ -9,8 +9,8 @@ use foveate_model::SerialOutput;
 use super::recipe::{Phase, SerialRecipe};
 use crate::oracle::Seen;
 
-/// What is known of one region and frame: the temporal count and the scores, the decision, the pixels that leave if it is
-/// active, and the means that leave if its summary is sent.
+/// The expected results of one region and frame: the temporal count and the scores, the decision,
+/// the pixels that leave if the region is active, and the means that leave if its summary is sent.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) struct Facts {
     pub(crate) scores: Vec<u64>,
@@ -26,18 +26,18 @@ impl Facts {
         self.srs && self.trs
     }
 
-    /// The pixels that leave.
+    /// Returns the pixels that leave.
     fn payload(&self) -> &[u16] {
         if self.active() { &self.payload } else { &[] }
     }
 
-    /// The means that leave.
+    /// Returns the means that leave.
     fn means(&self) -> &[u16] {
         if self.summary { &self.means } else { &[] }
     }
 }
 
-/// What the oracle knows.
+/// Returns the results of the oracle for every region.
 pub(crate) fn facts(seen: &Seen) -> Vec<Facts> {
     let pixels = |values: &[i64]| values.iter().map(|&value| value as u16).collect();
     let facts = |region: &crate::oracle::SeenRegion| Facts {
@@ -54,16 +54,16 @@ pub(crate) fn facts(seen: &Seen) -> Vec<Facts> {
     seen.regions.iter().map(facts).collect()
 }
 
-/// What means something at the ports, but for `ready_o`.
+/// The values at the ports that have a meaning, except `ready_o`.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Shown {
-    /// Index, region, score.
+    /// Number, region and value of the score.
     pub(crate) score: Option<(u32, u32, u64)>,
-    /// SRS, TRS, active, summary.
+    /// SRS, TRS, active and summary.
     pub(crate) decision: Option<[bool; 4]>,
-    /// Port, pixel.
+    /// Port and value of each pixel.
     pub(crate) pixels: Vec<(usize, u16)>,
-    /// Position, slot, region, where there are pixels.
+    /// Position, slot and region of the pixels, if there are any.
     pub(crate) place: Option<(u32, u32, u32)>,
 }
 
@@ -86,7 +86,8 @@ impl Shown {
     }
 }
 
-/// What the steps of a frame show, by number of the step; steps that show nothing are left out.
+/// Returns the outputs of the steps of a frame, by number of the step. Steps without outputs are
+/// left out.
 pub(crate) fn steps(recipe: &SerialRecipe, facts: &[Facts]) -> Vec<(i64, Shown)> {
     let mut shown = Vec::new();
     let mut start = 0;
@@ -109,7 +110,7 @@ pub(crate) fn steps(recipe: &SerialRecipe, facts: &[Facts]) -> Vec<(i64, Shown)>
     shown
 }
 
-/// Lane and region of every region of a slot.
+/// Returns the lane and the region of every region of a slot.
 fn served(recipe: &SerialRecipe, slot: i64) -> Vec<(i64, i64)> {
     let all = (0..recipe.lanes()).map(|lane| (lane, lane * recipe.fold + slot));
     all.filter(|&(_, region)| region < recipe.regions()).collect()
@@ -168,7 +169,8 @@ fn unload(
     shown
 }
 
-/// The position of pixel or mean `number`: of a mean that of the last pixel that lies in its block.
+/// Returns the position of pixel or mean `number`. That of a mean is the position of the last pixel
+/// of its block.
 fn position(recipe: &SerialRecipe, phase: Phase, number: i64) -> i64 {
     let Some(periphery) = recipe.base.periphery.filter(|_| phase == Phase::UnloadMeans) else {
         return number;
@@ -181,7 +183,7 @@ fn position(recipe: &SerialRecipe, phase: Phase, number: i64) -> i64 {
     (0..recipe.base.n()).rfind(|&at| block(at) == number).unwrap()
 }
 
-/// What is due, by edge.
+/// The expected outputs by edge.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Timeline {
     shown: BTreeMap<i64, Shown>,
@@ -198,13 +200,14 @@ impl Timeline {
         self.shown.get(&edge).cloned().unwrap_or_default()
     }
 
-    /// A reset happens at this edge.
+    /// Records a reset at this edge.
     pub(crate) fn reset(&mut self, edge: i64) {
         self.shown.split_off(&edge);
         self.ready_from = edge;
     }
 
-    /// A pixel of a frame is taken at this edge; the last one says what is known of the frame.
+    /// Records a pixel of a frame that is taken at this edge. With the last pixel come the expected
+    /// results of the frame.
     pub(crate) fn take(
         &mut self,
         recipe: &SerialRecipe,

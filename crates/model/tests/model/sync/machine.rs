@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An array of any organization at its ports: what it takes, and what it decides of which region.
+//! An array of any organization, seen from its ports: the beats that it takes, and the decisions
+//! that it makes.
 
 use foveate_design::{Design, Feed, Hardware};
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, PipelinedRcm, RasterRcm, SerialRcm, Thresholds};
 
-/// What an array decides of a region.
+/// The decision of an array for a region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Decided {
     pub(crate) region: u32,
@@ -14,20 +15,20 @@ pub(crate) struct Decided {
     pub(crate) active: bool,
 }
 
-/// The array.
+/// An array of any organization.
 pub(crate) enum Machine {
     Pipelined(PipelinedRcm),
     Serial(Box<SerialRcm>),
     Raster(Box<RasterRcm>),
 }
 
-/// What is seen of it after an edge.
+/// The outputs of the array after an edge.
 #[derive(Debug, Default)]
 pub(crate) struct Seen {
     pub(crate) ready: bool,
     pub(crate) sync_error: bool,
     pub(crate) decided: Vec<Decided>,
-    /// Pixels that leave, where they leave within the frame.
+    /// Number of pixels that leave, for organizations that send them within the frame.
     pub(crate) left: usize,
 }
 
@@ -108,14 +109,14 @@ impl Machine {
         }
     }
 
-    /// Whether it says when it takes a beat, and its pixels leave within the frame.
+    /// Returns true if the array has `ready_o`. Its pixels then leave within the frame.
     pub(crate) fn has_ready(&self) -> bool {
         !matches!(self, Self::Pipelined(_))
     }
 }
 
-/// Where pixel (x, y) of a frame stands in its beats: the number of the beat, and its place in it. Regions are isolated, or
-/// pixels come row by row.
+/// Returns the number of the beat of pixel (x, y) of a frame, and the position in the beat. Regions
+/// are isolated, or pixels come row by row.
 fn place(design: &Design, x: u32, y: u32) -> (u32, u32) {
     let (n, columns) = (design.region_size(), design.columns());
     let (region, position) = (y / n * columns + x / n, y % n * n + x % n);
@@ -135,7 +136,7 @@ fn place(design: &Design, x: u32, y: u32) -> (u32, u32) {
     }
 }
 
-/// Beats of a frame, and pixels of a beat.
+/// Returns the number of beats of a frame and the number of pixels of a beat.
 pub(crate) fn shape(design: &Design) -> (usize, usize) {
     let places = (0..design.height())
         .flat_map(|y| (0..design.width()).map(move |x| (x, y)))
@@ -145,7 +146,7 @@ pub(crate) fn shape(design: &Design) -> (usize, usize) {
     (beats as usize, width as usize)
 }
 
-/// The frame that these beats are.
+/// Returns the frame that consists of these beats.
 pub(crate) fn frame_of(design: &Design, beats: &[Vec<u16>]) -> Frame {
     let pixel = |x, y| {
         let (beat, at) = place(design, x, y);

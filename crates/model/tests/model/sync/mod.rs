@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Streams that are damaged on their way, against `docs/sync.md`: which frames an array sees, and which beats are errors.
+//! Tests of damaged streams by the rules of `docs/sync.md`: the frames that an array takes, and the
+//! beats that are errors.
 
 mod machine;
 mod oracle;

@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page as one function over a whole stream, without states: from each marked beat on it counts a frame together.
+//! The rules of `docs/sync.md` as one function over a whole stream, without states: it collects a
+//! frame from each marked beat on.
 
-/// What is at the ports at an edge at which the array would take a beat.
+/// The ports at an edge at which the array would take a beat.
 #[derive(Clone, Debug)]
 pub(crate) struct Edge {
-    /// Its number.
+    /// Number of the edge.
     pub(crate) clock: usize,
     pub(crate) valid: bool,
     pub(crate) sof: bool,
     pub(crate) pixels: Vec<u16>,
 }
 
-/// What becomes of a stream.
+/// The result of cutting a stream into frames.
 #[derive(Debug, Default)]
 pub(crate) struct Cut {
-    /// The frames that the array sees whole, as beats.
+    /// The frames that the array takes completely, as beats.
     pub(crate) frames: Vec<Vec<Vec<u16>>>,
     /// The clocks of the beats that are errors.
     pub(crate) errors: Vec<usize>,
-    /// How many of the frames were completed by the array itself.
+    /// Number of frames that the array completed by itself.
     pub(crate) completed: usize,
 }
 
-/// Cuts a stream into frames of so many beats. `fill` stands on the pixel port while the array completes a frame; without it
-/// the array takes what stands at the next of the edges.
+/// Cuts a stream into frames of `beats` beats. `fill` is on the pixel port while the array
+/// completes a frame. Without it the array takes the pixels of the next edges.
 pub(crate) fn cut(edges: &[Edge], beats: usize, fill: Option<&[u16]>) -> Cut {
     let mut cut = Cut::default();
     let mut rest = edges.iter();
-    // Whether the frame before has just ended by itself.
+    // True if the frame before has just ended by itself.
     let mut ended = false;
     while let Some(edge) = rest.find(|edge| edge.valid) {
         if !edge.sof {
@@ -61,7 +62,7 @@ pub(crate) fn cut(edges: &[Edge], beats: usize, fill: Option<&[u16]>) -> Cut {
     cut
 }
 
-/// By hand: frames of three beats.
+/// The expected results are written by hand, for frames of three beats.
 #[test]
 fn a_stream_is_cut_as_the_page_says() {
     let stream = |text: &str| -> Vec<Edge> {
@@ -84,12 +85,12 @@ fn a_stream_is_cut_as_the_page_says() {
     for (text, fill, frames, errors, completed) in [
         ("Abc.D.efGhi", fill, "Abc Def Ghi", vec![], 0),
         ("xyAbcDef", fill, "Abc Def", vec![], 0),
-        // One is missing; the next frame is dropped.
+        // One beat is missing, so the next frame is dropped.
         ("AbcDeGhiJkl", fill, "Abc De_ Jkl", vec![5], 1),
         ("AbcDeGhiJkl", None, "Abc Deh Jkl", vec![5], 1),
         ("ABCDefGhi", fill, "A__ C__ Ghi", vec![1, 3], 2),
         ("ABCDefGhi", None, "ACD Ghi", vec![1], 1),
-        // One and two too many.
+        // There is one beat too many, then two.
         ("AbcxDefxyGhi", fill, "Abc Def Ghi", vec![3, 7], 0),
         // A mark is missing.
         ("AbcdefGhi", fill, "Abc Ghi", vec![3], 0),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `FrameSync` by itself: the table of `docs/sync.md`, and designs without it.
+//! Tests of `FrameSync` alone: the table of `docs/sync.md`, and designs without it.
 
 use foveate_design::{Config, Design};
 use foveate_model::FrameSync;
@@ -10,8 +10,9 @@ fn design(more: &[&str]) -> Design {
     Config::from_toml_with(toml, more).unwrap().validate().unwrap()
 }
 
-/// Beats of four: `A` is marked, `a` is not, `.` none, `-` one that finds the array closed, `R` a reset. Of each edge:
-/// passed on (`p`), an error after it (`!`), filling after it (`f`).
+/// Applies beats to frames of four: `A` is a marked beat, `a` one without a mark, `.` no beat, `-`
+/// a beat while the array is closed, and `R` a reset. Returns for each edge: the beat is passed on
+/// (`p`), an error after the edge (`!`), filling after the edge (`f`).
 fn told(text: &str) -> String {
     let mut sync = FrameSync::new(&design(&["hardware.sync=true"]));
     let mut all = Vec::new();
@@ -35,15 +36,16 @@ fn told(text: &str) -> String {
 #[test]
 fn every_state_is_left_as_the_page_says() {
     for (stream, expected) in [
-        // SEEK drops silently; gaps and a closed array change nothing.
+        // In state SEEK beats are dropped without an error. Gaps and a closed array change nothing.
         ("aa.-Aa-a.a", "0 0 0 0 p p 0 p 0 p"),
-        // START: the next frame at once, or an error, and SEEK.
+        // In state START the next frame begins at once, or there is an error and the state is SEEK.
         ("AaaaAaaa", "p p p p p p p p"),
         ("Aaaa.-aaA", "p p p p 0 0 ! 0 p"),
-        // INSIDE: FILL takes a beat at every open edge, marked or not, until the frame is whole; then SEEK.
+        // In state INSIDE a mark leads to FILL, which takes a beat at every open edge, marked or
+        // not, until the frame is complete. Then the state is SEEK.
         ("AaAAaa", "p p !f pf p 0"),
         ("AA.-aAA", "p !f pf f pf p p"),
-        // Resets in every state.
+        // Resets come in every state.
         ("aRa", "0 0 0"),
         ("AaaaRa", "p p p p 0 0"),
         ("AaRaA", "p p 0 0 p"),

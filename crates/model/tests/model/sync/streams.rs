@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Damaged streams through every organization: decisions are those of a camera that sees the frames which the page says
-//! there are, references and all, and errors come after the edges which it names.
+//! Tests of damaged streams through every organization. Decisions must be those of a camera that
+//! takes the frames that `docs/sync.md` defines, with their references, and errors must come after
+//! the edges that it names.
 
 use super::machine::{Decided, Machine, frame_of, shape};
 use super::oracle::{Cut, Edge, cut};
@@ -11,7 +12,7 @@ use foveate_model::{FunctionalCamera, Thresholds};
 const BASE: &str = "frame.pixel_bits = 4\ntemporal = { level = 2, min_count = 3 }\nhardware.sync = true\n\
                     region.size = 4\nspatial = [{ feature = 'edge', level = 12, min_score = 6 }]\n";
 
-/// Frames whose regions lie in it whole, where nothing says how the border repeats.
+/// Frames of whole regions, or of a ragged size where the rules define how the border is repeated.
 const DESIGNS: &[&[&str]] = &[
     &["frame.width=12", "frame.height=8"],
     &[
@@ -65,7 +66,7 @@ fn design(more: &[&str]) -> Design {
     Config::from_toml_with(BASE, more).unwrap().validate().unwrap()
 }
 
-/// Beats with marks: about as many frames, of which every other is damaged.
+/// Returns the marks of beats for about `frames` frames, of which half are damaged.
 fn stream(random: &mut Random, beats: usize, frames: usize) -> Vec<bool> {
     let mut marks = vec![false; random.below(4) as usize];
     for _ in 0..frames {
@@ -82,7 +83,7 @@ fn stream(random: &mut Random, beats: usize, frames: usize) -> Vec<bool> {
         };
         marks.extend((0..length).map(|at| sof && at == 0));
     }
-    // Whole ones at the end, so that there is something to see behind every damage.
+    // The last frames are complete, so that decisions follow every damage.
     for _ in 0..3 {
         marks.extend((0..beats).map(|at| at == 0));
     }
@@ -96,8 +97,8 @@ struct Played {
     left: usize,
 }
 
-/// Offers the beats to the array, with gaps, until all has left. Where the array has no ready, beats come whether it looks
-/// or not. While it is not ready `fill` stands on the port.
+/// Offers the beats to the array, with gaps, until all outputs have come. To an array without
+/// `ready_o`, beats come in any case. While the array is not ready, `fill` is on the pixel port.
 fn play(design: &Design, marks: &[bool], random: &mut Random, fill: &[u16]) -> Played {
     let (mut machine, thresholds) = (Machine::new(design), Thresholds::of(design));
     let mut played = Played { edges: vec![], errors: vec![], decided: vec![], left: 0 };
@@ -106,7 +107,7 @@ fn play(design: &Design, marks: &[bool], random: &mut Random, fill: &[u16]) -> P
     let mut ready = machine.step((true, true, true), fill, &thresholds).ready;
     assert!(ready);
     let (mut next, mut silence, mut clock) = (0, 0, 0);
-    // Pixels change little, so that regions are held, too.
+    // Pixels change little, so that some regions are held.
     let mut picture: Vec<Vec<u16>> = vec![fill.to_vec(); shape(design).0];
     while silence < design.timing().clocks_per_frame() + 200 {
         let valid = next < marks.len() && !(with_gaps && random.below(4) == 0);
@@ -184,7 +185,8 @@ fn decisions_are_those_of_the_frames_that_the_page_finds_in_a_damaged_stream() {
     assert!(errors > 300 && completed > 120 && held > 100, "{errors} {completed} {held}");
 }
 
-/// Without the marks a lost beat is never noticed, and all that follows is decided of other frames.
+/// Without the marks a lost beat is never noticed, and all later decisions are those of other
+/// frames.
 #[test]
 fn without_it_a_lost_beat_leaves_the_array_out_of_step() {
     for more in DESIGNS {
@@ -201,7 +203,7 @@ fn without_it_a_lost_beat_leaves_the_array_out_of_step() {
             let played = play(design, &marks, &mut Random(3), &fill);
             (played.decided.len() / design.regions() as usize + late, played.errors.len())
         };
-        // The first is completed, the second is dropped; the others are whole.
+        // The first frame is completed, the second is dropped, and the others are whole.
         assert_eq!(frames(&with), (3, 1), "{more:?}");
         assert_eq!(frames(&without), (3, 0), "{more:?}");
     }
