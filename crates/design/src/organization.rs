@@ -87,9 +87,9 @@ impl Design {
         self.rules().unit()
     }
 
-    /// Returns the design whose RCM has the ports and the behavior of module `rpu`. It is this
-    /// design if the RPU is a part of the array. Otherwise it is the design of an array with one
-    /// unit, whose frame may be wider than a configuration allows.
+    /// Returns the design that module `rpu` belongs to: this design if the RPU is a part of its
+    /// array, else the design of an array with one unit, whose frame may be wider than a
+    /// configuration allows.
     #[must_use]
     pub fn lone_unit(&self) -> Self {
         self.rules().lone_unit()

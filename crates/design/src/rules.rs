@@ -36,7 +36,7 @@ pub struct Unit {
 pub(crate) trait Rules {
     /// Returns the unit that the array repeats.
     fn unit(&self) -> Unit;
-    /// Returns the design whose RCM has the ports of module `rpu`.
+    /// Returns the design that module `rpu` belongs to.
     fn lone_unit(&self) -> Design;
     /// Returns the timing of the design.
     fn timing(&self) -> Timing;

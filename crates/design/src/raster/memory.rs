@@ -183,7 +183,7 @@ impl Sizes {
     }
 
     /// Returns the bits of the frame number that a queue entry stores. The row of regions that is
-    /// decided is at most B rows ahead of the entry, and its frame number is known.
+    /// being decided is at most B rows later than that of the entry, and its frame number is known.
     fn frame_bits(&self, design: RasterDesign<'_>) -> u32 {
         if design.rows() < self.timing.buffer_rows { 2 } else { 1 }
     }

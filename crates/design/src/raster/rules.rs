@@ -44,7 +44,7 @@ impl Rules for RasterDesign<'_> {
             count: 1,
             regions: self.regions(),
             array: Array::Whole,
-            // The raster core alone is not the whole design, so its area is not that of the design.
+            // Module `raster_core` has the parameters of the design only inside of module `rcm`.
             split: "rcm",
         }
     }

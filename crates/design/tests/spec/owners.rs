@@ -33,8 +33,8 @@ fn rows() -> Vec<KeyRow<'static>> {
     rows.filter(|row| row.key.contains('.')).collect()
 }
 
-/// Returns the values that a row names, as TOML, the default first. Names of organizations in the
-/// text are not values.
+/// Returns the values of the key of a row as TOML, the default first: the names that the key takes,
+/// or the numbers and truth values in the row.
 fn values(row: &KeyRow<'_>) -> Vec<String> {
     let takes = Config::keys().find(|(key, _)| *key == row.key).unwrap();
     if let Takes::Names(names) = takes.1 {

@@ -26,9 +26,9 @@ pub fn magnitude(window: &Window) -> u32 {
 /// Returns the magnitude of every pixel of a region of a denoised padded frame, in row-major order.
 /// A pixel is a hit if its magnitude is above the level.
 ///
+/// # Panics
 /// Panics if the frame does not have the size of the padded frame of the camera, or has no such
 /// region.
-/// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn edge_magnitudes(camera: &Camera, denoised: &Frame, region: u32) -> Vec<u32> {
     FrameRegion::new(camera, denoised, region).windows().map(|window| magnitude(&window)).collect()

@@ -38,9 +38,9 @@ pub fn score(feature: &SpatialFeature, level: u32, region: &impl RegionView) -> 
 /// Returns true for every pixel of a region of a denoised padded frame that is a hit, in row-major
 /// order. Returns `None` for a feature that counts no hits.
 ///
+/// # Panics
 /// Panics if the frame does not have the size of the padded frame of the camera, or has no such
 /// region.
-/// When the frame is not as large as the camera's padded frame, or has no such region.
 #[must_use]
 pub fn hits(
     camera: &Camera,

@@ -8,7 +8,7 @@
 //!
 //! ```text
 //! valid_i   +----------+ word  +---------+
-//! pixel_i ->| advances |------>| picture |
+//! pixel_i ->| advances |------>|  frame  |
 //! ready_o <-|          |       +---------+
 //!           +----------+            |  last word of a region
 //!             | first word of       v

@@ -12,7 +12,8 @@ use foveate_model::{FunctionalCamera, Thresholds};
 const BASE: &str = "frame.pixel_bits = 4\ntemporal = { level = 2, min_count = 3 }\nhardware.sync = true\n\
                     region.size = 4\nspatial = [{ feature = 'edge', level = 12, min_score = 6 }]\n";
 
-/// Frames of whole regions, or of a ragged size where the rules define how the border is repeated.
+/// The designs have frames of whole regions. Only a raster core, which makes the padding itself,
+/// also has a ragged frame.
 const DESIGNS: &[&[&str]] = &[
     &["frame.width=12", "frame.height=8"],
     &[
