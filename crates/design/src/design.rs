@@ -44,8 +44,8 @@ impl Design {
 
     /// Returns the configuration that describes this design. Every key of the camera that applies
     /// is filled in. Keys of `[hardware]` are left out where another organization has them, and
-    /// `pipelining`, `forward`, `interface` and `sync` may be left out while they have their
-    /// defaults. [`Design::spelled_out`] fills in more of them.
+    /// `memory`, `pipelining`, `forward`, `interface` and `sync` may be left out while they have
+    /// their defaults. [`Design::spelled_out`] fills in two of them.
     #[must_use]
     pub fn config(&self) -> Config {
         let hardware = HardwareConfig {
@@ -112,8 +112,8 @@ impl Design {
     }
 
     /// Returns the configuration of the design, in which `pipelining`, and `forward` of a raster
-    /// core, are filled in although they have their defaults. `interface` and `sync` are still left
-    /// out where they have their defaults.
+    /// core, are filled in although they have their defaults. `memory`, `interface` and `sync` are
+    /// still left out where they have their defaults.
     #[must_use]
     pub fn spelled_out(&self) -> Config {
         let mut config = self.config();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sky and the weather: clouds by day; stars, street lamps and rain at night.
+//! The sky, the weather and the street lamps: clouds by day, stars and rain at night. The lamps are
+//! lit at night.
 
 use super::setting::{GROUND, Mood};
 use crate::canvas::{Canvas, OPAQUE, Pen, UNIT, UNITS_HIGH};
