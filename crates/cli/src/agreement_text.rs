@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The words in which several commands print how much a network keeps.
+//! The text with which several commands print the agreement of a network's outputs.
 
 use foveate_inference::{ConfidenceIntervals, NoiseAgreement};
 
-/// The interval of an agreement over few things, as what follows it.
+/// Returns the confidence interval of an agreement over few samples, to be put behind it. The text
+/// is empty if there is no such interval.
 pub(crate) fn confidence(intervals: &ConfidenceIntervals) -> String {
     intervals.of_few().map_or_else(String::new, |[low, high]| {
         format!(" (95 % interval {:.1} to {:.1} %)", 100.0 * low, 100.0 * high)
     })
 }
 
-/// So many levels, with their unit.
+/// Returns a number of grey levels with its unit.
 pub(crate) fn grey_levels(levels: f64) -> String {
     #[allow(clippy::float_cmp, reason = "exactly one is singular")]
     let unit = if levels == 1.0 { "grey level" } else { "grey levels" };
     format!("{levels} {unit}")
 }
 
-/// The lines about the agreement under noise.
+/// Returns the text about the agreement under noise.
 pub(crate) fn noisy_shares(noisy: &NoiseAgreement) -> String {
     let detections = noisy.kept_share.zip(noisy.precision).map_or_else(
         || format!("; relative RMS error of the outputs {:.2e}", noisy.relative_rms),

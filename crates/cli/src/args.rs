@@ -90,7 +90,7 @@ pub(crate) enum Command {
     Man(ManArgs),
 }
 
-/// Where the design comes from.
+/// The options that choose the design.
 #[derive(Args, Debug)]
 pub(crate) struct DesignArgs {
     /// Configuration file (TOML)
@@ -105,13 +105,14 @@ pub(crate) struct DesignArgs {
 }
 
 impl DesignArgs {
-    /// The configuration; without a file or preset the defaults.
+    /// Returns the configuration with the changes of `--set`. Without a file or a preset, it starts
+    /// from the defaults.
     pub(crate) fn read(&self) -> Result<Config, CliError> {
         let text = self.text()?;
         Config::from_toml_with(&text, &self.overrides).map_err(|error| self.blame(&text, error))
     }
 
-    /// The validated design.
+    /// Returns the validated design.
     pub(crate) fn design(&self) -> Result<Design, CliError> {
         let config = self.read()?;
         config.validate().or_else(|error| Err(self.blame(&self.text()?, error)))
@@ -126,7 +127,8 @@ impl DesignArgs {
         })
     }
 
-    /// Names the file if it is wrong without the overrides, too.
+    /// Returns the error for the user. It names the file if the configuration is wrong without the
+    /// changes of `--set`, too.
     fn blame(&self, text: &str, error: ConfigError) -> CliError {
         let alone = Config::from_toml(text).and_then(|config| config.validate());
         CliError::Spec { file: self.config.clone().filter(|_| alone.is_err()), error }
@@ -145,8 +147,8 @@ pub(crate) struct GenerateArgs {
     /// Replace the folder if it holds a generated core
     #[arg(long)]
     pub(crate) force: bool,
-    /// Put NAME_ before the names of all modules, so that several cores fit into one chip. Without a NAME, or with
-    /// `auto`, it is made from the fingerprint of the design
+    /// Put NAME_ before the names of all modules, so that several cores fit into one chip. Without
+    /// a NAME, or with `auto`, the prefix is made from the fingerprint of the design
     #[arg(long, value_name = "NAME", num_args = 0..=1, default_missing_value = "auto")]
     pub(crate) prefix: Option<String>,
     /// Print JSON
@@ -167,19 +169,21 @@ pub(crate) struct GenerateArgs {
           foveate cosim --config core/design.toml --rtl core/rtl clip.mp4 --packets packets.bin
           foveate cosim --preset raster --set \"hardware.interface='axi'\" clip.mp4 --end-to-end out")]
 pub(crate) struct CosimArgs {
-    /// Frames to run in addition to the directed and random ones: images, folders, globs, scene:NAME
+    /// Frames to run in addition to the directed and random ones: images, folders, globs,
+    /// scene:NAME
     #[arg(value_name = "INPUT")]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// What to simulate: one RPU that sees every region in turn, an array, or a core on AXI, whose packets are
-    /// compared. The default is one RPU, and the core on AXI if the design is one; with --rtl it is also the array, and
-    /// of serial and raster designs the whole frame. A file, or a module with parameter values, that none of these
-    /// reaches is then an error
+    /// Part to simulate: `rpu` is one RPU that gets every region in turn, `rcm` an array, and `axi`
+    /// a core on AXI, whose packets are compared. The default is `rpu`, together with `axi` if the
+    /// design is a core on AXI. With --rtl the default also covers the array and, for serial and
+    /// raster designs, the whole frame; a file, or a module with parameter values, that none of
+    /// these parts contains is then an error
     #[arg(long, value_enum)]
     pub(crate) level: Option<Level>,
-    /// Regions of the array for --level rcm, columns x rows. The default is 3x2, or more if two lanes need
-    /// more regions, but at most the grid of the frame
+    /// Regions of the array for --level rcm, columns x rows. The default is 3x2, or more if two
+    /// lanes need more regions, but at most the grid of the frame
     #[arg(long, value_name = "CxR", value_parser = parse_grid)]
     pub(crate) grid: Option<(u32, u32)>,
     /// Simulate the whole array of the design
@@ -188,13 +192,15 @@ pub(crate) struct CosimArgs {
     /// Simulator to run
     #[arg(long, value_enum, default_value_t = SimulatorChoice::Verilator)]
     pub(crate) simulator: SimulatorChoice,
-    /// Simulate the netlist that Yosys makes of the Verilog and that `estimate` counts, in Icarus
+    /// Simulate the netlist that Yosys makes of the Verilog, the one that `estimate` counts, in
+    /// Icarus
     #[arg(long, conflicts_with = "simulator")]
     pub(crate) netlist: bool,
     /// Check the Verilog files of this folder instead of freshly generated ones
     #[arg(long, value_name = "DIR")]
     pub(crate) rtl: Option<PathBuf>,
-    /// Choose the core of this prefix, if the folder of --rtl has several; a single one is found without it
+    /// Choose the core of this prefix, if the folder of --rtl has several; a single one is found
+    /// without it
     #[arg(long, value_name = "NAME", requires = "rtl")]
     pub(crate) prefix: Option<String>,
     /// Seed of the random vectors
@@ -203,18 +209,21 @@ pub(crate) struct CosimArgs {
     /// Take at most this many frames of the inputs
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = at_least_one())]
     pub(crate) frames: u32,
-    /// How often to run the directed sequences, each time with different data; 0 runs only the frames of
-    /// the inputs. The default is 3 for one RPU and 1 for an array
+    /// Number of runs of the directed sequences, each with different data; 0 runs only the frames
+    /// of the inputs. The default is 3 for one RPU and 1 for all other parts
     #[arg(long, value_name = "N")]
     pub(crate) rounds: Option<u32>,
-    /// Write the packets that leave a core on AXI while the frames of the inputs come, for `foveate decode`
+    /// Write the packets that leave a core on AXI while the frames of the inputs enter it, for
+    /// `foveate decode`
     #[arg(long, value_name = "FILE", requires = "inputs")]
     pub(crate) packets: Option<PathBuf>,
-    /// Write them into this folder as packets.bin, and beside them what a receiver makes of them (`decode`) and what
-    /// `simulate` says of the same frames without any hardware, and compare the two
+    /// Write the packets of a core on AXI into this folder as packets.bin, together with the frames
+    /// that `decode` makes of them and the results of `simulate` for the same frames, and compare
+    /// the two
     #[arg(long, value_name = "DIR", requires = "inputs", conflicts_with = "packets")]
     pub(crate) end_to_end: Option<PathBuf>,
-    /// Folder to write if a run fails; it replays the mismatch. An earlier one makes way if nothing was added or changed in it
+    /// Folder to write if a run fails; its script repeats the mismatch. An earlier replay folder is
+    /// replaced if nothing was added to it or changed in it
     #[arg(long, value_name = "DIR", default_value = "foveate-replay")]
     pub(crate) replay: PathBuf,
     /// Record waves (FST) of a failing run in its replay folder
@@ -231,7 +240,7 @@ pub(crate) struct CosimArgs {
     pub(crate) quiet: bool,
 }
 
-/// What of a design is simulated or placed.
+/// The part of a design that is simulated or placed.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum Level {
     Rpu,
@@ -253,27 +262,28 @@ pub(crate) enum SimulatorChoice {
 pub(crate) struct EstimateArgs {
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// Print one table of variants instead: the design in each organization, with each feature, with and
-    /// without the median
+    /// Print one table of variants instead: the design in each organization, with each feature,
+    /// with and without the median
     #[arg(long)]
     pub(crate) compare: bool,
-    /// Place and route the design with nextpnr instead, and print what it takes of these devices and the
+    /// Place and route the design with nextpnr instead, and print its use of these devices and the
     /// clock that it reaches
     #[arg(long, value_name = "DEVICE", value_delimiter = ',', value_parser = device, conflicts_with = "compare")]
     pub(crate) place_and_route: Vec<&'static RouteDevice>,
-    /// How often to place it, each time from another seed
+    /// Number of placements, each with another seed
     #[arg(long, value_name = "N", default_value_t = 5, value_parser = at_least_one(), requires = "place_and_route")]
     pub(crate) seeds: u32,
-    /// What to place: one RPU (of `serial` and `raster`: the smallest array), the whole array, or a core on AXI. The
-    /// default is one RPU, and the core on AXI if the design is one
+    /// Part to place: `rpu` is one RPU (for `serial` and `raster`, the smallest array), `rcm` the
+    /// whole array, and `axi` a core on AXI. The default is `axi` if the design is a core on AXI,
+    /// and `rpu` otherwise
     #[arg(long, value_enum, requires = "place_and_route")]
     pub(crate) level: Option<Level>,
-    /// Place the Verilog as it is for every device: for an ECP5, without the memories of that family
+    /// Place the same Verilog for every device: for an ECP5, without the memories of that family
     /// (`FOVEATE_ECP5`)
     #[arg(long, requires = "place_and_route")]
     pub(crate) portable: bool,
-    /// The clock in MHz that the design runs at, for frame rates; without it they are those at the clock that is
-    /// estimated from the netlist
+    /// Clock of the design in MHz, for frame rates; without it, the clock that is estimated from
+    /// the netlist is used
     #[arg(long, value_name = "MHZ", value_parser = at_least_one(), conflicts_with = "place_and_route")]
     pub(crate) clock: Option<u32>,
     /// Print JSON
@@ -301,8 +311,9 @@ fn device(name: &str) -> Result<&'static RouteDevice, String> {
           foveate simulate train-images-idx3-ubyte.gz -o out --max-frames 1000
           ffmpeg -i street.mp4 -f yuv4mpegpipe - | foveate simulate - -o out")]
 pub(crate) struct SimulateArgs {
-    /// Video, images, folders, globs, IDX or CIFAR files, scene:NAME, v4l2:/dev/video0 or rtsp://HOST/PATH for a
-    /// camera, - for YUV4MPEG2 on standard input. Several videos, or a folder of them, run as a batch
+    /// Video, images, folders, globs, IDX or CIFAR files, scene:NAME, v4l2:/dev/video0 or
+    /// rtsp://HOST/PATH for a camera, - for YUV4MPEG2 on standard input. Several videos, or a
+    /// folder of them, run as a batch
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
@@ -321,7 +332,8 @@ pub(crate) struct SimulateArgs {
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
-    // Last, because what follows would be listed under their headings.
+    // The flattened groups are last, because clap lists later options under the heading of the last
+    // group.
     #[command(flatten)]
     pub(crate) input: InputArgs,
     #[command(flatten)]
@@ -347,7 +359,7 @@ pub(crate) struct PresetsArgs {
 #[derive(Args, Debug)]
 #[command(after_help = "Example: foveate completions bash > /etc/bash_completion.d/foveate")]
 pub(crate) struct CompletionsArgs {
-    /// The shell
+    /// Shell that the script is for
     #[arg(value_enum)]
     pub(crate) shell: Shell,
 }

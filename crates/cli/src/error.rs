@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a command ended, and with which exit code.
+//! The errors that end a command, and their exit codes.
 
 use std::path::{Path, PathBuf};
 
@@ -22,10 +22,10 @@ use thiserror::Error;
 
 use crate::interrupt::{self, DeafError};
 
-/// Why a command did not end well. The message is all that the user sees.
+/// An error that ends a command. The user sees nothing but its message.
 #[derive(Debug, Error)]
 pub(crate) enum CliError {
-    /// A configuration that is no design, from a file or from the command line.
+    /// An invalid configuration, from a file or from the command line.
     #[error("{}{error}", origin(file.as_deref()))]
     Spec { file: Option<PathBuf>, error: ConfigError },
     #[error(transparent)]
@@ -54,19 +54,19 @@ pub(crate) enum CliError {
     View(#[from] ViewError),
     #[error(transparent)]
     Deaf(#[from] DeafError),
-    /// A file or folder could not be used.
+    /// A file or folder that could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io { action: &'static str, path: PathBuf, source: std::io::Error },
-    /// Arguments that are valid alone but not here.
+    /// Arguments that are valid alone, but not in this combination.
     #[error("{0}")]
     Usage(String),
-    /// The user stopped it; what was done is there.
+    /// A stop by the user, after which the results so far are in a folder.
     #[error("interrupted; the results so far are in `{}`", path.display())]
     Interrupted { path: PathBuf },
-    /// The user stopped something that leaves no files.
+    /// A stop by the user of a command that leaves no files.
     #[error("interrupted after {done}")]
     Stopped { done: String },
-    /// The check that was asked for did not hold; what and where has been printed.
+    /// A check that has failed, after its details have been printed.
     #[error("{0}")]
     Failed(String),
 }
@@ -116,15 +116,16 @@ impl CliError {
     }
 }
 
-/// Bad usage or input.
+/// The exit code for bad usage or bad input.
 const INPUT: u8 = 2;
-/// A tool is missing or failed.
+/// The exit code for a tool that is missing or has failed.
 const TOOL: u8 = 3;
 
 fn tool_code(error: &ToolError) -> u8 {
     match error {
         _ if error.is_interrupted() => interrupt::exit_code(),
-        // A cache or temporary folder that cannot be used is for the user to choose.
+        // An entry of the cache that cannot be used counts as a failed tool. A cache or temporary
+        // folder that cannot be used is bad input, because the user chooses it.
         ToolError::Unusable { .. } => TOOL,
         _ if error.is_environment() => INPUT,
         _ => TOOL,

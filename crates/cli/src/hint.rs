@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Former names of options. Only the user knows which of the present options is meant.
+//! Hints about former names of options. Only the user knows which of the present options is meant.
 
 use clap::builder::StyledStr;
 use clap::error::{ContextKind, ContextValue, ErrorKind};
@@ -7,7 +7,7 @@ use clap::error::{ContextKind, ContextValue, ErrorKind};
 const FPS: &str = "'--fps' is now two options: '--input-fps' limits the frames per second that are read from the \
                    inputs, and '--min-fps' is the rate that a design must reach (check, fit)";
 
-/// The same error with what is said about an option that is gone.
+/// Returns the error. If it is about an option that no longer exists, a hint is added.
 pub(crate) fn with_hint(mut error: clap::Error) -> clap::Error {
     let named = matches!(error.get(ContextKind::InvalidArg), Some(ContextValue::String(name)) if name == "--fps");
     if error.kind() == ErrorKind::UnknownArgument && named {

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Signals that ask to stop: Ctrl-C, SIGTERM (containers, Slurm, systemd) and SIGHUP (a terminal that is
-//! closed). A thread hears them, whatever the command waits for.
+//! The signals that ask the program to stop: Ctrl-C, SIGTERM (containers, Slurm, systemd) and
+//! SIGHUP (a terminal that is closed). A thread receives them, whatever the command waits for.
 //!
-//! * A command that has nothing to keep yet ends at once, and so does every tool that it runs.
-//! * From [`flag`] on, the first signal only makes a request, at which the command keeps what is done and ends by itself.
-//! * A further signal ends it at once, if it is not the same that another sender repeats.
+//! * Before [`flag`] is called, a command has nothing to keep, and the first signal ends it and its
+//!   tools at once.
+//! * After that, the first signal only makes a request. The command then keeps what is done, and
+//!   ends by itself.
+//! * A further signal ends the command at once, unless it repeats the first one for another sender.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -18,14 +20,15 @@ use thiserror::Error;
 
 use crate::notice;
 
-/// What shells add to the number of the signal that ended a program.
+/// The number that shells add to that of the signal that ended a program.
 const OF_SIGNALS: i32 = 128;
-/// A second Ctrl-C that comes sooner is the first, which `timeout` or a shell passes on.
+/// The time within which a second Ctrl-C is the first one again, passed on by `timeout` or a shell.
 const SAME_KEY: Duration = Duration::from_millis(100);
-/// Other signals may come more than once without a person behind them (`timeout` sends two, systemd SIGTERM and SIGHUP).
+/// The time within which any other signal is a repetition without a person behind it: `timeout`
+/// sends two signals, systemd sends SIGTERM and SIGHUP.
 const SAME_REQUEST: Duration = Duration::from_secs(1);
 
-/// The system does not let signals be heard.
+/// The error of a system that does not let the program listen for signals.
 #[derive(Debug, Error)]
 #[error("cannot listen for signals: {reason}")]
 pub(crate) struct DeafError {
@@ -34,9 +37,9 @@ pub(crate) struct DeafError {
 
 /// The signals so far, and their meaning for the command.
 struct SignalHistory {
-    /// The first signal, and when it came.
+    /// The first signal, and the time at which it came.
     first: Option<(i32, Instant)>,
-    /// Whether the command ends by itself.
+    /// True if the command has results to keep, and so ends by itself.
     has_results: bool,
 }
 
@@ -47,29 +50,31 @@ fn heard() -> MutexGuard<'static, SignalHistory> {
     HEARD.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Hears signals from here on. Until [`flag`] is asked for, the first ends the process.
+/// Starts to listen for signals. Until [`flag`] is called, the first signal ends the process.
 pub(crate) fn listen() -> Result<(), DeafError> {
     static LISTENING: OnceLock<Result<(), String>> = OnceLock::new();
     let listening = LISTENING.get_or_init(|| start().map_err(|error| error.to_string()));
     listening.clone().map_err(|reason| DeafError { reason })
 }
 
-/// A flag that the first signal sets, for a command that has begun work of which something is kept, and looks at the
-/// flag.
+/// Returns the flag that the first signal sets. A command calls this when it has begun work of
+/// which something is kept, and then checks the flag.
 pub(crate) fn flag() -> Result<Arc<AtomicBool>, DeafError> {
     listen()?;
     heard().has_results = true;
     Ok(REQUEST.flag())
 }
 
-/// The same for everything that waits; by itself it does not mean that there is something to keep.
+/// Returns the request to stop, for everything that waits. A call does not mean that there are
+/// results to keep.
 pub(crate) fn request() -> Interrupt {
     REQUEST.clone()
 }
 
-/// The exit code of a command that was told to stop: 130 after Ctrl-C, 143 after SIGTERM, 129 after SIGHUP.
+/// Returns the exit code of a command that was told to stop: 130 after Ctrl-C, 143 after SIGTERM,
+/// 129 after SIGHUP.
 pub(crate) fn exit_code() -> u8 {
-    // Where a tool was interrupted without us there is no number.
+    // If only a tool was interrupted, this process has received no signal.
     let signal = heard().first.map_or(SIGINT, |(signal, _)| signal);
     code_of(signal).try_into().unwrap_or(u8::MAX)
 }
@@ -78,7 +83,7 @@ fn code_of(signal: i32) -> i32 {
     OF_SIGNALS + signal
 }
 
-/// The tools of this machine, stopped by the same signals.
+/// Returns the tools of this machine. The same signals stop them.
 pub(crate) fn toolchain() -> Result<Toolchain, DeafError> {
     Ok(Toolchain::system().cancelled_by(flag()?))
 }
@@ -109,14 +114,14 @@ fn hear(signal: i32) {
     }
 }
 
-/// Ends the process, and every tool with it, without a look at what it does.
+/// Ends the process and all its tools at once, whatever they do.
 fn exit(signal: i32) -> ! {
     end_all_families();
     signal_hook::low_level::exit(code_of(signal))
 }
 
-/// All but those that are ignored since the start: `nohup` does so, and a shell for what it starts in the
-/// background of a script.
+/// Returns the signals to listen for: all but those that were ignored at the start. `nohup` ignores
+/// signals, and so does a shell for what it starts in the background of a script.
 fn heeded() -> impl Iterator<Item = i32> {
     let ignored = ignored();
     SIGNALS.iter().copied().filter(move |signal| ignored >> (signal - 1) & 1 == 0)
@@ -127,8 +132,8 @@ const SIGNALS: &[i32] = &[SIGINT, SIGTERM, signal_hook::consts::SIGHUP];
 #[cfg(not(unix))]
 const SIGNALS: &[i32] = &[SIGINT, SIGTERM];
 
-/// A bit for every signal that is ignored, that of signal 1 being the lowest; none where the system does not
-/// tell.
+/// Returns a bit for every ignored signal, with signal 1 in the lowest bit; 0 if the system does
+/// not provide them.
 fn ignored() -> u64 {
     let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let mask = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

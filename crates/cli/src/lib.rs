@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The `foveate` command, for its program and for the Python package, which brings the same command along.
-//! The only crate that prints.
+//! The `foveate` command, for its program and for the Python package, which contains the same
+//! command. This is the only crate that prints.
 //!
 //! Exit codes: 0 fine, 1 a mismatch or a failed check, 2 bad usage or input, 3 a tool is missing or
-//! failed, 128 and the number of the signal when it was told to stop: 130 after Ctrl-C, 143 after SIGTERM.
+//! failed, 128 plus the number of the signal after a request to stop: 130 after Ctrl-C, 143 after
+//! SIGTERM.
 #![allow(clippy::print_stdout, clippy::print_stderr, reason = "this crate is the one that prints")]
 
 mod agreement_text;
@@ -23,8 +24,8 @@ use args::{Cli, Command};
 use clap::Parser;
 use foveate_toolchain::end_all_families;
 
-/// Runs the command with these words, of which the first is its name. Returns its exit code. Listens for
-/// signals from then on, so it is for processes that do nothing else.
+/// Runs the command with these words, of which the first is its name, and returns its exit code.
+/// The process listens for signals from then on, so this is for processes that do nothing else.
 #[must_use]
 pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
     let words: Vec<OsString> = words.into_iter().collect();
@@ -43,7 +44,7 @@ pub fn run(words: impl IntoIterator<Item = OsString>) -> u8 {
             error.exit_code()
         }
     };
-    // A thread that still waits for a tool does not end it.
+    // A thread that still waits for a tool does not end that tool.
     end_all_families();
     code
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Notices on standard error: errors, warnings, and text that is safe on a terminal.
+//! Notices on standard error, errors and warnings, as text that is safe on a terminal.
 
 use std::borrow::Cow;
 use std::fmt::Display;
@@ -7,8 +7,9 @@ use std::io::{self, Write};
 
 use foveate_footage::redacted;
 
-/// Text in which no name of a file, no message of a tool and no data gives orders to a terminal: control characters are
-/// written out, such as `\u{1b}`, but for tabs and ends of lines.
+/// Returns text that cannot control a terminal, even if it contains the name of a file, the message
+/// of a tool or data. Control characters are written out, such as `\u{1b}`, except tabs and ends of
+/// lines.
 pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     let is_order = |letter: char| letter.is_control() && letter != '\n' && letter != '\t';
     if !text.contains(is_order) {
@@ -25,19 +26,19 @@ pub(crate) fn printable(text: &str) -> Cow<'_, str> {
     shown.into()
 }
 
-/// Says on standard error what the user should know. Nothing that is said has the secrets of an address, wherever it comes from,
-/// and none of it moves the cursor of a terminal.
+/// Prints a notice on standard error. It never shows the secrets of an address or controls the
+/// terminal, whatever the origin of its text.
 pub(crate) fn say(text: &(impl Display + ?Sized)) {
-    // A terminal that was closed hears nothing, and that changes no exit code.
+    // A notice to a terminal that was closed is lost, and that changes no exit code.
     let _ = writeln!(io::stderr(), "foveate: {}", printable(&redacted(&text.to_string())));
 }
 
-/// Says on standard error what the user should know although the command goes on.
+/// Prints a warning on standard error. The command goes on.
 pub(crate) fn warn(text: &str) {
     say(&format_args!("warning: {text}"));
 }
 
-/// Prints help, or what is wrong with the words of the command line.
+/// Prints help, or the error in the words of the command line.
 pub(crate) fn usage(error: &clap::Error) {
     let plain = error.render().to_string();
     if error.use_stderr() && redacted(&plain) != plain {

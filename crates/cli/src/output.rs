@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Printing: text for people, JSON for machines, both on standard output.
+//! Printing on standard output: text for people, JSON for machines.
 
 use std::io::{self, Write};
 
@@ -9,7 +9,7 @@ use terminal_size::Width;
 use crate::error::CliError;
 use crate::notice::printable;
 
-/// Prints `text`; a closed pipe (`foveate ... | head`) ends quietly.
+/// Prints `text`. A closed pipe (`foveate ... | head`) is no error.
 pub(crate) fn text(text: &str) -> Result<(), CliError> {
     print(&printable(text))
 }
@@ -32,8 +32,8 @@ pub(crate) fn json(value: &impl Serialize) -> Result<(), CliError> {
     print(&(rendered + "\n"))
 }
 
-/// Columns to fill, within reason: what the environment variable `COLUMNS` says, or the terminal; 80
-/// where there is neither.
+/// Returns the columns to fill, 40 to 120: the value of the environment variable `COLUMNS`, or else
+/// the width of the terminal, or else 80.
 pub(crate) fn width() -> usize {
     let from_environment = || std::env::var("COLUMNS").ok()?.parse().ok();
     let from_terminal =

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Progress on standard error: a bar where a terminal is there to draw it, a line now and then where a log
-//! is written.
+//! Progress on standard error: a bar on a terminal, or a line now and then in a log.
 
 mod lines;
 mod stage;
@@ -19,21 +18,21 @@ use lines::Lines;
 use stage::{Stage, StageAmount, StageUnit, locked};
 use words::drawn;
 
-/// A line for a source without a known length.
+/// The template of the line for a source of unknown length.
 const OPEN: &str = "{spinner} {told}";
-/// A line for a source of known length.
+/// The template of the line for a source of known length.
 const BAR: &str = "{told} {wide_bar}";
-/// Columns where nobody knows how many there are.
+/// The columns of a terminal whose width is unknown.
 const COLUMNS: usize = 80;
-/// Time between two drawings of the time that has passed.
+/// The time between two drawings of the elapsed time.
 const TICK: Duration = Duration::from_millis(120);
 
-/// What a command is about. Nothing is shown before it says so, nothing when quiet, and nothing remains on
-/// a terminal when it is dropped.
+/// The progress of a command. Nothing is shown before the command reports its first stage, and
+/// nothing if it is quiet. Nothing remains on a terminal after the drop.
 pub(crate) struct Progress {
     bar: ProgressBar,
     stage: Arc<Mutex<Stage>>,
-    /// Where standard error is no terminal, until the end.
+    /// The lines of a log, until the end, if standard error is no terminal.
     lines: Mutex<Option<Lines>>,
 }
 
@@ -52,12 +51,13 @@ impl Progress {
         Self { bar, stage, lines: Mutex::new(lines) }
     }
 
-    /// Work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
+    /// Reports work of unknown length, such as one run of a tool: `synthesizing with Yosys`.
     pub(crate) fn work(&self, what: &str) {
         self.enter(StageUnit::Work, what, StageAmount::default());
     }
 
-    /// So many of all steps are done: `designs over clips`. While there is none to do it is [`Progress::work`].
+    /// Reports that `done` of `all` steps are done, such as `designs over clips`. If there are no
+    /// steps, it is [`Progress::work`].
     pub(crate) fn steps(&self, what: &str, done: u64, all: u64) {
         if all == 0 {
             return self.work(what);
@@ -65,12 +65,14 @@ impl Progress {
         self.enter(StageUnit::Steps, what, StageAmount::new(done, Some(all)));
     }
 
-    /// So many frames are done, of so many if that is known; `note` stands beside it.
+    /// Reports that `done` frames are done, of `all` if the total is known. `note` is shown beside
+    /// the count.
     pub(crate) fn frames(&self, done: u64, all: Option<u64>, note: &str) {
         self.enter(StageUnit::Frames, note, StageAmount::new(done, all));
     }
 
-    /// Clears the line of the terminal and is silent from then on: before results are printed.
+    /// Clears the line of the terminal, and shows nothing from then on. This comes before results
+    /// are printed.
     pub(crate) fn finish(&self) {
         drop(self.lines.lock().unwrap_or_else(PoisonError::into_inner).take());
         self.bar.finish_and_clear();
@@ -78,14 +80,15 @@ impl Progress {
 
     fn enter(&self, counted: StageUnit, what: &str, amount: StageAmount) {
         let what = &*printable(what);
-        // Not held while the bar is told: it asks for the stage when it draws.
+        // The lock is not held while the bar is updated, because the bar takes it when it draws.
         let before = {
             let mut stage = locked(&self.stage);
             let before = stage.counted.map(|_| stage.amount.all.is_some());
             stage.enter(counted, what, amount, Instant::now());
             before
         };
-        // Words are those of the stage, whatever the bar has: the template is first, or a plain bar would be drawn.
+        // The bar takes its words from the stage. The template is set first, or a plain bar would
+        // be drawn.
         let has_length = amount.all.is_some();
         if before != Some(has_length) {
             self.show(if has_length { BAR } else { OPEN });
@@ -100,9 +103,10 @@ impl Progress {
         }
     }
 
-    /// Draws by a template from now on.
+    /// Draws with this template from now on.
     fn show(&self, template: &'static str) {
-        // Only a program fault makes a template that cannot be read; the bar is then the plain one.
+        // A template is unreadable only through a fault of the program; the bar is then the plain
+        // one.
         if let Ok(style) = ProgressStyle::with_template(template) {
             let stage = Arc::clone(&self.stage);
             let told = move |bar: &ProgressState, text: &mut dyn Write| {
@@ -115,13 +119,14 @@ impl Progress {
     }
 }
 
-/// Columns of the terminal that progress is drawn on.
+/// Returns the columns of the terminal that shows the progress.
 fn columns() -> usize {
     let size = terminal_size::terminal_size_of(std::io::stderr());
     size.map_or(COLUMNS, |(Width(columns), _)| columns.into())
 }
 
-/// Columns for words: the spinner and the space behind it take two, and a bar that says something a quarter of the line.
+/// Returns the columns for words. The spinner and the space behind it take two columns; a bar takes
+/// a space and a quarter of the line.
 fn room(columns: usize, template: &str) -> usize {
     // A line that fills all columns would be followed by an empty one.
     let columns = columns.saturating_sub(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Commands that serve a page: its link is printed, then what there is to say, until somebody stops it.
+//! Commands that serve a page. They print its link, and then notices until they are stopped.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -9,10 +9,10 @@ use std::time::Duration;
 use crate::error::CliError;
 use crate::{interrupt, notice, output};
 
-/// Between two looks at what there is to say.
+/// The time between two checks for notices.
 const LOOK: Duration = Duration::from_millis(50);
 
-/// A command that listens for signals before it opens anything.
+/// A command that serves a page. It listens for signals before it opens anything.
 pub(crate) struct Serving {
     interrupted: Arc<AtomicBool>,
 }
@@ -22,7 +22,7 @@ impl Serving {
         Ok(Self { interrupted: interrupt::flag()? })
     }
 
-    /// Prints the link, and says the news until a signal comes.
+    /// Prints the link, and then the notices until a signal comes.
     pub(crate) fn until_stopped(
         self,
         link: &str,

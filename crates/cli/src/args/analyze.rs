@@ -19,10 +19,11 @@ use super::threads::ThreadArgs;
           foveate analyze sensor frames/ -o out --rate 25 --sensor-events events.csv.gz --sensor-start 1000
           foveate analyze recall frames/ -o out --boxes gt.txt")]
 pub(crate) struct AnalyzeArgs {
-    /// What to study
+    /// Study to run
     #[arg(value_enum, value_name = "STUDY")]
     pub(crate) study: StudyChoice,
-    /// Clips or sets, as for `foveate simulate`; several scenes are allowed. Each becomes a line or row
+    /// Clips or sets, as for `foveate simulate`; several scenes are allowed. Each input becomes a
+    /// line of the chart or a row of the table
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<PathBuf>,
     #[command(flatten)]
@@ -33,15 +34,17 @@ pub(crate) struct AnalyzeArgs {
     /// Replace the folder if it holds a study
     #[arg(long)]
     pub(crate) force: bool,
-    /// For `sensor`: the sensor's own events, as CSV with the columns t_us, x, y, plain or gzipped (.gz)
+    /// For `sensor`: the sensor's own events, as CSV with the columns t_us, x, y, plain or gzipped
+    /// (.gz)
     #[arg(long, value_name = "FILE")]
     pub(crate) sensor_events: Option<PathBuf>,
     /// For `sensor`: the time of the first frame on the clock of the events, in microseconds
     #[arg(long, value_name = "T_US", default_value_t = 0)]
     pub(crate) sensor_start: u64,
-    /// For `recall`: ground-truth boxes: a gt.txt of MOT, JSON of COCO, CSV with the columns file, x0, y0, x1,
-    /// y1, or a folder of YOLO files. Give one for all inputs, or one for each in their order. What does not
-    /// exist as given is looked for in the folder of every clip, and in the one above
+    /// Ground-truth boxes for `recall`: a gt.txt of MOT, JSON of COCO, CSV with the columns file,
+    /// x0, y0, x1, y1, or a folder of YOLO files. Give one for all inputs, or one for each input in
+    /// their order. A path that does not exist is looked for in the folder of every clip, and in
+    /// the folder above it
     #[arg(long, value_name = "FILE")]
     pub(crate) boxes: Vec<PathBuf>,
     /// Print the table as JSON

@@ -5,10 +5,11 @@ use clap::Args;
 
 use super::{DesignArgs, at_least_one};
 
-/// Run the same frames through every level, from functional model to netlist, and print what each costs
+/// Run the same frames through every level, from functional model to netlist, and print what each
+/// costs
 ///
-/// Every level runs on one thread and is compared with one above it; a mismatch ends with exit code 1.
-/// If a tool is missing, its level is skipped.
+/// Every level runs on one thread and is compared with one above it; a mismatch ends with exit code
+/// 1. If a tool is missing, its level is skipped.
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate bench
           foveate bench --preset serial --json

@@ -15,20 +15,20 @@ use super::at_least_one;
           foveate build --board vcu118 -o out --project
           foveate build --board vcu118 --preset paper -o out")]
 pub(crate) struct BuildArgs {
-    /// The board, or a file with one (.toml)
+    /// Board to build for: the name of a board that comes with the program, or a file (.toml)
     #[arg(long, value_name = "NAME", required_unless_present = "list")]
     pub(crate) board: Option<String>,
     /// List the boards that come with the program
     #[arg(long, conflicts_with_all = ["board", "output", "config", "preset", "overrides", "seeds", "project", "force"])]
     pub(crate) list: bool,
-    /// Configuration file (TOML) in place of the one that comes with the board: of a core on AXI, or of an array of RPUs
-    /// where a pattern is (vcu118)
+    /// Configuration file (TOML) that replaces the one of the board. It describes a core on AXI,
+    /// or, for a board with a pattern in place of a sensor (vcu118), an array of RPUs
     #[arg(long, short, value_name = "FILE", conflicts_with = "preset")]
     pub(crate) config: Option<PathBuf>,
-    /// Preset in place of it, for example paper, an array of RPUs
+    /// Preset that replaces the configuration of the board, for example paper, an array of RPUs
     #[arg(long, value_name = "NAME")]
     pub(crate) preset: Option<String>,
-    /// Change one key of it, for example periphery.level=8
+    /// Change one key of the configuration, for example periphery.level=8
     #[arg(long = "set", value_name = "KEY=TOML_VALUE")]
     pub(crate) overrides: Vec<String>,
     /// Folder to write
@@ -37,10 +37,10 @@ pub(crate) struct BuildArgs {
     /// Replace the folder if it holds a project of a board
     #[arg(long)]
     pub(crate) force: bool,
-    /// Write the project alone, and run no tool
+    /// Write the project only, and run no tool
     #[arg(long, conflicts_with = "seeds")]
     pub(crate) project: bool,
-    /// How often to place it, each time from another seed; the fastest is packed
+    /// Number of placements, each with another seed; the fastest is packed
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = at_least_one())]
     pub(crate) seeds: u32,
     /// Print JSON

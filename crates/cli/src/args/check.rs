@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options of `foveate check`, clocks and frame rates among them.
+//! The options of `foveate check`, and the parsing of clocks and frame rates.
 
 use std::fmt;
 use std::path::PathBuf;
@@ -19,19 +19,20 @@ pub(crate) struct CheckArgs {
     pub(crate) file: Option<PathBuf>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
-    /// The clock that the design runs at, for example 100MHz or 1.5GHz, for frame rates. Without it, the clock
-    /// that a rate needs is printed; `foveate estimate` says what clock to expect
+    /// Clock of the design, for example 100MHz or 1.5GHz, for frame rates. Without it, the clock
+    /// that a frame rate needs is printed; `foveate estimate` says what clock to expect
     #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
     pub(crate) clock: Option<Clock>,
-    /// With --clock, check that the design reaches this many frames per second; the exit code is 1 if it does not. For a
-    /// serial design, also propose the largest fold that reaches it. Without --clock, print the clock that it needs
+    /// With --clock, check that the design reaches this many frames per second; the exit code is 1
+    /// if it does not. For a serial design, also propose the largest fold that reaches it. Without
+    /// --clock, print the clock that this rate needs
     #[arg(long, value_name = "RATE", value_parser = Rate::parse)]
     pub(crate) min_fps: Option<Rate>,
     /// Print JSON
     #[arg(long)]
     pub(crate) json: bool,
-    /// Print only errors; the exit code says whether the design is valid, and with --min-fps whether it is fast
-    /// enough at --clock
+    /// Print only errors; the exit code says whether the design is valid, and with --min-fps
+    /// whether it is fast enough at --clock
     #[arg(long, short, conflicts_with = "json")]
     pub(crate) quiet: bool,
 }
@@ -40,7 +41,7 @@ pub(crate) struct CheckArgs {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Clock(pub(crate) u64);
 
-/// Names of units, largest first, with what they are in Hz.
+/// The names of the units, largest first, with their values in Hz.
 const UNITS: [(&str, u64); 4] =
     [("GHz", 1_000_000_000), ("MHz", 1_000_000), ("kHz", 1000), ("Hz", 1)];
 
@@ -73,7 +74,7 @@ impl fmt::Display for Clock {
     }
 }
 
-/// Frames per second, above 0 and at most 10^9.
+/// A frame rate in frames per second, above 0 and at most 10^9.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Rate(pub(crate) Decimal);
 
@@ -87,17 +88,17 @@ impl Rate {
             .ok_or_else(|| "expected frames per second above 0, for example 1000".to_owned())
     }
 
-    /// As a number to calculate with.
+    /// Returns the frames per second as a floating-point number.
     pub(crate) fn per_second(self) -> f64 {
         self.0.to_string().parse().expect("a decimal is written as a number")
     }
 
-    /// The slowest clock at which frames of so many clocks come at this rate.
+    /// Returns the slowest clock at which frames of `clocks` clocks each reach this rate.
     pub(crate) fn needs(self, clocks: u64) -> Clock {
         Clock(u64::try_from(self.0.ceil_times(clocks)).unwrap_or(u64::MAX))
     }
 
-    /// The most clocks that a frame may take.
+    /// Returns the largest number of clocks that a frame may take.
     pub(crate) fn max_clocks(self, clock: Clock) -> u64 {
         let clocks = u128::from(clock.0) * u128::from(Self::NANO) / self.0.ceil_times(Self::NANO);
         u64::try_from(clocks).unwrap_or(u64::MAX)

@@ -8,13 +8,14 @@ use clap::Args;
 use super::DesignArgs;
 use super::outputs::ViewArgs;
 
-/// Make of a recorded stream of region packets what `simulate` writes from decisions and pixels
+/// Decode a recorded stream of region packets into the outputs that `simulate` makes of decisions
+/// and pixels
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate decode packets.bin -o out --preset steady
           foveate decode packets.bin -o out --preset steady --events csv --rendered mkv
           cat packets.bin | foveate decode - -o out --preset steady")]
 pub(crate) struct DecodeArgs {
-    /// The stream, such as packets.bin of `foveate simulate --packets`; - for standard input
+    /// Stream of packets, such as packets.bin of `foveate simulate --packets`; - for standard input
     #[arg(value_name = "STREAM")]
     pub(crate) stream: PathBuf,
     #[command(flatten)]
@@ -31,7 +32,7 @@ pub(crate) struct DecodeArgs {
     /// Show no progress and no summary
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    // Last, because what follows would be listed under its heading.
+    // The flattened group is last, because clap lists later options under its heading.
     #[command(flatten)]
     pub(crate) view: ViewArgs,
 }

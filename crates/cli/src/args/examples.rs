@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The examples of every help text are commands that the command line takes.
+//! The tests that the command line accepts the examples of every help text.
 
 use clap::{CommandFactory as _, Parser as _};
 
 use super::Cli;
 
-/// The command lines in a help text: `ffmpeg ... | foveate simulate - -o out` has one.
+/// Returns the command lines in a help text: `ffmpeg ... | foveate simulate - -o out` has one.
 fn examples(help: &str) -> Vec<Vec<String>> {
     let commands = help.lines().flat_map(|line| line.split(" | ")).filter_map(|part| {
         let command = &part[part.find("foveate ")?..];
-        // What the shell does with the output is its affair.
+        // A redirection of the output is for the shell, and no argument of the command.
         let command = command.split(" > ").next().unwrap_or(command);
         Some(command.split_whitespace().map(str::to_owned).collect())
     });

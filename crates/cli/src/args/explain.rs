@@ -11,7 +11,7 @@ use super::input::InputArgs;
 #[command(after_help = "Examples: foveate explain street.mp4 --frame 3 --region 12,5
           foveate explain frames/ --frame 0 --region 0,0 --json")]
 pub(crate) struct ExplainArgs {
-    /// Video, images, folders, globs, data sets, scene:NAME: what `foveate simulate` takes
+    /// Inputs, as for `foveate simulate`: video, images, folders, globs, data sets, scene:NAME
     #[arg(value_name = "INPUT", required = true)]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]

@@ -21,7 +21,7 @@ use super::threads::ThreadArgs;
           foveate explore --list
           foveate explore approximations --print > space.toml")]
 pub(crate) struct ExploreArgs {
-    /// File that says what varies, or the name of a space that comes with the program
+    /// File that describes the space of designs, or the name of a space that comes with the program
     #[arg(value_name = "SPACE", required_unless_present = "list")]
     pub(crate) space: Option<PathBuf>,
     /// Clips or sets, as for `foveate simulate`; several scenes are allowed
@@ -33,12 +33,13 @@ pub(crate) struct ExploreArgs {
     /// Skip synthesis; Yosys is then not needed
     #[arg(long)]
     pub(crate) no_area: bool,
-    /// Print the units of work as JSON lines, for machines that share the folder, and measure nothing: a name,
-    /// the inputs, and the file that says that the unit is done
+    /// Print the units of work as JSON lines, for machines that share the folder, and measure
+    /// nothing. A line has the name of the unit, its inputs, and the file that exists when the unit
+    /// is done
     #[arg(long, conflicts_with_all = ["only", "list", "print", "json", "markdown"])]
     pub(crate) plan: bool,
-    /// Do one unit of --plan, by its name or its whole line; the inputs of the unit are enough. Without --only,
-    /// the command does what is missing and writes the tables
+    /// Do one unit of --plan, given by its name or its whole line; only the inputs of that unit are
+    /// needed. Without --only, the command does the missing units and writes the tables
     #[arg(long, value_name = "UNIT", conflicts_with_all = ["list", "print", "markdown"])]
     pub(crate) only: Option<String>,
     /// List the spaces that come with the program
@@ -47,7 +48,7 @@ pub(crate) struct ExploreArgs {
     /// Print the file of a space that comes with the program
     #[arg(long, requires = "space")]
     pub(crate) print: bool,
-    /// Print all points as JSON; with --only the unit
+    /// Print all points as JSON; with --only, print the unit
     #[arg(long, conflicts_with = "markdown")]
     pub(crate) json: bool,
     /// Print all points as a Markdown table

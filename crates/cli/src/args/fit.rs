@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The options of `foveate fit`, percentages among them.
+//! The options of `foveate fit`, and the parsing of percentages.
 
 use std::path::PathBuf;
 
@@ -15,12 +15,12 @@ use super::{DesignArgs, at_least_one};
 
 /// Find the cheapest design that meets limits on your clips
 ///
-/// The configuration is the task of the camera. An ideal camera performs the task in floating point over
-/// whole frames, and candidates are compared with it. The first half of every clip is used to choose a
-/// design, and the second half to report on it. The search covers region size, features, thresholds,
-/// pixel bits, windows, denoising, reference, organization, feed and fold. The exit code is 1 if no
-/// design meets the limits, or if the second half does not confirm the choice; the nearest design is
-/// still written.
+/// The configuration is the task of the camera. An ideal camera performs the task in floating point
+/// over whole frames, and candidates are compared with it. The first half of every clip is used to
+/// choose a design, and the second half to report on it. The search covers region size, features,
+/// thresholds, pixel bits, windows, denoising, reference, organization, feed and fold. The exit
+/// code is 1 if no design meets the limits, or if the second half does not confirm the choice; the
+/// nearest design is still written.
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples: foveate fit street.mp4 --min-fps 120 --max-flips 1% --max-lut 100
@@ -45,10 +45,11 @@ pub(crate) struct FitArgs {
     pub(crate) quiet: bool,
     #[command(flatten)]
     pub(crate) threads: ThreadArgs,
-    /// Synthesize at most this many designs, the most promising first; if none meets all limits, up to 16 more, to find the nearest
+    /// Synthesize at most this many designs, the most promising first; if none meets all limits,
+    /// synthesize up to 16 more to find the nearest one
     #[arg(long, value_name = "N", default_value_t = 48, value_parser = at_least_one())]
     pub(crate) max_syntheses: u32,
-    /// Ground-truth boxes for --min-recall, as of `foveate analyze recall`
+    /// Ground-truth boxes for --min-recall, in a format of `foveate analyze recall`
     #[arg(long, value_name = "FILE", requires = "min_recall")]
     pub(crate) boxes: Vec<PathBuf>,
     #[command(flatten)]
@@ -59,31 +60,35 @@ pub(crate) struct FitArgs {
     pub(crate) input: InputArgs,
 }
 
-/// A network that is not to tell what the receiver sees from whole frames.
+/// The options of a network whose outputs must be nearly the same behind the camera as for whole
+/// frames.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Network")]
 pub(crate) struct NetworkArgs {
-    /// Find the cheapest camera that this network cannot tell from whole frames, an ONNX file as of `foveate infer`. The search
-    /// covers what irrelevant regions show, thresholds, features, region size, denoising, reference and pixel bits
+    /// Find the cheapest camera behind which this network, an ONNX file as for `foveate infer`,
+    /// gives nearly the same outputs as for whole frames. The search covers the rendering of
+    /// irrelevant regions, thresholds, features, region size, denoising, reference and pixel bits
     #[arg(long, value_name = "MODEL")]
     pub(crate) network: Option<PathBuf>,
-    /// The least agreement of what the network says behind the camera with what it says of whole frames: of detections the smaller of
-    /// the share that is kept and the share that is right; of classes the share of frames, or of places, with the same one; else
-    /// what the relative RMS error of the outputs leaves of 100%
+    /// Smallest agreement between the outputs of the network behind the camera and its outputs for
+    /// whole frames. For detections it is the smaller of the share that is kept and the share that
+    /// is right; for classes it is the share of frames, or of places, with the same class;
+    /// otherwise it is 100% minus the relative RMS error of the outputs
     #[arg(long, value_name = "PERCENT", default_value = "95%", value_parser = percent, requires = "network")]
     pub(crate) min_agreement: f64,
-    /// What the design is to be cheapest in: bytes that leave the camera, or area
+    /// Cost that the search minimizes: bytes that leave the camera, or area
     #[arg(long, value_enum, value_name = "WHAT", default_value = "bytes", requires = "network")]
     pub(crate) cheapest: CheapestIn,
-    /// The network looks at this many frames, spread evenly over all clips, of the first two thirds of the first halves, by which it
-    /// searches; of the rest of them, which is to confirm what was found; and of the second halves
+    /// Number of frames, spread evenly over all clips, on which the network runs in each of three
+    /// parts: the first two thirds of the first halves, for the search; the rest of the first
+    /// halves, to confirm its result; and the second halves, for the report
     #[arg(long, value_name = "FRAMES", default_value_t = 48, value_parser = at_least_one(), requires = "network")]
     pub(crate) look_at: u32,
     #[command(flatten)]
     pub(crate) viewing: ViewingArgs,
 }
 
-/// What designs are compared by.
+/// The cost by which designs are compared.
 #[derive(Clone, Copy, Debug, PartialEq, ValueEnum)]
 pub(crate) enum CheapestIn {
     Bytes,
@@ -91,7 +96,7 @@ pub(crate) enum CheapestIn {
 }
 
 impl NetworkArgs {
-    /// What the network has to say, if there is one.
+    /// Returns the goal of the search with a network, if a network is given.
     pub(crate) fn goal<'a>(&'a self, viewing: &'a Viewing) -> Option<NetworkGoal<'a>> {
         let path = self.network.as_deref()?;
         let cheapest = match self.cheapest {
@@ -103,23 +108,25 @@ impl NetworkArgs {
     }
 }
 
-/// What a design must hold.
+/// The limits that a design must meet.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Limits")]
 pub(crate) struct ConstraintArgs {
-    /// Frames per second that the array must reach, at --clock or at the low end of its estimated clock
+    /// Frames per second that the array must reach, at --clock or at the low end of its estimated
+    /// clock
     #[arg(long, value_name = "RATE", default_value = "30", value_parser = Rate::parse)]
     pub(crate) min_fps: Rate,
-    /// The clock that the array runs at; without it the clock of each design is estimated from its netlist
+    /// Clock of the array; without it, the clock of each design is estimated from its netlist
     #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
     pub(crate) clock: Option<Clock>,
     /// First set the thresholds so that this share of the regions is active
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) target_active: Option<f64>,
-    /// Largest share of the regions whose decision may differ from that of the ideal camera; 1% unless --network is given
+    /// Largest share of the regions whose decision may differ from that of the ideal camera; 1%
+    /// unless --network is given
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_flips: Option<f64>,
-    /// Largest share of what is active in the ideal camera that may be missed
+    /// Largest share of the ideal camera's active regions that the design may miss
     #[arg(long, value_name = "PERCENT", value_parser = percent)]
     pub(crate) max_missed: Option<f64>,
     /// Smallest PSNR of the rendered frames against those of the ideal camera, in dB
@@ -131,7 +138,8 @@ pub(crate) struct ConstraintArgs {
     /// At most this many bytes per frame may leave the array
     #[arg(long, value_name = "BYTES", value_parser = at_least_one())]
     pub(crate) max_bytes: Option<u32>,
-    /// Smallest share of the ground-truth objects of --boxes of which at least half of the regions are active
+    /// Smallest share of the ground-truth objects of --boxes that have at least half of their
+    /// regions active
     #[arg(long, value_name = "PERCENT", value_parser = percent, requires = "boxes")]
     pub(crate) min_recall: Option<f64>,
     /// At most this many LUTs of one RPU or lane
@@ -149,7 +157,8 @@ pub(crate) struct ConstraintArgs {
 }
 
 impl ConstraintArgs {
-    /// With a network the task is no more than a start, so that nothing is said of flips unless it is asked for.
+    /// Returns the limits. With a network the configuration is only a start, so that flips have no
+    /// limit unless one is given.
     pub(crate) fn constraints(&self, with_network: bool) -> Constraints {
         const FLIPS: f64 = 0.01;
         Constraints {
@@ -168,7 +177,8 @@ impl ConstraintArgs {
     }
 }
 
-/// `1%` or `0.5%` as a share. Without its sign a number could be either.
+/// Parses a percentage such as `1%` or `0.5%` into a share. The sign is required, because a number
+/// without it could be either.
 fn percent(text: &str) -> Result<f64, String> {
     text.strip_suffix('%')
         .and_then(|number| number.trim().parse::<f64>().ok())

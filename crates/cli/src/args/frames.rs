@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames of the inputs, for the commands that hold all of them in memory.
+//! The frames of the inputs, for commands that hold all of them in memory.
 
 use foveate_design::Design;
 use foveate_footage::{InputOptions, open};
@@ -11,8 +11,8 @@ use crate::error::CliError;
 use crate::interrupt;
 
 impl DesignArgs {
-    /// The frames of the inputs, at most so many, and the design with their size; without inputs the
-    /// design alone.
+    /// Returns the design with the size of the inputs, and at most `at_most` frames of them.
+    /// Without inputs, it returns the design alone.
     pub(crate) fn with_frames(
         &self,
         inputs: &[String],
@@ -25,7 +25,7 @@ impl DesignArgs {
         let (frames, interrupt) = (Some(at_most), interrupt::request());
         let options = InputOptions { frames, interrupt, ..InputOptions::default() };
         warn_of(inputs, &options);
-        // Opened once: standard input and cameras do not come again.
+        // The inputs are opened only once, because standard input and cameras cannot be read again.
         let mut source = open(inputs, &config.camera, &options)?;
         let (width, height) = source.size();
         let design = config.for_frames(width, height)?;

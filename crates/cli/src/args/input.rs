@@ -11,7 +11,7 @@ use foveate_footage::{
 use super::at_least_one;
 use crate::{interrupt, notice};
 
-/// How inputs are read.
+/// The options that say how inputs are read.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Input options")]
 pub(crate) struct InputArgs {
@@ -36,8 +36,8 @@ pub(crate) struct InputArgs {
     /// Scale every frame by area, after cropping
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(crate) resize: Option<(u32, u32)>,
-    /// What image files are: frames of a clip, a set of unrelated images (sub-folders are labels),
-    /// or CIFAR sheets with one image per row [default: clip; of `dataset`: set]
+    /// Meaning of image files: frames of a clip, a set of unrelated images (sub-folders are
+    /// labels), or CIFAR sheets with one image per row [default: clip; for `dataset`: set]
     #[arg(long, value_enum, value_name = "WHAT")]
     pub(crate) images: Option<ImagesChoice>,
     /// Labels of an IDX file, if they are not beside it
@@ -52,7 +52,7 @@ pub(crate) enum ImagesChoice {
     CifarSheet,
 }
 
-/// Says what the user should know of inputs that can be read, but perhaps not as was meant.
+/// Warns the user about inputs that can be read, but perhaps not as they were meant.
 pub(crate) fn warn_of<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) {
     for sentence in advice(inputs, options) {
         notice::warn(&sentence);
@@ -60,7 +60,8 @@ pub(crate) fn warn_of<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) {
 }
 
 impl InputArgs {
-    /// What the options ask for; `images` is what image files are where they do not say.
+    /// Returns the options for reading inputs. `images` is the meaning of image files if `--images`
+    /// is not given.
     pub(crate) fn options(&self, images: ImagesAs) -> InputOptions {
         InputOptions {
             frames: self.max_frames,

@@ -11,7 +11,8 @@ use super::check::decimal;
 use super::input::InputArgs;
 use super::{Clock, DesignArgs};
 
-/// Compare what a camera sends over a link with pixel events, raw frames, MJPEG, H.264 and H.265 at equal quality
+/// Compare what a camera sends over a link with pixel events, raw frames, MJPEG, H.264 and H.265 at
+/// equal quality
 #[derive(Args, Debug)]
 #[command(
     after_help = "Examples: foveate link scene:street -o out --max-frames 10 --codecs mjpeg,h264
@@ -32,14 +33,14 @@ pub(crate) struct LinkArgs {
     /// Rate of the link in bits per second, for example 100Mbit or 1.5Gbit
     #[arg(long, value_name = "RATE", default_value = "100Mbit", value_parser = LinkRate::parse)]
     pub(crate) link: LinkRate,
-    /// The clock of the array, for example 50MHz; `foveate estimate` says what to expect. Without it, times
-    /// are without the array's clocks, whose number is printed
+    /// Clock of the array, for example 50MHz; `foveate estimate` says what clock to expect. Without
+    /// it, times leave out the array's clocks, whose number is printed
     #[arg(long, value_name = "FREQUENCY", value_parser = Clock::parse)]
     pub(crate) clock: Option<Clock>,
     /// Codecs to compare with
     #[arg(long, value_enum, value_name = "LIST", value_delimiter = ',', default_values = ["mjpeg", "h264-intra", "h264", "h265-intra", "h265"])]
     pub(crate) codecs: Vec<CodecChoice>,
-    /// Preset of x264 and x265. An encoder takes no time here, whatever its preset
+    /// Preset of x264 and x265. The time of encoding counts as 0, whatever the preset
     #[arg(long, value_enum, value_name = "PRESET", default_value = "veryfast")]
     pub(crate) effort: EffortChoice,
     /// Print the report as JSON
@@ -48,7 +49,8 @@ pub(crate) struct LinkArgs {
     /// Show no progress and no tables
     #[arg(long, short)]
     pub(crate) quiet: bool,
-    /// Last, because what follows would be listed under its heading.
+    /// The options for reading the inputs. They are last, because clap lists later options under
+    /// their heading.
     #[command(flatten)]
     pub(crate) input: InputArgs,
 }
@@ -98,7 +100,7 @@ impl EffortChoice {
     }
 }
 
-/// Bits per second of a link, 1..=10^12.
+/// The rate of a link in bits per second, 1..=10^12.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct LinkRate(pub(crate) u64);
 

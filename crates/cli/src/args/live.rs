@@ -11,26 +11,26 @@ use foveate_view::PlayerOptions;
 use super::{DesignArgs, InputArgs};
 use crate::error::CliError;
 
-/// See a camera at work, live on a page in the browser: what it sees, what it decides, what the receiver sees, with all its
-/// settings under the mouse
+/// See a camera at work, live on a page in the browser: its input, its decisions, the receiver's
+/// screen, and all settings
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate live
           foveate live street.mp4 --preset fovea
           foveate live rtsp://user:password@camera/stream --resize 640x360
           foveate live --page foveate.html")]
 pub(crate) struct LiveArgs {
-    /// Frames that this machine decodes: what `foveate simulate` takes. Without it the page has the browser's camera, files that
-    /// the browser decodes, and built-in scenes
+    /// Inputs that this machine decodes, as for `foveate simulate`. Without inputs, the page offers
+    /// the browser's camera, files that the browser decodes, and built-in scenes
     #[arg(value_name = "INPUT")]
     pub(crate) inputs: Vec<String>,
     #[command(flatten)]
     pub(crate) design: DesignArgs,
     #[command(flatten)]
     pub(crate) input: InputArgs,
-    /// Where browsers of this machine find the page; port 0 is any that is free
+    /// Address at which browsers of this machine find the page; port 0 takes any free port
     #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:0")]
     pub(crate) address: SocketAddr,
-    /// Write the page as one file that works without a server, and end
+    /// Write the page as one file that works without a server, and exit
     #[arg(long, value_name = "FILE", conflicts_with_all = ["inputs", "address", "config", "preset", "overrides"])]
     pub(crate) page: Option<PathBuf>,
 }
@@ -38,7 +38,7 @@ pub(crate) struct LiveArgs {
 impl LiveArgs {
     pub(crate) fn options(&self) -> Result<PlayerOptions, CliError> {
         let config = self.design.read()?;
-        // A configuration that is none is refused here, with the name of its key, not on the page.
+        // An invalid configuration is refused here, with the name of its key, and not on the page.
         config.camera.validate()?;
         let DesignArgs { config: file, preset, overrides } = &self.design;
         let is_own = file.is_some() || preset.is_some() || !overrides.is_empty();

@@ -5,18 +5,20 @@ use clap::{Args, ValueEnum};
 use foveate_design::Decimal;
 use foveate_simulator::{EventTables, Medium, Packets, PixelEvents, RunOptions};
 
-/// What `simulate` and `decode` write beside arrays, frames.csv and summary.json.
+/// The options for what `simulate` and `decode` write in addition to arrays, frames.csv and
+/// summary.json.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Outputs")]
 pub(crate) struct ViewArgs {
-    /// Format of the rendered frames, which the receiver's screen shows: numbered pictures, a lossless
-    /// video (FFV1), or a video for any player (H.264); video needs ffmpeg
+    /// Format of the rendered frames, which the receiver's screen shows: numbered pictures, a
+    /// lossless video (FFV1), or a video for any player (H.264); video needs ffmpeg
     #[arg(long, value_enum, value_name = "FORMAT", default_value_t = Rendered::Png)]
     pub(crate) rendered: Rendered,
     /// The same as --rendered none
     #[arg(long, conflicts_with = "rendered")]
     pub(crate) no_rendered: bool,
-    /// Write the original frames with the decisions in colour; `decode` knows only the rendered ones, and takes these
+    /// Write the original frames with the decisions in colour; `decode` has no original frames and
+    /// uses the rendered ones
     #[arg(long, value_enum, value_name = "FORMAT", num_args = 0..=1, require_equals = true, default_missing_value = "png")]
     pub(crate) overlay: Option<Pictures>,
     /// Write a map of every score
@@ -30,21 +32,21 @@ pub(crate) struct ViewArgs {
     pub(crate) only: Option<Only>,
 }
 
-/// What `simulate` alone writes, too.
+/// The options for what only `simulate` writes.
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Outputs")]
 pub(crate) struct OutputArgs {
     #[command(flatten)]
     pub(crate) view: ViewArgs,
-    /// Write what the camera sends as a stream of packets, packets.bin, which `foveate decode` reads; with the scores of
-    /// all regions, if asked for
+    /// Write what the camera sends as a stream of packets, packets.bin, which `foveate decode`
+    /// reads; on request with the scores of all regions
     #[arg(long, value_enum, value_name = "CONTENT", num_args = 0..=1, require_equals = true, default_missing_value = "plain")]
     pub(crate) packets: Option<PacketContent>,
     /// Write ordinary (x, y, t, p) events of the same frames; separate several formats with commas
     #[arg(long, value_enum, value_name = "FORMATS", value_delimiter = ',', num_args = 0..=1, require_equals = true, default_missing_value = "npz")]
     pub(crate) pixel_events: Vec<PixelEventFormat>,
-    /// Change of a pixel that makes a pixel event: in grey levels [default: temporal.level + 1], or in
-    /// natural logarithms with --log [default: 0.2]
+    /// Change of a pixel that makes a pixel event: in grey levels [default: temporal.level + 1], or
+    /// in natural logarithms with --log [default: 0.2]
     #[arg(long, value_name = "C", allow_negative_numbers = true, value_parser = parse_decimal, requires = "pixel_events")]
     pub(crate) contrast: Option<Decimal>,
     /// Make pixel events from logarithmic pixel values instead of linear ones
@@ -100,7 +102,7 @@ pub(crate) enum PacketContent {
 }
 
 impl OutputArgs {
-    /// What the options ask for.
+    /// Returns the options of the run.
     pub(crate) fn options(&self) -> RunOptions {
         RunOptions {
             pixel_events: PixelEvents {
@@ -119,7 +121,7 @@ impl OutputArgs {
 }
 
 impl ViewArgs {
-    /// What the options ask for.
+    /// Returns the options of the run.
     pub(crate) fn options(&self) -> RunOptions {
         let medium = |pictures| match pictures {
             Pictures::Png => Medium::Png,

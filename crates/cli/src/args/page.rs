@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page `docs/commands.md`: the command line as clap sees it, in Markdown. The test fails while the page is
-//! not current; `FOVEATE_WRITE_PAGES=1 cargo test -p foveate commands_page` writes it.
+//! The test of the page `docs/commands.md`, which shows the command line as clap sees it, in
+//! Markdown. It fails if the page is not current; `FOVEATE_WRITE_PAGES=1 cargo test -p foveate
+//! commands_page` writes the page.
 
 use super::Cli;
 use clap::{Arg, Command, CommandFactory};
@@ -8,7 +9,8 @@ use std::collections::HashMap;
 use std::fmt::Write;
 use std::{env, fs, path::Path};
 
-/// Options that so many commands share, word for word, stand once at the end of the page.
+/// The number of commands from which on an option that they share, word for word, is listed once at
+/// the end of the page.
 const SHARED: usize = 4;
 const SHARED_TITLE: &str = "Options of several commands";
 

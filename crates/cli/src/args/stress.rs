@@ -5,7 +5,8 @@ use clap::Args;
 
 use super::threads::ThreadArgs;
 
-/// Run the hard cases, and print what was expected, what came out and the worst error
+/// Run the hard cases, and print the expected result, the observed result and the worst error of
+/// each
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate stress --short
           foveate stress --markdown > stress.md")]

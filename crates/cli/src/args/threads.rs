@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How many threads share the work of a command.
+//! The number of threads that share the work of a command.
 
 use std::env;
 use std::thread::available_parallelism;
@@ -10,23 +10,24 @@ use foveate_simulator::MAX_THREADS;
 use super::Command;
 use crate::error::CliError;
 
-/// What says it where `--threads` does not. Rayon reads it, too.
+/// The environment variable with the number of threads if `--threads` is not given. Rayon reads it,
+/// too.
 const VARIABLE: &str = "RAYON_NUM_THREADS";
 
-/// How many threads share the work.
+/// The option for the number of threads.
 #[derive(Args, Debug)]
 pub(crate) struct ThreadArgs {
-    /// Threads that share the work, up to 256; 0 takes one per processor. It changes no result. Without it
-    /// RAYON_NUM_THREADS says how many, or else it is one per processor
+    /// Number of threads that share the work, up to 256; 0 takes one per processor. It changes no
+    /// result. The default is the value of RAYON_NUM_THREADS, or else one per processor
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = number)]
     pub(crate) threads: Option<usize>,
 }
 
 impl ThreadArgs {
-    /// Starts so many threads.
+    /// Starts the threads that share the work.
     ///
     /// # Errors
-    /// When the variable has no such number, or the system gives no threads.
+    /// Fails if the variable has no valid number, or if the system starts no threads.
     pub(crate) fn start(&self) -> Result<(), CliError> {
         let Some(threads) = self.threads.map_or_else(variable, |threads| Ok(Some(threads)))? else {
             return Ok(());
@@ -45,7 +46,7 @@ impl ThreadArgs {
 }
 
 impl Command {
-    /// How many threads share the work; `None` where one does it alone.
+    /// Returns the option for the number of threads; `None` for a command that works in one thread.
     pub(crate) fn threads(&self) -> Option<&ThreadArgs> {
         match self {
             Self::Simulate(args) => Some(&args.threads),
@@ -73,7 +74,7 @@ impl Command {
     }
 }
 
-/// What the variable says, if anything.
+/// Returns the number of threads in the environment variable, if it is set.
 fn variable() -> Result<Option<usize>, CliError> {
     let Some(text) = env::var_os(VARIABLE).filter(|text| !text.is_empty()) else {
         return Ok(None);

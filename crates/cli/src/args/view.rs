@@ -10,14 +10,15 @@ use foveate_view::{Play, ViewOptions};
 use super::{DesignArgs, at_least_one};
 use crate::error::CliError;
 
-/// Show live, on a page in the browser, what a camera sends: its screen, its decisions, what is lost, and the registers of
-/// a core on a serial line
+/// Show live, on a page in the browser, what a camera sends: its screen, its decisions, its losses,
+/// and the registers of a core on a serial line
 #[derive(Args, Debug)]
 #[command(after_help = "Examples: foveate view /dev/ttyUSB0 --config core/design.toml
           foveate view packets.bin --preset steady --play looped
           cat packets.bin | foveate view - --preset steady")]
 pub(crate) struct ViewArgs {
-    /// A serial port; a file or FIFO with packets, such as packets.bin of `foveate simulate --packets`; - for standard input
+    /// A serial port; a file or FIFO with packets, such as packets.bin of `foveate simulate
+    /// --packets`; - for standard input
     #[arg(value_name = "INPUT")]
     pub(crate) input: PathBuf,
     #[command(flatten)]
@@ -25,21 +26,22 @@ pub(crate) struct ViewArgs {
     /// Bits per second of a serial port
     #[arg(long, value_name = "RATE", default_value_t = 3_000_000, value_parser = at_least_one())]
     pub(crate) baud: u32,
-    /// Where browsers of this machine find the page; port 0 is any that is free
+    /// Address at which browsers of this machine find the page; port 0 takes any free port
     #[arg(long, value_name = "IP:PORT", default_value = "127.0.0.1:0")]
     pub(crate) address: SocketAddr,
-    /// When frames are shown. The default is timed for a file, and at-once for anything else
+    /// Times at which frames are shown. The default is timed for a file, and at-once for all other
+    /// inputs
     #[arg(long, value_enum)]
     pub(crate) play: Option<PlayChoice>,
 }
 
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub(crate) enum PlayChoice {
-    /// By their times
+    /// At the times of the frames
     Timed,
-    /// As soon as they are read
+    /// At once, as they are read
     AtOnce,
-    /// A file by its times, again and again
+    /// A file at the times of its frames, again and again
     Looped,
 }
 

@@ -46,7 +46,7 @@ pub(crate) fn run(args: &AnalyzeArgs) -> Result<(), CliError> {
     Err(CliError::Failed(format!("`{place}` is not complete: {}", report.problems.join("; "))))
 }
 
-/// The table, unless it has a row for everything that the chart shows better.
+/// Returns the names of the files, and the table unless the chart shows its rows better.
 fn text(args: &AnalyzeArgs, report: &StudyReport) -> String {
     let files = format!("{}: {}\n", args.output.display(), report.files.join(", "));
     match args.study.0 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate bench`: every level of a design over the same frames, what it costs, and whether they agree.
+//! `foveate bench`: the same frames through every level of a design, with the cost of each level
+//! and a comparison.
 
 mod table;
 

@@ -68,7 +68,8 @@ pub(crate) fn run(args: &BuildArgs) -> Result<(), CliError> {
     complaint.map_or(Ok(()), |complaint| Err(CliError::Failed(complaint)))
 }
 
-/// The configuration of the board, that of the file, or the preset, with the changes.
+/// Returns the configuration of the file, of the preset or of the board, with the changes of
+/// `--set`.
 fn configuration(board: &Board, args: &BuildArgs) -> Result<Config, CliError> {
     let text = match (&args.config, &args.preset) {
         (Some(file), _) => {
@@ -99,7 +100,7 @@ fn text(project: &Project, folder: &Path, files: usize, built: Option<&Built>) -
         design.height(),
         design.fingerprint()
     );
-    // Writing to a string cannot fail.
+    // Writing to a string cannot fail, so that the results of `writeln!` are ignored below.
     let Some(built) = built else {
         let make = if project.is_open() {
             "sh build.sh 5"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate cosim`: model against RTL, every output at every clock.
+//! `foveate cosim`: comparison of model and RTL, every output at every clock.
 
 mod end_to_end;
 mod plan;
@@ -21,7 +21,7 @@ use crate::{interrupt, notice, output};
 use end_to_end::{EndToEnd, EndToEndFolder};
 use plan::{Plan, Work};
 
-/// All that is told.
+/// All results that the command prints.
 #[derive(Serialize)]
 struct Told<'a> {
     #[serde(flatten)]
@@ -62,7 +62,7 @@ pub(crate) fn run(args: &CosimArgs) -> Result<(), CliError> {
     Err(CliError::Failed(complaint))
 }
 
-/// Refuses files and folders that cannot be written, before inputs are looked at.
+/// Fails if a file or folder cannot be written. This is checked before inputs are read.
 fn check_places(args: &CosimArgs) -> Result<(), CliError> {
     for file in [&args.junit, &args.packets].into_iter().flatten() {
         check_file(file)?;
@@ -71,7 +71,7 @@ fn check_places(args: &CosimArgs) -> Result<(), CliError> {
     args.end_to_end.as_deref().map_or(Ok(()), EndToEndFolder::check)
 }
 
-/// What was not simulated, and what helps.
+/// Returns the message about what was not simulated, and the options that help.
 fn incomplete(summary: &Summary) -> String {
     let missing = summary.situations.missing();
     if !missing.is_empty() {
@@ -97,7 +97,7 @@ fn incomplete(summary: &Summary) -> String {
     text
 }
 
-/// Runs one after the other, up to one that does not agree.
+/// Runs the co-simulations one after the other, up to the first with a mismatch.
 fn all(
     args: &CosimArgs,
     mut plan: Plan,
@@ -116,7 +116,7 @@ fn all(
             break;
         }
     }
-    // The next run has replaced the waves of the one before it.
+    // Each run has replaced the waves of the run before it.
     let earlier = reports.len().saturating_sub(1);
     reports.iter_mut().take(earlier).for_each(|report| report.waves = None);
     let names = left.map(|work| work.name()).collect();
@@ -126,7 +126,7 @@ fn all(
     Ok(Summary::new(plan.design.fingerprint(), reports, names, left_out, plan::is_whole(args)))
 }
 
-/// The levels at which arrays are simulated, and whether the core on AXI is.
+/// Returns the levels at which arrays are simulated, and true if the core on AXI is simulated.
 fn reached(works: &[Work]) -> (Vec<Level>, bool) {
     let levels = works.iter().filter_map(|work| match work {
         Work::Array(job) => Some(job.stimulus.level),
@@ -135,7 +135,8 @@ fn reached(works: &[Work]) -> (Vec<Level>, bool) {
     (levels.collect(), works.iter().any(|work| matches!(work, Work::Axi(_))))
 }
 
-/// A result; a CI server is to hear of an error, too: a tool failed, so there is none.
+/// Returns `result`. An error is also written as JUnit XML, because a tool that failed leaves no
+/// other result for the CI server.
 fn told_to_ci<T>(
     args: &CosimArgs,
     name: &str,
@@ -148,8 +149,8 @@ fn told_to_ci<T>(
     })
 }
 
-/// What runs at these levels leave out of the Verilog that is given. `agree` says that there is no mismatch: else it is not
-/// asked what else there is.
+/// Returns the parts of the given Verilog that runs at these levels leave out. `agree` is true if
+/// there is no mismatch; only then are variants of modules looked for.
 fn left_out(
     args: &CosimArgs,
     plan: &Plan,
@@ -165,7 +166,7 @@ fn left_out(
     tops.extend(has_axi.then(|| prefix.name(AXI_TOP)));
     let tops: Vec<&str> = tops.iter().map(String::as_str).collect();
     let modules = not_simulated(sources, &tops);
-    // Who asks for a part knows that the rest is left out.
+    // A user who chooses a part knows that the rest is left out.
     let variants = if agree && plan::is_whole(args) {
         not_elaborated(design, sources, prefix, levels, toolchain)?
     } else {

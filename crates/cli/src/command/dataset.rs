@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate dataset`: a set of images in, the set of their active regions out. It is a simulation that
-//! writes the set instead of pictures.
+//! `foveate dataset`: a set of images in, the set of their active regions out. The command is a
+//! simulation that writes the set instead of pictures.
 
 use foveate_footage::ImagesAs;
 use foveate_simulator::RunOptions;
@@ -13,7 +13,7 @@ pub(crate) fn run(args: &DatasetArgs) -> Result<(), CliError> {
     run_job(&Job {
         inputs: &args.inputs,
         config: args.design.read()?,
-        // Nothing is guessed: a set is what the command is for.
+        // Images are a set by default, because this command is for sets.
         input: args.input.options(ImagesAs::Set),
         output: &args.output,
         options: RunOptions {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate estimate`: area and logic levels from Yosys beside the paper's table, or the clock of a
-//! placed design.
+//! `foveate estimate`: area and logic levels from Yosys next to the paper's table, or the clock of
+//! a placed design.
 
 mod compare;
 mod flow;

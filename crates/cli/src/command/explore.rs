@@ -78,7 +78,7 @@ fn tell(args: &ExploreArgs, folder: &Path, found: &Exploration) -> Result<(), Cl
     }
 }
 
-/// The file, or the space of that name where there is no file.
+/// Reads the file. If it does not exist, the built-in space of that name is returned.
 fn read(file: &Path) -> Result<String, CliError> {
     let built_in = BUILT_IN.iter().find(|space| Path::new(space.name) == file);
     match built_in.filter(|_| !file.exists()) {
@@ -101,7 +101,7 @@ fn blame(file: &Path, error: &ExploreError) -> CliError {
     CliError::Usage(format!("{}: {error}", file.display()))
 }
 
-/// Draws progress and listens for Ctrl-C.
+/// The progress of the command on the terminal, and the flag that Ctrl-C sets.
 pub(super) struct Terminal {
     pub(super) shown: Shown,
     interrupted: Arc<AtomicBool>,
@@ -112,10 +112,10 @@ impl Terminal {
         Ok(Self { shown: Shown::new(quiet), interrupted: interrupt::flag()? })
     }
 
-    /// The tools of this machine, stopped by the same Ctrl-C.
+    /// Returns the tools of this machine. The same Ctrl-C stops them.
     pub(super) fn synthesizer(&self) -> Result<Synthesizer, CliError> {
         let toolchain = Toolchain::system().cancelled_by(Arc::clone(&self.interrupted));
-        // A missing Yosys is told before hours of measurements.
+        // A missing Yosys is reported before hours of measurements.
         toolchain.find(foveate_toolchain::Tool::Yosys)?;
         Ok(Synthesizer { toolchain, cache: Cache::from_env()? })
     }

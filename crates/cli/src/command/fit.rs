@@ -59,7 +59,8 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     verdict(&found)
 }
 
-/// What the exit code says.
+/// Returns an error, which sets the exit code, if the design is not confirmed or the input
+/// incomplete.
 fn verdict(found: &Fit) -> Result<(), CliError> {
     if !found.problems.is_empty() {
         return Err(CliError::Failed(format!(
@@ -163,7 +164,7 @@ fn text(args: &FitArgs, found: &Fit, width: usize) -> String {
     text
 }
 
-/// What a network says of the design.
+/// Returns the lines about the agreement of the network's outputs.
 fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
     let (fitted, held_out) = design.bytes_per_frame;
     let parts = [
@@ -199,7 +200,7 @@ fn sighted(network: &FittedNetwork, design: &FittedDesign) -> Vec<String> {
     parts.map(part).into_iter().chain(network.noise.iter().map(noisy)).collect()
 }
 
-/// How many RPUs or lanes there are.
+/// Returns the number of RPUs or lanes, with their name.
 fn units(design: &FittedDesign) -> String {
     let name = design.config.hardware.organization.unit_name();
     let plural = if design.silicon.units == 1 { "" } else { "s" };
@@ -219,7 +220,7 @@ fn figures_text(figures: &Figures) -> String {
     )
 }
 
-/// A paragraph of at most `width` columns, further lines indented.
+/// Appends a paragraph of at most `width` columns; its later lines are indented.
 fn paragraph(text: &mut String, line: &str, width: usize, indent: &str) {
     let options = textwrap::Options::new(width).subsequent_indent(indent);
     for line in textwrap::wrap(line, options) {

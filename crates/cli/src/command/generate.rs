@@ -16,14 +16,14 @@ struct Listing<'a> {
     format_version: u32,
     fingerprint: String,
     folder: &'a str,
-    /// What the names of modules begin with.
+    /// The prefix of the names of all modules.
     #[serde(skip_serializing_if = "str::is_empty")]
     prefix: &'a str,
     files: Vec<&'a str>,
     benches: Vec<BenchListing<'a>>,
 }
 
-/// What the vectors of a bench show.
+/// The vectors of a bench: their length, and the regions in them by their state.
 #[derive(Serialize)]
 struct BenchListing<'a> {
     top: &'static str,
@@ -33,7 +33,8 @@ struct BenchListing<'a> {
     active: u64,
     held: u64,
     blank: u64,
-    /// Of those that are blank, where irrelevant regions send summaries.
+    /// The number of blank regions that send a summary. It is left out if irrelevant regions send
+    /// none.
     #[serde(skip_serializing_if = "Option::is_none")]
     summaries: Option<u64>,
     compared: u64,

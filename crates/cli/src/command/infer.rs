@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate infer`: a network behind the camera, and what the camera's masks save it.
+//! `foveate infer`: a network behind the camera, and the computations that the camera's masks save.
 
 mod network;
 
@@ -61,7 +61,7 @@ fn clip(args: &InferArgs, words: &[OsString], folder: &Path) -> Result<(), CliEr
     hooks.verdict(folder, summary.problem)
 }
 
-/// The words of the command line, for the page.
+/// Returns the words of the command line, for the page.
 fn command(words: &[OsString]) -> Vec<String> {
     let words = words.iter().skip(1).map(|word| shown_input(Path::new(word)));
     std::iter::once("foveate".to_owned()).chain(words).collect()
@@ -75,7 +75,7 @@ fn frames(count: u64, kind: &str) -> String {
     format!("{count} {kind}{}", if count == 1 { "frame" } else { "frames" })
 }
 
-/// A line for each of several clips.
+/// Returns a line for each clip if there are several clips.
 fn clips(summary: &Summary) -> String {
     if summary.clips.len() == 1 {
         return String::new();
@@ -102,7 +102,7 @@ fn clips(summary: &Summary) -> String {
     summary.clips.iter().map(line).collect()
 }
 
-/// How limits were chosen, and whether they hold.
+/// Returns the lines about the choice of limits, with the statement whether they hold.
 fn tuned(tuning: &Tuning, summary: &Summary) -> String {
     let (of, these) = if summary.is_tuned_on_clips() {
         let reported: Vec<&str> = summary.clips.iter().map(|clip| &clip.name[..]).collect();
@@ -136,7 +136,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
         "{}: {}{} of {} x {} pixels, mode {}{}\n",
         folder.display(),
         frames(summary.frames, ""),
-        // The usual layout is left out.
+        // The usual values are left out: every frame, and layout nchw.
         if summary.every.get() == 1 {
             String::new()
         } else {
@@ -235,7 +235,7 @@ fn text(folder: &Path, summary: &Summary) -> String {
     text
 }
 
-/// What the network loses behind the camera.
+/// Returns the lines about what the network loses behind the camera.
 fn sighted(sight: &Sight) -> String {
     let psnr = sight.picture_psnr.map_or("infinite".to_owned(), |psnr| format!("{psnr:.1} dB"));
     let mut text = format!(

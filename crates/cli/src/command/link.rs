@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate link`: what a camera sends over a link, beside codecs at equal quality.
+//! `foveate link`: a comparison of what a camera sends over a link with codecs at equal quality.
 
 use foveate_footage::ImagesAs;
 use foveate_link::{LINK, Request, compare};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate presets`: what there is to start from.
+//! `foveate presets`: the presets and scenes to start from.
 
 use foveate_design::{Config, PRESETS, Preset};
 use foveate_scenes::Scene;
@@ -15,7 +15,7 @@ struct List {
     entries: Vec<Entry>,
 }
 
-/// Something with a name and a line about it.
+/// The name of a preset or scene, and a line about it.
 #[derive(Serialize)]
 struct Entry {
     name: &'static str,
@@ -24,7 +24,8 @@ struct Entry {
 
 pub(crate) fn run(args: &PresetsArgs) -> Result<(), CliError> {
     if let Some(name) = &args.name {
-        // Every key but the frame's size, unless the preset is for one: simulations take it from their input.
+        // The file has every key except the size of the frame, which simulations take from their
+        // input. A preset for frames of one size has that size, too.
         let own = Preset::find(name)?.config()?;
         let mut config = own.validate()?.spelled_out();
         (config.camera.frame.width, config.camera.frame.height) =

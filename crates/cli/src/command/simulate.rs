@@ -42,7 +42,7 @@ pub(super) struct Job<'a> {
     pub(super) quiet: bool,
 }
 
-/// Runs it with progress, prints its summary and says how it ended.
+/// Runs the job with progress and prints its summary. Fails if the result is not complete.
 pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
     let Job { inputs, config, input, output: folder, options, quiet, .. } = job;
     StagedFolder::check(folder, SIMULATION, options.overwrite)?;
@@ -69,7 +69,8 @@ pub(super) fn run_job(job: &Job<'_>) -> Result<(), CliError> {
     }
 }
 
-/// JSON was asked for; the text is for those who did not ask for quiet.
+/// Prints the summary: as JSON if JSON was asked for, and otherwise as text unless the command is
+/// quiet.
 fn tell(
     job: &Job<'_>,
     summary: &impl serde::Serialize,
@@ -82,7 +83,7 @@ fn tell(
     }
 }
 
-/// Draws progress and listens for Ctrl-C.
+/// The progress of the command on the terminal, and the flag that Ctrl-C sets.
 pub(super) struct Terminal {
     pub(super) shown: Shown,
     interrupted: Arc<AtomicBool>,
@@ -93,7 +94,7 @@ impl Terminal {
         Ok(Self { shown: Shown::new(quiet), interrupted: interrupt::flag()? })
     }
 
-    /// What a result that is there, but not complete, means for the exit code.
+    /// Fails if there is a result that is not complete. The error sets the exit code.
     pub(super) fn verdict(&self, folder: &Path, problem: Option<String>) -> Result<(), CliError> {
         let Some(problem) = problem else { return Ok(()) };
         if self.interrupted.load(Ordering::Relaxed) {
@@ -167,7 +168,7 @@ pub(super) fn text(folder: &Path, summary: &Summary) -> String {
     )
 }
 
-/// What irrelevant regions have sent, where they send something.
+/// Returns the text about the means that irrelevant regions have sent, if they send means.
 fn means(summary: &Summary) -> String {
     match (summary.means_sent, summary.summaries_sent) {
         (Some(means), Some(regions)) => format!(", {means} means of {regions} irrelevant regions"),
@@ -175,7 +176,7 @@ fn means(summary: &Summary) -> String {
     }
 }
 
-/// Where a data set is.
+/// Returns the line about the folder of a data set.
 fn data_set(folder: &Path, made: &DataSet) -> String {
     let labels = match (&made.labels, made.classes.len()) {
         (Some(labels), _) => format!(", labels in {}", folder.join(labels).display()),
@@ -185,7 +186,7 @@ fn data_set(folder: &Path, made: &DataSet) -> String {
     format!("data set in {}{labels}\n", folder.join(&made.images).display())
 }
 
-/// What the cameras send, a line for each.
+/// Returns a line with bytes and events for each camera.
 fn traffic(bandwidth: &Bandwidth) -> String {
     let per_second =
         |rate: Option<f64>| rate.map_or(String::new(), |rate| format!(" ({rate:.0}/s)"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate stress`: hard cases, and whether what must come out of them does.
+//! `foveate stress`: hard cases, with a check of their results.
 
 use std::sync::atomic::Ordering;
 
@@ -45,7 +45,7 @@ fn verdict(row: &CaseRow) -> &'static str {
     if row.holds { "ok" } else { "FAILED" }
 }
 
-/// Two lines a row, so that it fits into any terminal.
+/// Returns two paragraphs per row, so that each row fits into a narrow terminal.
 fn text(rows: &[CaseRow]) -> String {
     let width = output::width();
     let mut text = String::new();

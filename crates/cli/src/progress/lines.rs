@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A line of progress now and then, for logs: the first after five seconds, then ever more rarely, once a
+//! Lines of progress for logs: the first after five seconds, then ever more rarely, and once a
 //! minute at last.
 
 use std::sync::mpsc::{self, RecvTimeoutError, Sender};
@@ -11,21 +11,21 @@ use super::stage::{Stage, locked};
 use super::words::logged;
 use crate::notice;
 
-/// Seconds between lines; `0` for none.
+/// The environment variable with the seconds between lines; `0` means no lines.
 const VARIABLE: &str = "FOVEATE_PROGRESS";
 const FIRST: Duration = Duration::from_secs(5);
 const LAST: Duration = Duration::from_secs(60);
 const LONGEST: u64 = 86_400;
 
-/// A thread that prints. It ends when this is dropped.
+/// The thread that prints the lines. It ends when this value is dropped.
 pub(super) struct Lines {
-    /// None once it is to end.
+    /// The sender whose drop ends the thread; `None` from then on.
     alive: Option<Sender<()>>,
     thread: Option<JoinHandle<()>>,
 }
 
 impl Lines {
-    /// Nothing where the user wants no lines.
+    /// Starts the thread, or returns `None` if the user wants no lines.
     pub(super) fn start(stage: Arc<Mutex<Stage>>) -> Option<Self> {
         let asked = std::env::var(VARIABLE).ok().filter(|text| !text.is_empty());
         let interval = match asked.as_deref().map(parse) {
@@ -54,7 +54,7 @@ impl Lines {
                 }
             }
         };
-        // Without a thread there are no lines, which is no reason to stop.
+        // A system that starts no thread prints no lines, which is no reason to stop.
         let thread = std::thread::Builder::new().name("progress".to_owned()).spawn(tell).ok();
         Some(Self { alive: Some(alive), thread })
     }
@@ -69,7 +69,7 @@ impl Drop for Lines {
     }
 }
 
-/// As long again as it has taken, within bounds.
+/// Returns the time to the next line: as long as the command has taken so far, within bounds.
 fn pause(elapsed: Duration) -> Duration {
     elapsed.clamp(FIRST, LAST)
 }

@@ -1,22 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A stage of a command: its task, how much of it is done, since when, at which rate, and how long the rest takes.
+//! A stage of a command: its task, the amount that is done, its start, its rate, and the time that
+//! is left.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// A pace is one only after so long: what comes first may lie in a cache, or start a tool.
+/// The time after which a rate is computed. Before, results may come from a cache, or a tool may
+/// start.
 const PACE_AFTER: Duration = Duration::from_secs(2);
-/// A longer time is told as more than this: no run that is meant takes it.
+/// The longest time that is shown as it is. A longer time is shown as more than this, because no
+/// meaningful run takes so long.
 pub(super) const LONGEST: Duration = Duration::from_secs(7 * 24 * 3600);
 
-/// The things that a stage counts.
+/// The unit in which a stage counts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum StageUnit {
-    /// Nothing: one run of a tool.
+    /// No unit: one run of a tool.
     Work,
     /// Steps, with a name.
     Steps,
-    /// Frames, with a note beside them.
+    /// Frames, with a note beside the count.
     Frames,
 }
 
@@ -28,25 +31,26 @@ pub(super) struct StageAmount {
 }
 
 impl StageAmount {
-    /// Nothing has no length, and what is done lies in it: a damaged video may promise less than it has.
+    /// Makes an amount. A total of 0 is unknown. A total is at least `done`, because a damaged
+    /// video may promise fewer frames than it has.
     pub(super) fn new(done: u64, all: Option<u64>) -> Self {
         Self { done, all: all.filter(|&all| all > 0).map(|all| all.max(done)) }
     }
 }
 
-/// What goes on.
+/// The present stage of a command.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Stage {
-    /// None before the command has said what it does.
+    /// The unit of the count; `None` before the command has reported a stage.
     pub(super) counted: Option<StageUnit>,
     pub(super) what: String,
     pub(super) amount: StageAmount,
-    /// When it began, and what was done of it by then.
+    /// The time at which the stage began. `first` is the count that was done by then.
     began: Instant,
     first: u64,
 }
 
-/// How long the rest takes.
+/// The time that the rest takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Left {
     About(Duration),
@@ -59,8 +63,8 @@ impl Stage {
         Self { counted: None, what, amount, began: now, first: 0 }
     }
 
-    /// The next stage, or the same with other words. Steps of another kind have a pace of their own; notes
-    /// beside frames change while these go on.
+    /// Enters the next stage, or updates the present one. Steps with another name begin a stage
+    /// with a rate of its own; the notes of frames change within a stage.
     pub(super) fn enter(
         &mut self,
         counted: StageUnit,
@@ -78,22 +82,24 @@ impl Stage {
         what.clone_into(&mut self.what);
     }
 
-    /// The count since the stage began, and the time that it took; nothing until a pace can be told from them.
+    /// Returns the count since the stage began, and the time that it took; `None` until they give a
+    /// rate.
     fn pace(&self, now: Instant) -> Option<(u64, Duration)> {
         let elapsed = now.saturating_duration_since(self.began);
         let fresh = self.amount.done.saturating_sub(self.first);
         (fresh > 0 && elapsed >= PACE_AFTER).then_some((fresh, elapsed))
     }
 
-    /// The count per second since the stage began.
+    /// Returns the count per second since the stage began.
     pub(super) fn rate(&self, now: Instant) -> Option<f64> {
         let (fresh, elapsed) = self.pace(now)?;
         #[allow(clippy::cast_precision_loss, reason = "three digits of it are told")]
         Some(fresh as f64 / elapsed.as_secs_f64())
     }
 
-    /// How long the rest takes if it goes on as it has gone since the stage began; nothing before something
-    /// of it is done, or when nothing is left. A step that takes long makes it longer little by little.
+    /// Returns the time that the rest takes at the rate since the stage began; `None` until
+    /// something is done, and when nothing is left. During a long step the result grows little by
+    /// little.
     pub(super) fn left(&self, now: Instant) -> Option<Left> {
         let (fresh, elapsed) = self.pace(now)?;
         let rest = self.amount.all?.saturating_sub(self.amount.done);
@@ -108,7 +114,7 @@ impl Stage {
     }
 }
 
-/// The stage, whether or not a thread that held it has panicked: it is whole at any time.
+/// Locks the stage. Its value is valid even if a thread panicked while it held the lock.
 pub(super) fn locked(stage: &Mutex<Stage>) -> MutexGuard<'_, Stage> {
     stage.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -137,7 +143,7 @@ mod tests {
         assert_eq!(left(10, 1), None, "too early");
         assert_eq!(left(31, 100), None, "nothing is left");
         assert_eq!(left(10, 100), Some(Left::About(210 * SECOND)));
-        // Ten minutes without a step, and a day: no more than in proportion.
+        // After ten minutes without a step, and after a day, the time has grown only in proportion.
         assert_eq!(left(10, 700), Some(Left::About(1470 * SECOND)));
         assert_eq!(left(10, 86_500), Some(Left::About(181_650 * SECOND)));
     }
@@ -171,7 +177,8 @@ mod tests {
     fn a_rate_is_what_was_done_in_the_time_that_it_took() {
         let start = Instant::now();
         let mut stage = Stage::new(start);
-        // A count from before the stage is left out, and a length that becomes known begins a new stage.
+        // A count from before the stage is left out, and a length that becomes known begins a new
+        // stage.
         stage.enter(Frames, "", StageAmount::new(100, None), start);
         stage.enter(Frames, "", StageAmount::new(149, None), start + 5 * SECOND);
         assert_eq!(stage.rate(start + 5 * SECOND), Some(9.8));

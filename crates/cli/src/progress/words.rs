@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A stage in words: in a log, and on a line of a terminal that may be narrow.
+//! The words of a stage: in a log, and on a line of a terminal that may be narrow.
 
 use std::time::{Duration, Instant};
 
@@ -8,7 +8,8 @@ use textwrap::core::display_width;
 
 use super::stage::{Left, Stage, StageAmount, StageUnit};
 
-/// The state of a command for a log; nothing until the command has reported one. `start` is when the command began.
+/// Returns the state of a command for a log; `None` until the command has reported a stage. `start`
+/// is the time at which the command began.
 pub(super) fn logged(stage: &Stage, start: Instant, now: Instant) -> Option<String> {
     let (counted, what) = (stage.counted?, &stage.what);
     let StageAmount { done, all } = stage.amount;
@@ -28,8 +29,9 @@ pub(super) fn logged(stage: &Stage, start: Instant, now: Instant) -> Option<Stri
     })
 }
 
-/// The state of a command in at most so many columns of a terminal: the count always, and then what is left, the rate, the time that
-/// it took and the note, as there is room.
+/// Returns the state of a command in at most `columns` columns of a terminal. The count is always
+/// shown. The time that is left, the rate, the elapsed time and the note follow as there is room,
+/// in this order.
 pub(super) fn drawn(stage: &Stage, elapsed: Duration, now: Instant, columns: usize) -> String {
     let Some(counted) = stage.counted else { return String::new() };
     let elapsed = format!("{:#}", HumanDuration(elapsed));
@@ -64,7 +66,7 @@ pub(super) fn drawn(stage: &Stage, elapsed: Duration, now: Instant, columns: usi
     lines.into_iter().find(fits).unwrap_or_else(|| cut(least, columns))
 }
 
-/// The first characters that have room.
+/// Returns the first characters of `text` that fit into `columns`.
 fn cut(text: &str, columns: usize) -> String {
     let mut cut = String::new();
     for character in text.chars() {
@@ -77,7 +79,7 @@ fn cut(text: &str, columns: usize) -> String {
     cut
 }
 
-/// A rate with two or three digits, in the unit of time that gives it some before the point.
+/// Returns a rate per second, per minute or per hour: the first of these that is at least 1.
 fn rate_of(rate: f64, counted: StageUnit) -> String {
     let unit = match counted {
         StageUnit::Work | StageUnit::Steps => "",
@@ -103,7 +105,7 @@ mod tests {
 
     const SECOND: Duration = Duration::from_secs(1);
 
-    /// A stage 66 seconds after the start, of which `first` were done then.
+    /// Returns a stage at 66 seconds after its start, when `first` was done.
     fn stage(counted: StageUnit, what: &str, first: u64, amount: StageAmount) -> (Stage, Instant) {
         let start = Instant::now();
         let mut stage = Stage::new(start);

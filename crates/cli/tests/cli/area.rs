@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What `estimate` says of a core on AXI is what Yosys says of the folder that `generate` writes, on every family.
+//! The area that `estimate` prints for a core on AXI, compared with the area that Yosys finds in
+//! the folder of `generate`, on every device family.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -24,10 +25,10 @@ const DESIGN: [&str; 10] = [
     "denoise.filter='none'",
 ];
 
-/// Cells by type.
+/// The number of cells by type.
 type Cells = BTreeMap<String, u64>;
 
-/// Runs the words in the folder of a core, and returns what they print.
+/// Runs a command in the folder of a core, and returns its output.
 fn run(core: &Path, mut command: Command) -> String {
     let output = command.current_dir(core).output().unwrap();
     let text = String::from_utf8(output.stdout).unwrap();
@@ -35,8 +36,8 @@ fn run(core: &Path, mut command: Command) -> String {
     text
 }
 
-/// The cells of a module of a generated core after Yosys alone, with the commands that the report names, and what was
-/// kept apart put together.
+/// Returns the cells of a module of a generated core, as Yosys alone finds them with the commands
+/// that the report names. Modules that were kept separate are added up.
 fn synthesized(core: &Path, top: &str) -> Cells {
     let files = fs::read_to_string(core.join(format!("{top}.f"))).unwrap();
     let script = format!(
@@ -57,7 +58,7 @@ fn synthesized(core: &Path, top: &str) -> Cells {
     yosys.args(["-q", "-s", "own.ys"]);
     run(core, yosys);
     let text = fs::read_to_string(core.join("stat.txt")).unwrap();
-    // Type and number, the number first in newer versions.
+    // A line has type and number; newer versions print the number first.
     let cell = |line: &str| match line.split_whitespace().collect::<Vec<_>>()[..] {
         [one, other] => one.parse().map_or_else(
             |_| Some((one.to_owned(), other.parse().ok()?)),
@@ -76,7 +77,8 @@ fn count(cells: &Cells, kinds: &[&str]) -> u64 {
         .sum()
 }
 
-/// Logic LUTs, flip-flops, carry blocks and halves of block RAM, as the report of an area has them.
+/// Returns the LUTs of logic, flip-flops, carry blocks and halves of block RAM, as in the report of
+/// an area.
 fn figures(cells: &Cells) -> [u64; 4] {
     let luts = (1..=6).map(|inputs| cells.get(&format!("LUT{inputs}")).unwrap_or(&0)).sum::<u64>();
     [
@@ -103,22 +105,24 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
     let report: Value = serde_json::from_str(&outcome.stdout).unwrap();
     let core = dir.path().join("core");
     let whole = reported(&report["bus"]["whole"]);
-    // `estimate` reads fewer cells than Yosys alone, and the same names: without those this core has two LUTs fewer.
+    // `estimate` reads fewer cells than Yosys alone, with the same names; without those names this
+    // core has two LUTs fewer.
     assert_eq!(whole, figures(&synthesized(&core, "rcm_axi")));
-    // The array is another number, and less.
+    // The array has another number, which is smaller.
     let array = reported(&report["rcm"]);
     if takes_whole_lists() {
         assert_eq!(array, figures(&synthesized(&core, "rcm")));
     }
     assert!(array[0] < whole[0] && array[1] < whole[1], "{array:?} of {whole:?}");
-    // Each part takes something. Together with the array they take more than the whole, which shares logic, but not by much.
+    // Each part takes some LUTs. Together with the array the parts take a little more than the
+    // whole core, which shares logic.
     let parts = report["bus"]["parts"].as_array().unwrap();
     let luts = parts.iter().map(|part| reported(&part["area"])[0]).collect::<Vec<_>>();
     assert!(luts.len() == 5 && luts.iter().all(|&luts| luts > 0), "{parts:?}");
     let sum = array[0] + luts.iter().sum::<u64>();
     assert!(sum.abs_diff(whole[0]) * 5 < whole[0], "{sum} beside {}", whole[0]);
 
-    // The same for people, of what was synthesized before.
+    // The text output has the same area, which was synthesized before.
     let text = succeed_in(dir.path(), &[&["estimate"], &DESIGN[..]].concat());
     for row in [
         "core ",
@@ -147,7 +151,8 @@ fn the_area_of_a_core_on_axi_is_that_of_its_folder() {
     assert!(fewer[1] + 64 <= whole[1], "{fewer:?} of {whole:?}: 32 bits of the time, twice");
 }
 
-/// Cells of the netlist that a script of a core left, without the registers at its ports.
+/// Returns the cells of the netlist that a script of a core has left, without the registers at its
+/// ports.
 fn placed(folder: &Path) -> Cells {
     let netlist: Value =
         serde_json::from_slice(&fs::read(folder.join("netlist.json")).unwrap()).unwrap();
@@ -162,7 +167,7 @@ fn placed(folder: &Path) -> Cells {
     cells
 }
 
-/// The core on AXI, and the array in it, which is another one.
+/// This test places the core on AXI, and the array in it, which is another module.
 #[test]
 #[ignore = "a minute of synthesis and routing; scripts/release.sh runs it"]
 fn the_script_of_a_core_on_axi_places_what_the_estimate_counts() {
@@ -174,13 +179,14 @@ fn the_script_of_a_core_on_axi_places_what_the_estimate_counts() {
         dir.path(),
         &[&["generate", "-o", "core", "--prefix", "cam0"], &DESIGN[..]].concat(),
     );
-    // Without a word the script takes the whole core, as does an estimate without a level.
+    // Without an argument the script takes the whole core, as an estimate does without a level.
     let whole = same_when_placed(dir.path(), ("", "rcm_axi"), &[&[], &["--level", "axi"]]);
     let array = same_when_placed(dir.path(), ("rcm", "rcm"), &[&["--level", "rcm"]]);
     assert!(count(&whole, &["SB_LUT4"]) > count(&array, &["SB_LUT4"]), "{whole:?}, {array:?}");
 }
 
-/// The cells that the script of the core in a folder places of the module that it calls by that word; estimates with these options count the same.
+/// Returns the cells that the script of the core places for the module that it calls `word`.
+/// Estimates with each of these options must count the same.
 fn same_when_placed(dir: &Path, (word, top): (&str, &str), estimates: &[&[&str]]) -> Cells {
     let program = |tool| Toolchain::system().find(tool).unwrap().path;
     let (core, kept) = (dir.join("core"), format!("kept-{top}"));

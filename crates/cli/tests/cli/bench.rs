@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! bench, end to end, with the tools and without.
+//! Tests of `bench`, end to end, with the tools and without.
 
 use crate::common::{fail_in, foveate, succeed_in};
 use foveate_toolchain::Tool;
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 const TINY: [&str; 5] = ["bench", "--set", "frame={width=16,height=16}", "--seconds", "0.01"];
 
-/// Runs it on four regions and returns its rows, by level.
+/// Runs `bench` on four regions and returns its rows, by level.
 fn rows(extra: &[&str]) -> Vec<Value> {
     let dir = tempfile::tempdir().unwrap();
     let args = [&TINY[..], &["--json"], extra].concat();

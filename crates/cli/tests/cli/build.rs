@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate build`, without the tools of a device: boards are listed, projects written, a slow bitstream is told from a missing
-//! one, and what is wrong is said.
+//! Tests of `foveate build` without the tools of a device: the list of boards, the projects, the
+//! difference between a slow and a missing bitstream, and the error messages.
 
 use std::fs;
 
@@ -33,7 +33,7 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
     assert!(toml.contains("level = 9"), "{toml}");
     fail_in(dir.path(), 2, &made, &["`out`"]);
 
-    // Its files are a start for another board with another sensor.
+    // The files of the project are a start for another board with another sensor.
     let board = fs::read_to_string(dir.path().join("out/board.toml")).unwrap();
     let board = board.replace("sensor = \"hm01b0-4\"", "sensor = \"mine.toml\"");
     let sensor = fs::read_to_string(dir.path().join("out/sensor.toml")).unwrap();
@@ -47,7 +47,7 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
     let read = |name: &str| fs::read_to_string(dir.path().join("out").join(name)).unwrap();
     assert!(read("board.pcf").contains("set_io sensor_data_i[0] 32"));
     assert!(read("rtl/board.v").contains(".FORMAT(4)"));
-    // A core of that design is what cosim takes, too.
+    // `cosim` takes a core of that design, too.
     assert!(read("board.f").lines().all(|path| dir.path().join("out").join(path).is_file()));
 
     let json =
@@ -56,7 +56,7 @@ fn a_project_is_written_and_a_board_of_ones_own_is_built_from_it() {
     assert_eq!((&report["board"], report.get("bitstream")), (&"vcu118".into(), None));
     assert!(dir.path().join("v/build.tcl").is_file());
 
-    // A preset takes the place of the board's design: here an array, with keys of its own.
+    // A preset replaces the board's design; here it is an array, with keys of its own.
     let array = [
         "build",
         "--board",
@@ -96,7 +96,7 @@ fn what_is_wrong_with_a_board_or_its_design_is_said() {
     assert!(!dir.path().join("out").exists());
 }
 
-/// A bitstream that is too slow is there, and a failed check; a tool that fails is another thing.
+/// A bitstream that is too slow exists and is a failed check. A tool that fails is another case.
 #[cfg(unix)]
 #[test]
 fn a_slow_bitstream_is_no_failure_of_a_tool() {

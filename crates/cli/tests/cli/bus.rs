@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A core on AXI, end to end: generated, simulated, its packets decoded, and broken.
+//! Tests of a core on AXI, end to end: generated, simulated, its packets decoded, and with planted
+//! faults.
 
 use std::fs;
 use std::path::Path;
@@ -37,7 +38,7 @@ fn the_packets_of_a_core_on_axi_are_what_simulate_says() {
         text.contains("axi verilator:") && text.matches("values compared").count() == 3,
         "{text}"
     );
-    // Five pictures, three arrays of decisions, and one of means that were sent.
+    // The nine files are five pictures, three arrays of decisions, and one array of sent means.
     assert!(text.contains("end to end: 5 frames, 9 files"), "{text}");
 
     let design = ["--config", "core/design.toml"];
@@ -105,7 +106,7 @@ fn options_of_cores_on_axi_are_refused_elsewhere() {
     assert!(nothing.code == 2 && nothing.stderr.contains("<INPUT>"), "{}", nothing.stderr);
 }
 
-/// Every C compiler takes the header and what the guide does with the driver, without a warning.
+/// Every C compiler accepts the header and the guide's use of the driver without a warning.
 #[test]
 fn what_the_guide_shows_of_a_core_is_c() {
     if !require_tools(&[Tool::Cxx]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The benches that come with a core, by the commands of the core's own README.
+//! Tests of the benches that come with a core, by the commands of the core's own README.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::common::succeed_in;
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-/// Runs `tb/replay.sh` as the README says, without Foveate; returns its exit code and what it prints.
+/// Runs `tb/replay.sh` as the README says, without Foveate. Returns its exit code and its output.
 fn replay(core: &Path, args: &[&str]) -> (Option<i32>, String) {
     let readme = fs::read_to_string(core.join("README.md")).unwrap();
     assert!(readme.contains("    sh tb/replay.sh\n"), "{readme}");
@@ -21,7 +21,7 @@ fn replay(core: &Path, args: &[&str]) -> (Option<i32>, String) {
 
 /// Writes a core.
 fn core(folder: &Path, settings: &[&str]) {
-    // Some tests edit it, and edited files are not replaced.
+    // Some tests edit the core, and edited files are not replaced.
     let _ = fs::remove_dir_all(folder.join("core"));
     let mut args = vec!["generate", "--preset", "bare", "-o", "core"];
     for setting in settings {
@@ -58,7 +58,7 @@ fn the_bench_of_a_pipelined_core_finds_an_edited_leaf() {
             "{args:?}: {text}"
         );
     }
-    // What somebody breaks in the array alone is found by its bench alone.
+    // A fault in the array alone is found by the bench of the array alone.
     core(dir.path(), &[]);
     edit(&folder.join("rtl/rcm.v"), ".pixel_i(pixel_i[REGION*8+:8])", ".pixel_i(pixel_i[7:0])");
     assert_eq!(replay(&folder, &["rpu"]).0, Some(0));
@@ -68,7 +68,8 @@ fn the_bench_of_a_pipelined_core_finds_an_edited_leaf() {
     }
 }
 
-/// The commands that the README gives for those who use no script, and the exit code of the simulator.
+/// The README gives these commands to users without the script, together with the exit code of the
+/// simulator.
 #[test]
 fn the_bench_runs_by_hand_and_in_verilator() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp, Tool::Verilator]) {
@@ -121,7 +122,7 @@ fn the_instance_of_the_readme_fits_the_core() {
         [&[frame][..], &[frame, constant], &[frame, serial], &[frame, lanes], &[frame, raster]]
     {
         let folder = dir.path().join("core");
-        // What the last round compiled there is none of Foveate's files.
+        // The files that the last round compiled there are not Foveate's.
         let _ = fs::remove_dir_all(&folder);
         core(dir.path(), settings);
         let readme = fs::read_to_string(folder.join("README.md")).unwrap();
@@ -141,7 +142,8 @@ fn the_instance_of_the_readme_fits_the_core() {
     }
 }
 
-/// A design that no picture makes active: generate says so, and its benches do not pass.
+/// No picture makes a region of this design active. `generate` warns about that, and the benches do
+/// not pass.
 #[test]
 fn a_core_whose_vectors_show_too_little_never_passes() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
@@ -185,7 +187,7 @@ fn the_bench_of_a_serial_core_finds_an_edited_leaf() {
         let (code, text) = replay(&folder, &[]);
         assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 2), "{settings:?}: {text}");
     }
-    // Every stage of a frame is in the vectors: votes, Table I, pixels that leave.
+    // The vectors reach every stage of a frame: votes, Table I, and pixels that leave.
     let faults = [
         ("serial_decision", "score_o >= minimum", "score_o < minimum", "_o expected"),
         (
@@ -223,7 +225,7 @@ fn the_bench_of_a_raster_core_finds_an_edited_leaf() {
     assert_eq!((code, text.matches(": PASS ").count()), (Some(0), 1), "{text}");
     let readme = fs::read_to_string(folder.join("README.md")).unwrap();
     assert!(readme.contains("## A live stream"), "{readme}");
-    // Votes, and a region that is lost.
+    // The vectors reach votes and a lost region.
     for (leaf, from, to, port) in [
         ("vote", "score_i >= minimum_i", "score_i > minimum_i", "_o expected"),
         ("raster_readout", "assign lost_o = held_stale ||", "assign lost_o = 1'b0 &&", "lost_o"),

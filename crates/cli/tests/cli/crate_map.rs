@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The map of the crates is true: every crate is on it, with what its manifest imports, and imports
-//! go only upwards.
+//! Tests that the map of the crates is true. It lists every crate with the imports of its manifest,
+//! and imports go only upwards.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs;
@@ -12,7 +12,7 @@ fn crates() -> &'static Path {
     Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/.."))
 }
 
-/// What every crate's manifest names below `[dependencies]`.
+/// Returns the crates that every manifest names below `[dependencies]`.
 fn manifests() -> Imports {
     let folders = fs::read_dir(crates()).unwrap().map(|entry| entry.unwrap().path());
     let imports = folders.filter(|folder| folder.join("Cargo.toml").is_file()).map(|folder| {
@@ -26,12 +26,12 @@ fn manifests() -> Imports {
     imports.collect()
 }
 
-/// Words between backticks.
+/// Returns the words between backticks.
 fn quoted(text: &str) -> BTreeSet<String> {
     text.split('`').skip(1).step_by(2).map(str::to_owned).collect()
 }
 
-/// The rows of the table.
+/// Returns the rows of the table.
 fn table(map: &str) -> Imports {
     let rows = map.lines().filter(|line| line.starts_with("| `"));
     let mut table = Imports::new();
@@ -46,7 +46,7 @@ fn table(map: &str) -> Imports {
     table
 }
 
-/// The height of every crate in the drawing, 0 at the top.
+/// Returns the height of every crate in the drawing, 0 at the top.
 fn heights(map: &str) -> BTreeMap<String, usize> {
     let drawing = map.split("```").nth(1).unwrap();
     let rows = drawing.lines().filter(|line| line.contains(char::is_alphabetic));
@@ -72,7 +72,7 @@ fn the_map_is_what_the_manifests_say() {
     }
 }
 
-/// What computes a camera, or shows it frames, cannot ask what hardware it has.
+/// A crate that computes a camera, or that gives it frames, cannot import hardware.
 #[test]
 fn the_crates_of_the_camera_cannot_see_hardware() {
     let imports = manifests();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! dataset, end to end.
+//! Tests of `dataset`, end to end.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ fn names(folder: &Path) -> Vec<String> {
     files_below(folder).into_iter().map(|(name, _)| name.display().to_string()).collect()
 }
 
-/// Two images of 16x16 pixels.
+/// Writes an IDX file with two images of 16x16 pixels.
 fn idx(folder: &Path, name: &str) {
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let pixels = (0..512u32).map(|pixel| (pixel * pixel / 16).to_le_bytes()[0]);
@@ -66,7 +66,7 @@ fn a_folder_is_a_set_here_unless_someone_says_otherwise() {
     assert!(!dir.path().join("no").exists());
 }
 
-/// An interrupt ends a long run soon, says so, and leaves a set that says how long it is.
+/// An interrupt ends a long run soon, with a message, and leaves a set whose header has its length.
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_a_set_that_can_be_read() {

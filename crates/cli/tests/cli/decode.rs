@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! simulate --packets and decode, end to end.
+//! Tests of `simulate --packets` and `decode`, end to end.
 
 use std::fs;
 use std::process::{Command, Stdio};
@@ -28,7 +28,7 @@ fn a_stream_becomes_what_was_simulated() {
     assert!(!dir.path().join("seen/losses.csv").exists());
     fail_in(dir.path(), 2, &seen, &["seen", "not empty"]);
 
-    // From a pipe, cut off in the middle of the last frame.
+    // The stream comes from a pipe and ends in the middle of the last frame.
     let bytes = fs::read(dir.path().join("sent/packets.bin")).unwrap();
     let piped = ["decode", "-", "-o", "seen", "--force", "--preset", "steady", "--json"];
     let output = foveate(&piped)
@@ -58,7 +58,7 @@ fn a_stream_that_sends_nothing_is_left_at_once() {
             .spawn()
             .unwrap();
         let patience = Instant::now() + Duration::from_secs(60);
-        // Its folder is in the making once it listens.
+        // The temporary folder exists when the command listens for signals.
         while fs::read_dir(dir.path()).unwrap().next().is_none() {
             assert!(Instant::now() < patience, "it does not begin");
             std::thread::sleep(Duration::from_millis(5));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! check, presets, completions and generate, end to end.
+//! Tests of `check`, `presets`, `completions` and `generate`, end to end.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +27,7 @@ fn check_prints_the_card_as_text_and_json() {
     assert_eq!(card["rcm_ports"].as_array().unwrap().len(), 16);
 }
 
-/// What irrelevant regions send is on the card of every organization, and benches count it.
+/// The card of every organization shows what irrelevant regions send, and benches count it.
 #[test]
 fn a_periphery_is_checked_and_generated() {
     let dir = tempfile::tempdir().unwrap();
@@ -100,7 +100,7 @@ fn check_tells_how_fast_each_organization_is() {
     assert_eq!(card["timing"]["phases"].as_array().unwrap().len(), 5);
 }
 
-/// A rate holds at a clock, and a check knows none.
+/// A frame rate depends on a clock, and a check without `--clock` knows none.
 #[test]
 fn check_without_a_clock_says_which_one_a_rate_needs() {
     let dir = tempfile::tempdir().unwrap();
@@ -109,7 +109,7 @@ fn check_without_a_clock_says_which_one_a_rate_needs() {
     assert!(text.contains("7905 clocks per frame; 1000 frames/s need a clock of 7.905 MHz\n"));
     assert!(!text.contains("frames/s at") && !text.contains("proposal"), "{text}");
     let asked = ["--preset", "bare", "--min-fps", "29.97"];
-    // 64 clocks 29.97 times are 1,918.08 clocks.
+    // 64 clocks times 29.97 are 1,918.08 clocks.
     let text = check(&asked).split_whitespace().collect::<Vec<_>>().join(" ");
     let line = "29.97 frames/s need a clock of 1.919 kHz. `foveate estimate` says whether";
     assert!(text.contains(line), "{text}");
@@ -117,7 +117,7 @@ fn check_without_a_clock_says_which_one_a_rate_needs() {
     let card: Value = serde_json::from_str(&json).unwrap();
     assert_eq!(card["needs"], serde_json::json!({"frames_per_second": 29.97, "clock_hz": 1919}));
     assert!(card.get("rate").is_none() && card.get("proposal").is_none());
-    // The exit code alone would say nothing.
+    // The exit code alone would have no meaning.
     fail_in(dir.path(), 2, &[&["check", "--quiet"], &asked[..]].concat(), &["give --clock"]);
     let given = [&["check", "--quiet", "--clock", "2kHz"], &asked[..]].concat();
     assert_eq!(succeed_in(dir.path(), &given), "");
@@ -134,11 +134,11 @@ fn check_proposes_the_largest_fold_that_reaches_a_rate() {
     assert_eq!((&proposal["fold"], &proposal["cycles_per_frame"]), (&38.into(), &244797.into()));
     let text = succeed_in(dir.path(), &ask("1000")[..7]);
     assert!(text.contains("fold 38 for 1000 frames/s: 21 lanes"), "{text}");
-    // The design itself takes 250 MHz / 7905 = 31,625.5 frames per second: no fold is faster.
+    // The design itself reaches 250 MHz / 7905 = 31,625.5 frames per second, and no fold is faster.
     let none = ["no fold reaches 31626 frames/s", "fold 1 is the fastest", "7905 clocks per frame"];
     fail_in(dir.path(), 1, &ask("31626")[..7], &none);
     succeed_in(dir.path(), &ask("31625.5"));
-    // A pipelined one takes 250 MHz / 64 = 3,906,250 frames per second.
+    // A pipelined design reaches 250 MHz / 64 = 3,906,250 frames per second.
     let pipelined = |rate| ["check", "--preset", "bare", "--clock", "250MHz", "--min-fps", rate];
     let text = succeed_in(dir.path(), &pipelined("3906250"));
     assert!(text.contains("3906250 frames/s are reached: 64 clocks per frame"), "{text}");
@@ -153,7 +153,7 @@ fn check_proposes_the_largest_fold_that_reaches_a_rate() {
     }
 }
 
-/// The name had two meanings; it has none now.
+/// The option `--fps` had two meanings and no longer exists.
 #[test]
 fn fps_says_which_of_its_two_successors_to_take() {
     let dir = tempfile::tempdir().unwrap();
@@ -216,7 +216,8 @@ fn every_preset_is_a_file_that_check_takes() {
     assert!(succeed_in(dir.path(), &["presets", "--scenes"]).contains("street"));
 }
 
-/// A preset as a file has every key that somebody could change, and says which frames it is for.
+/// A preset as a file has every key that a user can change, and the size of its frames if it has
+/// one.
 #[test]
 fn every_preset_has_every_key_and_the_right_size() {
     let dir = tempfile::tempdir().unwrap();
@@ -286,7 +287,7 @@ fn there_is_a_manual_page_for_each_command() {
     fail_in(dir.path(), 2, &["man", "-o", "file"], &["cannot make the folder `file`"]);
 }
 
-/// Regenerate with the commands that CONTRIBUTING.md has under "Change what is generated".
+/// The cores are regenerated with the commands in CONTRIBUTING.md under "Change what is generated".
 #[test]
 fn the_committed_cores_are_not_stale() {
     let names = |files: &[(std::path::PathBuf, Vec<u8>)]| {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Files without an end: each argument that names a file to read gets one, and the command refuses it in bounded time and memory.
+//! Tests with endless files. Each argument that names a file to read gets one, and the command must
+//! refuse it in bounded time and memory.
 #![cfg(target_os = "linux")]
 
 use std::collections::BTreeSet;
@@ -12,12 +13,13 @@ use std::time::{Duration, Instant};
 use flate2::Compression;
 use flate2::write::GzEncoder;
 
-/// Address space of a command in KiB: too little for an endless file.
+/// The address space of a command in KiB, which is too small for an endless file.
 const MEMORY_KIB: u32 = 3 << 20;
-/// Every refusal takes far below a second; a loaded machine takes longer.
+/// The time limit of a refusal. Each takes far below a second; a loaded machine takes longer.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// Arguments of the commands that name files which are read, and a call with an endless file in their place.
+/// The arguments that name files to read: the command, the argument, and a call with an endless
+/// file in its place.
 const CALLS: &[(&str, &str, &str)] = &[
     ("check", "[FILE]", "check ENDLESS"),
     ("build", "--config", "build --board icebreaker --project -o out --config ENDLESS"),
@@ -57,14 +59,16 @@ const CALLS: &[(&str, &str, &str)] = &[
     ("several", "--labels", "simulate images-idx3-ubyte --labels ENDLESS -o out"),
 ];
 
-/// Streams of any length: they are read until they end or the user stops them, in bounded memory.
+/// The arguments that name streams of any length. These are read until they end or the user stops
+/// the command, in bounded memory.
 const STREAMS: &[(&str, &str)] =
     &[("decode", "<STREAM>"), ("view", "<INPUT>"), ("live", "[INPUT]...")];
 
-/// Names of values that are files or folders.
+/// The value names that mean files or folders.
 const VALUES: &[&str] = &["FILE", "DIR", "INPUT", "MODEL", "STREAM", "SPACE", "NAME|FILE"];
 
-/// Arguments of the page of commands that name a file or folder that is read: the command, and the option or positional.
+/// Returns the arguments on the page of commands that name a file or folder to read: the command,
+/// and the option or positional argument.
 fn arguments_that_are_read(page: &str) -> BTreeSet<(String, String)> {
     let mut found = BTreeSet::new();
     let mut command = String::new();
@@ -111,7 +115,7 @@ fn every_argument_that_names_a_file_is_tried() {
     assert!(missing.is_empty(), "{missing:?} need a call in CALLS, or a reason to be in STREAMS");
 }
 
-/// Files that calls name beside the endless one.
+/// Writes the files that calls name beside the endless one.
 fn prepare(folder: &Path) {
     let link = |name: &str| std::os::unix::fs::symlink("/dev/zero", folder.join(name)).unwrap();
     link("endless.toml");
@@ -121,7 +125,7 @@ fn prepare(folder: &Path) {
     fs::write(folder.join("images-idx3-ubyte"), [&images[..], &[7; 64]].concat()).unwrap();
 }
 
-/// Runs a command with little memory; returns its exit code and what it said.
+/// Runs a command with little memory. Returns its exit code and its messages.
 fn run(folder: &Path, args: &[&str]) -> (Option<i32>, String) {
     let mut command = Command::new("sh");
     command.args([
@@ -178,7 +182,7 @@ fn a_file_without_an_end_is_refused() {
     }
 }
 
-/// A packed line of 4 GiB, as members of 1 MiB each.
+/// The packed line has 4 GiB, as members of 1 MiB each.
 #[test]
 fn an_endless_line_in_a_packed_table_is_refused() {
     let folder = tempfile::tempdir().unwrap();

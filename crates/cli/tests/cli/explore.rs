@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate explore` and `foveate fit`, end to end.
+//! Tests of `foveate explore` and `foveate fit`, end to end.
 
 use std::fs;
 use std::path::Path;
@@ -40,7 +40,7 @@ fn a_space_becomes_a_folder_and_a_rerun_gives_the_same() {
     let json = succeed_in(dir.path(), &[&RUN[..], &["--json"]].concat());
     let json: serde_json::Value = serde_json::from_str(&json).unwrap();
     assert_eq!(json["rows"][3]["figures"]["action_flips"], 0.0);
-    // Nothing is synthesized, so no clock is known, unless the space gives one.
+    // Nothing is synthesized, so that no clock is known unless the space gives one.
     assert!(json["rows"][3]["speed"].is_null() && json["clock_mhz"].is_null(), "{json}");
     fs::write(dir.path().join("space.toml"), format!("clock_mhz = 50\n{SPACE}")).unwrap();
     let given = succeed_in(dir.path(), &[&RUN[..], &["--json"]].concat());
@@ -160,7 +160,7 @@ fn what_fit_finds_can_be_generated() {
     assert_eq!(none.code, 1, "{}", none.stdout);
     assert!(none.stdout.contains("Binding: without --max-lut"), "{}", none.stdout);
     assert!(none.stderr.contains("no design meets all limits"), "{}", none.stderr);
-    // An object in the lower left corner, which changes now and then.
+    // The ground truth is an object in the lower left corner, which changes now and then.
     let rows = (1..=8).map(|frame| format!("{frame},1,1,17,8,8,1,1,1\n"));
     fs::write(dir.path().join("gt.txt"), rows.collect::<String>()).unwrap();
     let lost = fit(&["--max-flips", "0%", "--boxes", "gt.txt", "--min-recall", "90%"]);

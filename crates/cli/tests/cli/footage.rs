@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Inputs that are something else than they were taken for, and what is said of them.
+//! Tests of inputs that are not of the type for which they were taken, and of the messages about
+//! them.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +17,7 @@ fn ffmpeg(folder: &Path, args: &str) {
     assert!(status.unwrap().success());
 }
 
-/// What a run that ends well said on standard error.
+/// Returns the messages on standard error of a run that succeeds.
 fn said(folder: &Path, args: &[&str]) -> String {
     let _ = fs::remove_dir_all(folder.join("out"));
     let outcome = run_in(folder, &[args, &["-o", "out", "--quiet"]].concat());
@@ -63,7 +64,7 @@ fn what_is_no_video_is_not_to_be_played() {
         assert!(!outcome.stderr.contains("play it"), "{}", outcome.stderr);
         assert!(!outcome.stderr.contains("secret"), "{}", outcome.stderr);
     }
-    // What claims to be a video may be a damaged one.
+    // An input that claims to be a video may be a damaged one.
     fail_in(dir.path(), 2, &["simulate", "broken.mp4", "-o", "out"], &["broken.mp4", "play it"]);
 }
 
@@ -129,7 +130,7 @@ fn an_animated_png_is_a_clip() {
         assert_eq!(said(dir.path(), &["simulate", input, "--rate", "10"]), "");
         fs::read(dir.path().join("out/score_edge.npy")).unwrap()
     };
-    // All five frames, the same pixels as those of the pictures.
+    // The clip has all five frames, with the same pixels as the pictures.
     assert_eq!(scores("moving.png"), scores("frames"));
     fs::copy(dir.path().join("moving.png"), dir.path().join("frames/6.png")).unwrap();
     let parts = ["`frames/6.png` is an animated PNG", "on its own"];
@@ -154,7 +155,7 @@ fn images_without_their_labels_are_told() {
     let labels = "t10k-labels-idx1-ubyte";
     fs::write(dir.path().join(labels), [0, 0, 8, 1, 0, 0, 0, 2, 7, 1]).unwrap();
     assert_eq!(said(dir.path(), &["dataset", "t10k-images-idx3-ubyte"]), "");
-    // Labels for what has none were passed over.
+    // Labels for inputs that cannot have labels used to be ignored.
     pgm(&dir.path().join("a.pgm"), (16, 16), |x, _| x.to_le_bytes()[0]);
     for input in ["a.pgm", "scene:street"] {
         let args = ["simulate", input, "--labels", labels, "-o", "no"];
@@ -162,7 +163,7 @@ fn images_without_their_labels_are_told() {
     }
 }
 
-/// A folder of which only a part is taken.
+/// The commands read a folder of which only a part is used.
 #[test]
 fn every_command_that_reads_clips_says_what_it_leaves_out() {
     let dir = tempfile::tempdir().unwrap();
@@ -181,18 +182,18 @@ fn every_command_that_reads_clips_says_what_it_leaves_out() {
         let said = said(dir.path(), args);
         assert!(said.starts_with(warning) && said.lines().count() == 1, "{args:?}: {said}");
     }
-    // What it says comes before the search for tools.
+    // The warning comes before the search for tools.
     let fit =
         foveate(&["fit", "clip"]).current_dir(dir.path()).env("FOVEATE_YOSYS", "gone").output();
     let said = String::from_utf8(fit.unwrap().stderr).unwrap();
     assert!(said.starts_with(warning) && said.lines().count() == 2, "{said}");
 }
 
-/// A picture whose rows are pictures themselves, and a photograph of the same shape.
+/// The inputs are a picture whose rows are pictures themselves, and a photograph of the same shape.
 #[test]
 fn a_sheet_is_told_from_a_photograph() {
     let dir = tempfile::tempdir().unwrap();
-    // Every row a ramp of 32x32 pixels of another brightness and direction.
+    // Every row is a ramp of 32x32 pixels with another brightness and direction.
     pgm(&dir.path().join("sheet.pgm"), (1024, 40), |x, y| {
         let (column, row) = (x % 32, x / 32);
         ((y * 97) % 150 + if y % 2 == 0 { column + row } else { 62 - column - row }).to_le_bytes()
@@ -208,7 +209,7 @@ fn a_sheet_is_told_from_a_photograph() {
     assert!(warned.contains("`photo.pgm` looks like a photograph"), "{warned}");
 }
 
-/// The same of real ones, where the environment variable FOVEATE_DATA names their folder.
+/// This test uses real sheets, if the environment variable FOVEATE_DATA names their folder.
 #[test]
 fn a_real_sheet_is_told() {
     let Some(data) = data_folder() else { return };

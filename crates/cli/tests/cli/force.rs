@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `--force` replaces what Foveate wrote, and nothing else.
+//! Tests that `--force` replaces only files that Foveate wrote.
 
 use std::fs;
 
@@ -21,7 +21,7 @@ fn a_folder_with_files_of_others_is_not_replaced() {
         let out = dir.path().join("out");
         assert_ne!(succeed_in(dir.path(), command), "");
         fail_in(dir.path(), 2, command, &["`out` is not empty"]);
-        // Quiet commands say nothing.
+        // Quiet commands print nothing.
         assert_eq!(succeed_in(dir.path(), &again), "", "{command:?}");
         fs::create_dir_all(out.join("rendered")).unwrap();
         for name in ["notes.txt", "rendered/cover.png"] {
@@ -33,7 +33,7 @@ fn a_folder_with_files_of_others_is_not_replaced() {
         for name in ["notes.txt", "rendered/cover.png", ".foveate"] {
             fs::remove_file(out.join(name)).unwrap();
         }
-        // As it was written before there were lists.
+        // A folder without a list of its files looks as older versions wrote it.
         fail_in(dir.path(), 2, &again, &["`out`", "no list", "move what is in it"]);
         fs::remove_dir_all(&out).unwrap();
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A full disk: what was done until then is there, whole, and marked as partial. On a small file
-//! system in a name space of its own, where the system allows one.
+//! Tests of a full disk. The results until then remain, complete in themselves and marked as
+//! partial. The disk is a small file system in a name space of its own, if the system allows one.
 #![cfg(target_os = "linux")]
 
 use std::fs;
@@ -12,8 +12,8 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::{require_tools, skip};
 use serde_json::Value;
 
-/// Runs a command on a file system of so many KiB, and copies to `copy` what is there afterwards; none
-/// where no file system can be mounted.
+/// Runs a command on a file system of `kib` KiB, and copies the files that are left to the returned
+/// folder. Returns `None` if no file system can be mounted.
 pub(crate) fn run_within(kib: u32, folder: &Path, args: &str) -> Option<(Output, PathBuf)> {
     let (place, copy) = (folder.join("small"), folder.join(format!("copy of {kib}")));
     fs::create_dir_all(&place).unwrap();
@@ -38,7 +38,7 @@ pub(crate) fn run_within(kib: u32, folder: &Path, args: &str) -> Option<(Output,
     None
 }
 
-/// Frames of an array, by its header and by its length.
+/// Returns the number of frames of an array, from its header and from its length.
 fn frames_of(array: &[u8], bytes_of_frame: usize) -> (usize, usize) {
     let header = String::from_utf8_lossy(&array[..128]).into_owned();
     let shape = header.split_once("'shape': (").unwrap().1;
@@ -50,7 +50,7 @@ fn frames_of(array: &[u8], bytes_of_frame: usize) -> (usize, usize) {
 #[test]
 fn what_fits_is_there_whole_and_marked_as_partial() {
     let dir = tempfile::tempdir().unwrap();
-    // 784 regions; the table alone would need some 15 MB.
+    // The scene has 784 regions; the table alone would need some 15 MB.
     let args = "simulate scene:street --frames 500 --events csv,parquet --pixel-events=npz,csv";
     let Some((ran, copy)) = run_within(6144, dir.path(), args) else { return };
     let said = String::from_utf8_lossy(&ran.stderr).into_owned();
@@ -84,7 +84,7 @@ fn what_fits_is_there_whole_and_marked_as_partial() {
     assert!(!out.join(".reserve").exists());
 }
 
-/// Whatever is written beside, the frames until then are there, and no message names a place that is gone.
+/// The frames until then remain, whatever else is written, and no message names a temporary path.
 #[test]
 fn frames_are_kept_whatever_is_written_beside_them() {
     let dir = tempfile::tempdir().unwrap();
@@ -137,7 +137,7 @@ fn frames_are_kept_whatever_is_written_beside_them() {
         assert!(frames > 0, "{args}: {said}");
         let table = fs::read_to_string(out.join("frames.csv")).unwrap();
         assert_eq!(table.lines().count(), frames + 1, "{args}");
-        // Every file that is there is whole, and every file that is missing is named.
+        // Every file that exists is complete, and every missing file is named.
         let problem = summary["problem"].as_str().unwrap();
         for name in ["rendered", "overlay"] {
             let pictures = out.join(name);
@@ -182,7 +182,7 @@ fn a_disk_that_is_full_at_once_leaves_nothing_and_is_named() {
     assert_eq!(fs::read_dir(copy).unwrap().count(), 0);
 }
 
-/// The outputs of a network are kept whole or not at all.
+/// The outputs of a network are kept completely or not at all.
 #[test]
 fn outputs_for_which_there_is_no_room_leave_nothing() {
     let dir = tempfile::tempdir().unwrap();
@@ -202,7 +202,8 @@ fn outputs_for_which_there_is_no_room_leave_nothing() {
     }
 }
 
-/// A command without frames, or with files that are made at the end, writes all of them or none, and names the one that did not fit.
+/// A command without frames, or with files that are written at the end, writes all of them or none,
+/// and names the file that did not fit.
 #[test]
 fn other_commands_leave_nothing_and_name_the_file() {
     let dir = tempfile::tempdir().unwrap();
@@ -225,7 +226,7 @@ fn other_commands_leave_nothing_and_name_the_file() {
     }
 }
 
-/// A file that was there is as it was.
+/// An existing file stays unchanged.
 #[test]
 fn a_file_for_which_there_is_no_room_stays_as_it_was() {
     let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! cosim and estimate, end to end, with the tools and without.
+//! Tests of `cosim` and `estimate`, end to end, with the tools and without.
 
 use std::fs;
 use std::path::Path;
@@ -42,7 +42,8 @@ fn model_and_rtl_agree_in_both_simulators() {
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "a good run leaves nothing");
 }
 
-/// Every region of real images, where the environment variable FOVEATE_DATA names their folder.
+/// This test uses every region of real images, if the environment variable FOVEATE_DATA names their
+/// folder.
 #[test]
 fn real_images_agree() {
     let Some(data) = data_folder() else { return };
@@ -90,8 +91,8 @@ fn edited_verilog_is_caught_and_replayed() {
     assert!(printed.contains("port trs_o"), "{printed}");
 }
 
-/// A fault of the array alone is found by the plain command, in both organizations; and a file that no
-/// simulation reaches is named and is no pass.
+/// The command without options finds a fault of the array alone, in both organizations. A file that
+/// no simulation reaches is named, and the command does not pass.
 #[test]
 fn the_whole_folder_is_simulated() {
     if !require_tools(SIMULATORS) {
@@ -122,7 +123,7 @@ fn the_whole_folder_is_simulated() {
         assert_eq!(names, ["rpu iverilog", "rcm 3x2 iverilog"]);
         assert_eq!(sound["not_simulated"], serde_json::json!([]));
         assert_eq!(sound["not_elaborated"], serde_json::json!([]));
-        // An array of copies is read, not simulated whole.
+        // An array of equal RPUs is read, but not simulated as a whole.
         let whole = organization.contains("serial").then_some("full iverilog");
         assert_eq!(sound["runs"][2]["name"].as_str(), whole);
         let readme = fs::read_to_string(dir.path().join(&core).join("README.md")).unwrap();
@@ -156,7 +157,7 @@ fn the_whole_folder_is_simulated() {
     }
 }
 
-/// Broken Verilog is the tool's refusal, not a mismatch; files of another design are bad input.
+/// Broken Verilog is refused by the tool and is no mismatch. Files of another design are bad input.
 #[test]
 fn verilog_that_does_not_fit_is_refused() {
     if !require_tools(SIMULATORS) {
@@ -180,7 +181,7 @@ fn verilog_that_does_not_fit_is_refused() {
     fail_in(dir.path(), 2, &["cosim", "--rtl", "missing"], &["`missing`"]);
 }
 
-/// Names of files stand in scripts of Yosys, which runs what follows a `;` or a `!`.
+/// File names appear in scripts of Yosys, which runs the text behind a `;` or a `!`.
 #[test]
 fn names_of_verilog_that_a_script_would_run_are_refused() {
     let dir = tempfile::tempdir().unwrap();
@@ -264,15 +265,16 @@ fn the_area_is_beside_the_papers() {
     let json = succeed_in(dir.path(), &["estimate", "--preset", "bare", "--json"]);
     let report: Value = serde_json::from_str(&json).unwrap();
     assert_eq!((&report["format_version"], &report["regions"]), (&1.into(), &784.into()));
-    // The paper's own ground: 183 LUTs of which 16 are memory, 90 flip-flops. A pair of SRL16
-    // shares a LUT.
+    // The paper has 183 LUTs, of which 16 are memory, and 90 flip-flops. A pair of SRL16 shares a
+    // LUT.
     let rpu = &report["rpu"];
     assert!(rpu["lut_total_packed"].as_u64().unwrap() <= 183, "{rpu}");
     assert!(rpu["lut_memory_packed"].as_u64().unwrap() <= 16, "{rpu}");
     assert!(rpu["ff"].as_u64().unwrap() <= 90, "{rpu}");
 }
 
-/// One core for all regions, its modules with the numbers of the design, and the memory of the frame store apart.
+/// The report has one core for all regions, its modules with the numbers of the design, and the
+/// memory of the frame store as a row of its own.
 #[test]
 fn the_area_of_a_raster_core_is_no_rpus() {
     if !require_tools(&[Tool::Yosys]) {
@@ -287,7 +289,7 @@ fn the_area_of_a_raster_core_is_no_rpus() {
         ("\ncore ", true),
         ("RPU", false),
         ("paper", false),
-        // Of cores on AXI.
+        // The last two rows are for cores on AXI only.
         ("AXI", false),
         ("\nregisters ", false),
     ] {
@@ -299,7 +301,7 @@ fn the_area_of_a_raster_core_is_no_rpus() {
     let has = |leaf: &Value, parameter: &str| {
         leaf["parameters"].as_array().unwrap().contains(&Value::from(parameter))
     };
-    // 128 x 72 words of 8 bits take more than two blocks of 36 Kbit; half a block is 1 here.
+    // 128 x 72 words of 8 bits take more than two blocks of 36 Kbit; half a block counts as 1 here.
     let store: Vec<_> = leaves.iter().filter(|leaf| has(leaf, "WORDS=9216")).collect();
     let blocks = |leaf: &Value| leaf["area"]["bram18"].as_u64().unwrap();
     let memory = store.iter().find(|leaf| leaf["module"] == "raster_memory").unwrap();
@@ -307,7 +309,7 @@ fn the_area_of_a_raster_core_is_no_rpus() {
     assert_eq!((&report["unit"], &report["units"]), (&"core".into(), &1.into()));
 }
 
-/// The area is of the RTL that was tested, and the netlist that is counted is the one that is simulated.
+/// The area is that of the RTL that was tested, and the counted netlist is the simulated one.
 #[test]
 fn estimate_and_cosim_are_about_the_same_rtl() {
     if !require_tools(SIMULATORS) || !require_tools(&[Tool::Yosys]) {
@@ -333,7 +335,8 @@ fn estimate_and_cosim_are_about_the_same_rtl() {
     assert!(String::from_utf8_lossy(&refused.stderr).contains("'--netlist' cannot be used"));
 }
 
-/// One small core, on a device of each family; its longest path in the words of the source.
+/// The test places one small core on a device of each family. Its longest path is printed with the
+/// names of the source.
 #[test]
 fn a_small_core_is_placed_and_routed() {
     if !require_tools(&[Tool::Yosys, Tool::NextpnrEcp5, Tool::NextpnrIce40]) {
@@ -367,7 +370,8 @@ fn a_small_core_is_placed_and_routed() {
     }
 }
 
-/// What a device has too little of is said in one line, and the exit code says that it does not fit.
+/// One line names the resources of which the device has too few, and the exit code says that the
+/// core does not fit.
 #[test]
 fn a_core_that_does_not_fit_says_what_is_over() {
     if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {

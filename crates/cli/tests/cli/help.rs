@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The examples of the help texts, run as they stand in a folder that has what they name.
+//! Tests that run the examples of the help texts, unchanged, in a folder with the files that they
+//! name.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,8 +11,8 @@ use crate::common::{run_in, succeed_in};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-/// Not run here: they take minutes, each is the subject of other tests, and `examples` in the sources
-/// sees that they are taken.
+/// The examples that are not run here. They take minutes or need what is not shipped, other tests
+/// cover them, and `examples` in the sources checks that the command line accepts them.
 const LONG: [&str; 18] = [
     "foveate build --board icebreaker",
     "foveate build --board ulx3s",
@@ -24,19 +25,19 @@ const LONG: [&str; 18] = [
     "foveate explore space.toml",
     "foveate explore designs",
     "foveate fit",
-    // Networks that are not shipped.
+    // These networks are not shipped.
     "foveate infer resnet50.onnx",
     "foveate infer yolox_nano.onnx",
-    // Until Ctrl-C.
+    // These commands run until Ctrl-C.
     "foveate live",
     "foveate view",
     "cat packets.bin | foveate view",
-    // Events of a real sensor, and a folder of the system.
+    // These need events of a real sensor, or a folder of the system.
     "foveate analyze sensor",
     "foveate completions bash > /etc/",
 ];
 
-/// The lines of a help text that are commands.
+/// Returns the lines of a help text that are commands.
 fn examples(help: &str) -> Vec<String> {
     let (_, examples) = help.rsplit_once("Example").unwrap();
     let examples = examples.split_once(':').unwrap().1.lines().map(|line| line.trim().to_owned());
@@ -50,7 +51,7 @@ fn ffmpeg(folder: &Path, args: &str) {
     assert!(status.unwrap().success());
 }
 
-/// What the examples name, small.
+/// Writes small files with the names that the examples use.
 fn furnish(folder: &Path) {
     for name in ["frames", "clips", "photos", "core"] {
         fs::create_dir(folder.join(name)).unwrap();
@@ -74,7 +75,7 @@ fn furnish(folder: &Path) {
     let idx: Vec<u8> = header.into_iter().chain((0..512_u32).map(|p| p.to_le_bytes()[0])).collect();
     let denoiser = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../networks/denoiser.onnx");
     fs::copy(denoiser, folder.join("denoiser.onnx")).unwrap();
-    // The reader goes by the content, not by the name.
+    // The reader goes by the content of a file, not by its name.
     fs::write(folder.join("train-images-idx3-ubyte.gz"), idx).unwrap();
     for batch in ["data_batch_1.bin", "data_batch_2.bin"] {
         fs::write(folder.join(batch), [3; 3073]).unwrap();
@@ -97,7 +98,7 @@ fn examples_run_as_they_stand() {
     let commands = help.lines().skip_while(|line| *line != "Commands:").skip(1);
     let commands: Vec<&str> = commands
         .take_while(|line| !line.is_empty())
-        // A line that goes on with what a command does is further to the right.
+        // A line that continues the description of a command is indented further.
         .filter(|line| !line.starts_with("   "))
         .filter_map(|line| line.split_whitespace().next())
         .filter(|name| *name != "help")

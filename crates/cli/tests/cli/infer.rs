@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! infer, end to end, with the network that is shipped.
+//! Tests of `infer`, end to end, with the network that is shipped.
 
 use std::fs;
 use std::path::Path;
@@ -43,7 +43,7 @@ fn exact_modes_are_exact_and_save_most_of_the_work() {
             (&found["error"]["different_frames"], &found["error"]["relative_rms"]),
             (&0.into(), &0.0.into())
         );
-        // Four layers of 3x3, of 1, 12, 12 and 12 channels.
+        // The network has four layers of 3x3, with 1, 12, 12 and 12 input channels.
         let dense = 224.0 * 224.0 * 9.0 * (12.0 + 144.0 + 144.0 + 12.0);
         assert_eq!(found["macs"]["dense"], dense);
         let needed = found["macs"]["needed"].as_f64().unwrap() / dense;
@@ -73,11 +73,11 @@ fn exact_modes_are_exact_and_save_most_of_the_work() {
     assert_eq!(fs::read_to_string(dir.path().join("out/frames.csv")).unwrap().lines().count(), 6);
 }
 
-/// A network of 8-bit integers is as exact, keeps bytes, and rounds changes away.
+/// The table of layers has the bytes that each layer reads and writes, and the bytes of its mask.
 #[test]
 fn layers_say_what_they_read_and_write() {
     let dir = tempfile::tempdir().unwrap();
-    // A tensor of one channel.
+    // The bytes of a tensor of one channel.
     let plane = 4.0 * 224.0 * 224.0;
     let channels = [1.0, 12.0, 12.0, 12.0, 1.0];
     for mode in ["dense", "exact"] {
@@ -91,7 +91,8 @@ fn layers_say_what_they_read_and_write() {
             if mode == "dense" {
                 assert_eq!((of("read_bytes"), of("halo_bytes")), (input, 0.0), "{layer}");
             } else {
-                // What is read is what is needed and one position around it; of it at least that ring has not changed.
+                // A layer reads the needed positions and a ring of one position around them; at
+                // least that ring has not changed.
                 let seen = of("read_bytes") / input;
                 let halo = of("halo_bytes") / input;
                 assert!(of("needed_share") < seen && seen < 1.5 * of("needed_share"), "{layer}");
@@ -108,7 +109,8 @@ fn quantized_networks_keep_bytes() {
     let needed = |mode| {
         let found = run(dir.path(), QUANTIZED, "5", &["--mode", mode, "--reference"]);
         assert_eq!(found["error"]["different_frames"], 0);
-        // The picture, four layers of 8 bits behind their input, and two tensors of floating-point values.
+        // The kept tensors are the input picture, its quantized form, four layers of 8 bits, and
+        // two floating-point tensors.
         assert_eq!(found["kept_bytes"], 224 * 224 * (4 + 1 + 3 * 12 + 1 + 4 + 4));
         found["macs"]["needed"].as_f64().unwrap()
     };
@@ -147,7 +149,7 @@ fn tuned_limits_keep_the_goal_where_they_were_chosen_and_save_more() {
     );
     assert!(real(&tuning["chosen"]["rms_of_variation"]) <= 0.2);
     assert!(real(&tuning["chosen"]["needed_share"]) < 0.9 * real(&tuning["exact"]["needed_share"]));
-    // The verdict on the second half is that of its own error.
+    // The verdict on the second half depends on its own error.
     let error = real(&found["error"]["rms_of_variation"]);
     assert!(error > 0.0);
     assert_eq!(tuning["holds"], error <= 0.2);
@@ -164,7 +166,7 @@ fn tuned_limits_keep_the_goal_where_they_were_chosen_and_save_more() {
     }
 }
 
-/// A goal that a frozen network reaches is told as such, and too few frames are refused.
+/// A goal that a frozen network reaches is reported as such, and too few frames are refused.
 #[test]
 fn goals_that_say_nothing_are_named() {
     let dir = tempfile::tempdir().unwrap();
@@ -181,7 +183,7 @@ fn goals_that_say_nothing_are_named() {
 #[test]
 fn images_of_a_set_begin_with_black() {
     let dir = tempfile::tempdir().unwrap();
-    // Two images of 16x16 pixels, the second black.
+    // The input is two images of 16x16 pixels, of which the second is black.
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let pixels = (0..512u32).map(|at| if at < 256 { (at * 37 % 256).to_le_bytes()[0] } else { 0 });
     fs::write(
@@ -223,7 +225,7 @@ fn what_does_not_fit_is_refused_with_what_would() {
     assert_eq!(fs::read_to_string(dir.path().join("out/mine")).unwrap(), "mine");
 }
 
-/// An accelerator does less where the masks say so, and reads its weights whole.
+/// An accelerator does less work where the masks allow it, and reads all weights.
 #[test]
 fn accelerators_count_what_the_masks_save() {
     let dir = tempfile::tempdir().unwrap();
@@ -258,12 +260,12 @@ fn accelerators_count_what_the_masks_save() {
     infer("odd.toml", &["`odd.toml`: accelerator"]);
 }
 
-/// A bias that is no number is named, and so is the first node whose outputs are no numbers.
+/// A bias that is not a number is named, and so is the first node whose outputs are not numbers.
 #[test]
 fn what_is_no_number_is_told() {
     let dir = tempfile::tempdir().unwrap();
     let mut model = fs::read(DENOISER).unwrap();
-    // The field `raw_data`, 48 bytes: the bias of twelve channels.
+    // The field `raw_data` of 48 bytes is the bias of twelve channels.
     let bias = model.windows(2).position(|bytes| bytes == [0x4a, 48]).unwrap() + 2;
     model[bias..bias + 4].copy_from_slice(&f32::NAN.to_le_bytes());
     fs::write(dir.path().join("odd.onnx"), model).unwrap();
@@ -296,7 +298,8 @@ fn quiet_is_quiet() {
     assert!(text.contains("the only frame was computed whole"), "{text}");
 }
 
-/// What the network loses is printed, written and shown; what does not fit is refused by name.
+/// The loss of the network is printed, written and drawn. Options that do not fit are refused by
+/// name.
 #[test]
 fn what_the_network_loses_behind_the_camera_is_told() {
     let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! infer without a camera: a network that is only looked at, and one that runs on arrays.
+//! Tests of `infer` without a camera: a network that is only checked, and one that runs on arrays.
 
 use std::fs;
 use std::path::Path;
@@ -48,7 +48,7 @@ fn write(
     fs::write(path, model.encode_to_vec()).unwrap();
 }
 
-/// A NumPy file, by hand.
+/// Writes a NumPy file byte by byte.
 fn npy(path: &Path, descr: &str, shape: &str, bytes: &[u8]) {
     let words = format!("{{'descr': '{descr}', 'fortran_order': False, 'shape': ({shape}), }}");
     let words = format!("{words:<117}\n");
@@ -60,7 +60,7 @@ fn floats(values: &[f32]) -> Vec<u8> {
     values.iter().flat_map(|value| value.to_le_bytes()).collect()
 }
 
-/// The values of an output behind its header.
+/// Returns the values of an output behind its header.
 fn output(path: &Path, count: usize) -> Vec<f32> {
     let bytes = fs::read(path).unwrap();
     let values = &bytes[bytes.len() - 4 * count..];
@@ -86,7 +86,8 @@ fn a_network_that_can_be_run_is_described() {
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 0, "nothing is written");
 }
 
-/// Each node that cannot be run is named once, and none that only depends on one.
+/// Each node that cannot be run is named once. A node that only depends on such a node is not
+/// named.
 #[test]
 fn all_nodes_that_cannot_be_run_are_named_at_once() {
     let dir = tempfile::tempdir().unwrap();
@@ -143,7 +144,8 @@ fn arrays_take_the_place_of_a_clip() {
     succeed_in(dir.path(), &["infer", DENOISER, "x.npy", "-o", "out", "--force", "--quiet"]);
 }
 
-/// The outputs have the types that the model says, and are by hand.
+/// The outputs have the types that the model declares, and the expected values are calculated by
+/// hand.
 #[test]
 fn every_input_has_its_array() {
     let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! infer over several clips, end to end: what it prints, and which inputs do not go together.
+//! Tests of `infer` over several clips, end to end: the output, and the inputs that cannot be
+//! combined.
 
 use std::fs;
 
@@ -8,7 +9,7 @@ use serde_json::Value;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
 
-/// A stream of grey frames of which a part moves.
+/// Returns a stream of grey frames of which a part moves.
 fn stream(width: usize, height: usize, frames: usize) -> Vec<u8> {
     let mut file = format!("YUV4MPEG2 W{width} H{height} F30:1 Cmono\n").into_bytes();
     for frame in 0..frames {
@@ -27,7 +28,7 @@ fn clips_are_told_one_by_one_and_together() {
     cut.truncate(cut.len() - 100);
     fs::write(dir.path().join("b.y4m"), cut).unwrap();
     let args = ["infer", DENOISER, "a.y4m", "b.y4m", "-o", "out", "--force"];
-    // The last frame of b is not whole.
+    // The last frame of `b` is incomplete.
     let outcome = run_in(dir.path(), &args);
     assert_eq!(outcome.code, 1, "{}", outcome.stderr);
     assert!(outcome.stderr.contains("`out` is not complete: `b`: "), "{}", outcome.stderr);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! infer, end to end: its page, and the outputs of the network as files.
+//! Tests of `infer`, end to end: its page, and the outputs of the network as files.
 
 use std::fs;
 use std::path::Path;
@@ -17,7 +17,7 @@ fn denoise(folder: &Path, frames: &str, more: &[&str]) -> Value {
     serde_json::from_str(&succeed_in(folder, &[&args[..], &[frames], more].concat())).unwrap()
 }
 
-/// The shape in the header of an array of 32-bit floating-point values, and the values.
+/// Returns the shape in the header of an array of 32-bit floating-point values, and the values.
 fn array(path: &Path) -> (String, Vec<f32>) {
     let bytes = fs::read(path).unwrap();
     let header = std::str::from_utf8(&bytes[10..128]).unwrap();
@@ -27,7 +27,7 @@ fn array(path: &Path) -> (String, Vec<f32>) {
     (rest.split_once(')').unwrap().0.to_owned(), values.collect())
 }
 
-/// Column of a table by its name.
+/// Returns a column of a table by its name.
 fn column(folder: &Path, file: &str, name: &str) -> Vec<String> {
     let text = fs::read_to_string(folder.join("out").join(file)).unwrap();
     let mut lines = text.lines();
@@ -35,7 +35,8 @@ fn column(folder: &Path, file: &str, name: &str) -> Vec<String> {
     lines.map(|line| line.split(',').nth(at).unwrap().to_owned()).collect()
 }
 
-/// The bits of exact modes are those of a dense run, and the error of another follows from the files.
+/// The outputs of exact modes are bit for bit those of a dense run. The error of another mode
+/// follows from the files.
 #[test]
 fn outputs_of_every_mode_are_files() {
     let dir = tempfile::tempdir().unwrap();
@@ -76,7 +77,8 @@ fn outputs_of_every_mode_are_files() {
     }
 }
 
-/// There is a picture for each frame of the array; tuned, there are the frames of the second half.
+/// There is a picture for each frame of the array. In a tuned run these are the frames of the
+/// second half.
 #[test]
 fn pictures_are_those_of_the_arrays() {
     let dir = tempfile::tempdir().unwrap();
@@ -98,17 +100,17 @@ fn pictures_are_those_of_the_arrays() {
     assert!(values.iter().all(|value| value.is_finite()));
 }
 
-/// Bytes of a field of Protocol Buffers that holds bytes.
+/// Returns a field of Protocol Buffers that holds bytes.
 fn field(number: u8, bytes: &[u8]) -> Vec<u8> {
     [&[number << 3 | 2, u8::try_from(bytes.len()).unwrap()], bytes].concat()
 }
 
-/// A field that holds a small number.
+/// Returns a field that holds a small number.
 fn small(number: u8, value: u8) -> Vec<u8> {
     vec![number << 3, value]
 }
 
-/// An ONNX model of some nodes, from `x` to an output.
+/// Returns an ONNX model of some nodes, from `x` to an output.
 fn model(nodes: &[Vec<u8>], input: [u8; 4], output: (&str, [u8; 4])) -> Vec<u8> {
     let dimension = |length: u8| field(1, &small(1, length));
     let value = |name: &str, shape: [u8; 4]| {
@@ -122,7 +124,7 @@ fn model(nodes: &[Vec<u8>], input: [u8; 4], output: (&str, [u8; 4])) -> Vec<u8> 
         field(11, &value("x", input)),
         field(12, &value(output.0, output.1)),
     ];
-    // 8 is the version of the file, 13 that of the operators.
+    // The version of the file is 8, and that of the operators is 13.
     let graph = graph.concat();
     let length = u8::try_from(graph.len() % 128).unwrap() | 0x80;
     let graph =
@@ -130,24 +132,24 @@ fn model(nodes: &[Vec<u8>], input: [u8; 4], output: (&str, [u8; 4])) -> Vec<u8> 
     [small(1, 8), field(8, &small(2, 13)), graph].concat()
 }
 
-/// A node of one input.
+/// Returns a node with one input.
 fn node(kind: &str, from: &str, to: &str) -> Vec<u8> {
     let name = format!("node {to}");
     let fields = [(1, from), (2, to), (3, &name), (4, kind)];
     fields.into_iter().flat_map(|(number, text)| field(number, text.as_bytes())).collect()
 }
 
-/// An ONNX model of one global pooling, whose names are hard to write.
+/// Returns an ONNX model of one global pooling, with names that need escapes.
 fn pooling(name: &str) -> Vec<u8> {
     model(&[node("GlobalAveragePool", "x", name)], [1, 1, 32, 32], (name, [1; 4]))
 }
 
-/// What is exported from TensorFlow is read with channels first, and said to be so.
+/// A network that was exported from TensorFlow is read with channels first, and the output says so.
 #[test]
 fn channels_may_be_last() {
     let dir = tempfile::tempdir().unwrap();
     let order: Vec<u8> = [0, 3, 1, 2].into_iter().flat_map(|axis| small(8, axis)).collect();
-    // The last field says that the attribute is of integers.
+    // The last field says that the attribute holds integers.
     let attribute = field(5, &[field(1, b"perm"), order, vec![0xa0, 1, 7]].concat());
     let turn = [node("Transpose", "x", "y"), attribute].concat();
     let last =
@@ -221,13 +223,13 @@ fn names_of_a_model_are_safe_in_files_and_text_on_the_page() {
             "foveate infer &#39;it&#39;\\&#39;&#39;s.onnx&#39; scene:street --resize 32x32"
         )
     );
-    // One mean is no picture.
+    // A single mean is no picture.
     let png = [&args[..], &["--outputs", "png", "--force"]].concat();
     fail_in(dir.path(), 2, &png, &["no output is a picture", "1x1x1x1", "leave out png"]);
     assert!(dir.path().join("out/outputs/____b___out_.npy").is_file(), "what was there stays");
 }
 
-/// The page has what the tables have, and is replaced with them.
+/// The page has the figures of the tables, and is replaced together with them.
 #[test]
 fn the_page_shows_the_figures_of_the_tables() {
     let dir = tempfile::tempdir().unwrap();
@@ -248,7 +250,8 @@ fn the_page_shows_the_figures_of_the_tables() {
                 assert!(page.contains(&format!("data-v=\"{value}\"")), "{more:?}: {name} {value}");
             });
         }
-        // The first frame of a clip is not counted, and of a tuned run that of the second half.
+        // The first frame of a clip is not counted; in a tuned run, the first frame of the second
+        // half is not counted.
         let numbers = column(dir.path(), "frames.csv", "frame");
         for number in &numbers[1..] {
             assert!(page.contains(&format!("<tr id=\"pf{number}\"")), "{more:?}: frame {number}");
@@ -261,14 +264,14 @@ fn the_page_shows_the_figures_of_the_tables() {
             page.contains("--max-frames") && page.contains("[region]") && page.ends_with("</html>")
         );
     }
-    // What foreign programs put there keeps a folder from being replaced.
+    // Files of other programs keep a folder from being replaced.
     denoise(dir.path(), "2", &["--outputs", "png"]);
     fs::write(dir.path().join("out/outputs/mine.txt"), "mine").unwrap();
     let args = ["infer", DENOISER, "scene:street", "-o", "out", "--max-frames", "2", "--force"];
     fail_in(dir.path(), 2, &args, &["`out`", "outputs/mine.txt"]);
 }
 
-/// What is there after Ctrl-C is whole.
+/// The files that remain after Ctrl-C are complete.
 #[cfg(unix)]
 #[test]
 fn an_interrupted_run_leaves_whole_outputs_and_a_page_that_says_so() {

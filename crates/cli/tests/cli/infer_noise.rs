@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cost of noise on whole frames for a network, end to end with `infer` and `fit`, and a network that sees one of several frames.
+//! Tests of noise on whole frames, end to end with `infer` and `fit`, and of a network that sees
+//! one of several frames.
 
 use std::fs;
 use std::path::Path;
@@ -26,7 +27,8 @@ fn shares(noise: &Value) -> Vec<(f64, f64)> {
     levels.map(|level| (number(level, "levels"), number(level, "agreement"))).collect()
 }
 
-/// The more noise, the less the network says of what it says of whole frames; the first frame, which does not count, takes no part.
+/// More noise gives a smaller agreement with the outputs for whole frames. The first frame does not
+/// count and is left out.
 #[test]
 fn whole_frames_are_told_under_noise() {
     let dir = tempfile::tempdir().unwrap();
@@ -43,12 +45,13 @@ fn whole_frames_are_told_under_noise() {
     assert!(levels.is_sorted_by(|one, next| one.1 > next.1) && levels[2].1 > 0.5, "{levels:?}");
     for level in found["sight"]["noise"].as_array().unwrap() {
         assert_eq!(level["frames"], 3);
-        // Outputs are compared as numbers, which have no interval.
+        // The outputs are compared as numbers, which have no interval.
         assert!(level["intervals"]["agreement"].is_null() && level["detections"].is_null());
     }
 }
 
-/// The same noise with any number of threads and at every time; what rounds to no level changes nothing; 0 is none.
+/// The noise is the same with any number of threads and at every run. Noise that rounds to no grey
+/// level changes nothing, and 0 is no noise.
 #[test]
 fn noise_is_chosen_and_the_same_each_time() {
     let dir = tempfile::tempdir().unwrap();
@@ -70,7 +73,8 @@ fn noise_is_chosen_and_the_same_each_time() {
     }
 }
 
-/// The network sees one of so many frames, the camera all: its bytes are those of all frames, and what changed between is not forgotten.
+/// The network sees one of several frames and the camera sees all. The bytes are those of all
+/// frames, and changes in between are not forgotten.
 #[test]
 fn the_network_sees_one_of_several_frames() {
     let dir = tempfile::tempdir().unwrap();
@@ -100,7 +104,7 @@ fn the_network_sees_one_of_several_frames() {
     assert_eq!(refused.code, 2, "{}", refused.stderr);
 }
 
-/// The frames that the search has not seen are told under noise, too.
+/// The agreement under noise is also printed for frames that the search has not seen.
 #[test]
 fn a_fit_tells_noise_on_the_second_half() {
     if !require_tools(&[Tool::Yosys]) {

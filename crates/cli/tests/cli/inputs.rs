@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What simulate reads, end to end: streams, video, sets, batches, and what each fault ends with.
+//! Tests of the inputs of `simulate`, end to end: streams, video, sets, batches, and the exit code
+//! of each fault.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +11,7 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
 
-/// A stream of `frames` frames of 16x16 pixels, 25 per second.
+/// Returns a stream of `frames` frames of 16x16 pixels, 25 per second.
 fn y4m(frames: u8) -> Vec<u8> {
     let mut bytes = b"YUV4MPEG2 W16 H16 F25:1 Cmono\n".to_vec();
     for frame in 0..frames {

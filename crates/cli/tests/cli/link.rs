@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! link, end to end, on small scenes.
+//! Tests of `link`, end to end, on small scenes.
 
 use std::fs;
 use std::path::Path;
@@ -10,7 +10,8 @@ use foveate_toolchain::testing::require_tools;
 use serde_json::Value;
 
 const FRAME: &str = "frame={width=160,height=120}";
-/// Every region is relevant, so that what was not sent is as old as it may be, but never blank.
+/// The options that make every region relevant, so that a region that was not sent is as old as
+/// possible, but never blank.
 const ALL: [&str; 2] = ["--set", "spatial.0.min_score=0"];
 
 fn report(folder: &Path, more: &[&str]) -> Value {
@@ -42,7 +43,7 @@ fn a_codec_is_the_coarsest_that_is_as_good() {
             let part = sender["equal"].as_str().unwrap();
             assert_eq!(sender["found"], "equal", "{sender}");
             assert!(number(&sender["quality"][part]) >= number(&own["quality"][part]), "{sender}");
-            // The next quantizer is not as good; a search has looked at it.
+            // The next coarser quantizer is not as good, and the search has tried it.
             let next = |point: &&Value| {
                 point["sender"] == codec
                     && point["value"].as_u64() == sender["quantizer"].as_u64().map(|q| q + 1)
@@ -51,7 +52,7 @@ fn a_codec_is_the_coarsest_that_is_as_good() {
             assert!(number(&next["quality"][part]) < number(&own["quality"][part]), "{next}");
         }
     }
-    // What the camera sends is what `simulate` counts.
+    // The bytes that the camera sends are those that `simulate` counts.
     let args = ["simulate", "scene:street", "-o", "sim", "--max-frames", "6", "--json"];
     let more = ["--pixel-events=csv", "--set", FRAME];
     let simulated = succeed_in(dir.path(), &[&args[..], &more, &ALL].concat());
@@ -97,7 +98,7 @@ fn the_folder_is_whole_and_the_same_every_time() {
         assert!(names.iter().any(|found| found.ends_with(name)), "{name} in {names:?}");
     }
     let table = fs::read_to_string(dir.path().join("out/link.csv")).unwrap();
-    // Four cameras and one codec at two qualities.
+    // The rows are four cameras, and one codec at two qualities.
     assert_eq!(table.lines().count(), 1 + 4 + 2, "{table}");
 }
 
@@ -111,14 +112,14 @@ fn a_slow_link_needs_a_buffer_and_adds_latency() {
         let found = report(dir.path(), &["--codecs", "mjpeg", "--link", rate]);
         senders(&found, "raw")[0]["figures"].clone()
     };
-    // 160 bytes a row every 277 us are 4.6 Mbit/s.
+    // 160 bytes per row every 277 us are 4.6 Mbit/s.
     let (fast, slow) = (raw("100Mbit"), raw("1Mbit"));
     assert_eq!((&fast["overloaded"], &slow["overloaded"]), (&false.into(), &true.into()));
     assert_eq!(fast["buffer_bytes"], 160);
     assert_eq!(fast["delivery_ns"]["longest"], 12_800);
     let sent = 160 * 120 * 6;
     assert!(number(&slow["buffer_bytes"]) > 0.7 * f64::from(sent), "{slow}");
-    // Bytes and windows are what is given to the link, whatever it carries.
+    // Bytes and windows count what is given to the link, whatever its rate.
     assert_eq!(fast["windows"], slow["windows"]);
 }
 
@@ -164,7 +165,7 @@ fn what_cannot_be_compared_is_refused_and_leaves_nothing() {
         &["--max-frames", "4", "--codecs", "h265", "--resize", "7x5"],
         &["`libx265` does not take `street` of 7x5 pixels: ", "small", "--resize", "`h265` out of"],
     );
-    // Two images of 16x16 pixels.
+    // The input is two images of 16x16 pixels.
     let header = [0, 0, 8, 3, 0, 0, 0, 2, 0, 0, 0, 16, 0, 0, 0, 16];
     let bytes: Vec<u8> = header.into_iter().chain([7; 512]).collect();
     fs::write(dir.path().join("train-images"), bytes).unwrap();
@@ -193,7 +194,8 @@ fn a_clip_that_ends_early_is_compared_as_far_as_it_goes() {
     let report: Value = serde_json::from_str(&report).unwrap();
     assert_eq!(report["clips"][0]["frames"], 2);
     assert!(report["clips"][0]["problem"].is_string(), "{report}");
-    // 64 clocks to take a frame and 20 to its decisions; 48 rows of 8 pixels in 40 ms.
+    // A frame takes 64 clocks to enter, and 20 more to its decisions; 48 rows of 8 pixels come in
+    // 40 ms.
     let stated = "Without --clock: the array adds up to 84 clocks to the times of the region camera. \
                   It needs 0.0096 MHz to keep up.\n";
     assert!(cut.stdout.contains(stated) && report["clock_hz"].is_null(), "{}", cut.stdout);

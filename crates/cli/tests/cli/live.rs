@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! live, end to end: its link is printed with the settings, Ctrl-C ends it, and the page can be had as a file. What is served is
-//! tested in the crate `view`, the page in Chromium.
+//! Tests of `live`, end to end: its link is printed with the settings, Ctrl-C ends it, and the page
+//! can be written as a file. The crate `view` tests what is served, and Chromium runs the page.
 #![cfg(unix)]
 
 use crate::common::{fail_in, run_in, succeed_in};

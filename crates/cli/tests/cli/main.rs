@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The command line, end to end: every command as its users call it.
+//! Tests of the command line, end to end: every command as its users call it.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod area;

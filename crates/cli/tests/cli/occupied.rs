@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A place that cannot be written is refused at once: before inputs are looked at, whether they are missing, take long or are damaged.
+//! Tests that an output path that cannot be written is refused at once, before inputs are read,
+//! whether they are missing, slow or damaged.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -9,7 +10,8 @@ use std::path::Path;
 use crate::common::{fail_in, foveate};
 use crate::own_files::options_of;
 
-/// Commands that write the folder `out`, by the option that names it. Every other file that they name is missing, but `clip.mp4`.
+/// The commands that write the folder `out`, by the option that names it. Except for `clip.mp4`,
+/// every other file that they name is missing.
 const FOLDERS: [(&str, &str); 11] = [
     ("simulate --output", "simulate clip.mp4 -o out"),
     ("dataset --output", "dataset clip.mp4 -o out"),
@@ -24,10 +26,11 @@ const FOLDERS: [(&str, &str); 11] = [
     ("build --output", "build --board icebreaker --config missing.toml -o out"),
 ];
 
-/// Pages are replaced by their names, so there is nothing to refuse; and a folder that is only read.
+/// The options without a refusal: manual pages are replaced by their names, and the folder of
+/// `--rtl` is only read.
 const NOT_REFUSED: [&str; 2] = ["man --output", "cosim --rtl"];
 
-/// Commands that write a file, here into a folder that is not there.
+/// The commands that write a file, here into a folder that does not exist.
 const FILES: [&str; 4] = [
     "fit clip.mp4 -o nowhere/camera.toml",
     "fit clip.mp4 --config missing.toml -o nowhere/camera.toml",
@@ -35,7 +38,7 @@ const FILES: [&str; 4] = [
     "cosim --preset raster clip.mp4 --packets nowhere/packets.bin",
 ];
 
-/// ffprobe and ffmpeg that say that they were called, and fail.
+/// Writes programs `ffprobe` and `ffmpeg` that record each call, and fail.
 fn witnesses(folder: &Path) {
     fs::create_dir(folder).unwrap();
     for name in ["ffprobe", "ffmpeg"] {
@@ -46,7 +49,8 @@ fn witnesses(folder: &Path) {
     }
 }
 
-/// Runs a command with these programs in front of all others: its exit code and all that it said.
+/// Runs a command with these programs first in the search path. Returns its exit code and its
+/// messages.
 fn run_with_witnesses(dir: &Path, command: &str) -> (Option<i32>, String) {
     let path = format!("{}:{}", dir.join("tools").display(), std::env::var("PATH").unwrap());
     let words: Vec<&str> = command.split(' ').collect();
@@ -54,7 +58,7 @@ fn run_with_witnesses(dir: &Path, command: &str) -> (Option<i32>, String) {
     (output.status.code(), String::from_utf8(output.stderr).unwrap())
 }
 
-/// Expects a command to refuse `place`, and to call none of these programs.
+/// Expects a command to refuse `place` and to call none of these programs.
 fn refuse_at_once(dir: &Path, command: &str, place: &str) {
     let (code, said) = run_with_witnesses(dir, command);
     assert_eq!(code, Some(2), "{command}: {said}");
@@ -78,7 +82,7 @@ fn a_folder_is_refused_before_inputs_are_looked_at() {
         fail_in(dir.path(), 2, &missing, &["`out`"]);
     }
     assert_eq!(fs::read(dir.path().join("out/thesis.tex")).unwrap(), b"mine");
-    // The witnesses do see who looks.
+    // The programs do record a call.
     fs::remove_dir_all(dir.path().join("out")).unwrap();
     assert_eq!(run_with_witnesses(dir.path(), FOLDERS[0].1).0, Some(3));
     assert!(dir.path().join("tools/called").exists());

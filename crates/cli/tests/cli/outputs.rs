@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The optional outputs of simulate, and explain, end to end.
+//! Tests of the optional outputs of `simulate`, and of `explain`, end to end.
 
 use std::fs;
 use std::path::Path;
@@ -85,7 +85,7 @@ fn options_that_say_nothing_are_refused() {
     assert!(!dir.path().join("out").exists());
 }
 
-/// Without ffmpeg video is refused with a way out, and pictures still work.
+/// Without ffmpeg, video is refused with an alternative, and pictures still work.
 #[cfg(unix)]
 #[test]
 fn without_ffmpeg_there_are_pictures() {
@@ -105,7 +105,7 @@ fn without_ffmpeg_there_are_pictures() {
     assert_eq!(run(&["--overlay"], "/nowhere/ffmpeg").0, Some(0));
 }
 
-/// An ffmpeg that gives up is quoted, and nothing is left.
+/// The message of an ffmpeg that fails is quoted, and no folder is left.
 #[cfg(unix)]
 #[test]
 fn a_failing_ffmpeg_is_quoted() {
@@ -155,7 +155,7 @@ fn explain_says_why_in_text_and_json() {
     assert_eq!(told["raw"].as_array().unwrap().len(), 8);
     let rule = told["rule"].as_str().unwrap().split(": ").next().unwrap().to_owned();
     assert!(text.contains(&format!("decision  {rule}")), "{text}");
-    // What simulate says of the same region.
+    // The table of `simulate` has the same values for this region.
     succeed_in(dir.path(), &simulate(&["--events", "csv"]));
     let table = fs::read_to_string(dir.path().join("out/events.csv")).unwrap();
     let row = table.lines().find(|line| line.starts_with("2,66667,3,4,24,32,")).unwrap();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Files of others survive every command that writes a folder or a file. The commands come from the help of the
-//! program, so that a new one is in the list, or this fails.
+//! Tests that files of others survive every command that writes a folder or a file. The list of
+//! commands is compared with the help of the program, so that a new command must be added here.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -10,7 +10,7 @@ use crate::common::{foveate, run_in, succeed_in};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-/// Every option of every command whose value is named so, as `command --option`.
+/// Returns every option of every command with this value name, as `command --option`.
 pub(crate) fn options_of(value: &str) -> BTreeSet<String> {
     let help = |args: &[&str]| {
         let output = foveate(args).output().unwrap();
@@ -36,7 +36,8 @@ pub(crate) fn options_of(value: &str) -> BTreeSet<String> {
 struct Writer {
     option: &'static str,
     command: &'static [&'static str],
-    /// A file that it writes and that somebody may edit; none where pages are replaced by their names, as its help says.
+    /// A file that the command writes and that a user may edit; `None` for pages that are replaced
+    /// by their names, as the help says.
     edited: Option<&'static str>,
     tools: &'static [Tool],
 }
@@ -134,10 +135,10 @@ const WRITERS: [Writer; 12] = [
     },
 ];
 
-/// Folders that are only read.
+/// The options with folders that are only read.
 const READ: [&str; 1] = ["cosim --rtl"];
 
-/// Everything that the commands read.
+/// Writes all files that the commands read.
 fn prepare(dir: &Path) {
     let pets = dir.join("pets/cat");
     fs::create_dir_all(&pets).unwrap();
@@ -160,7 +161,8 @@ fn every_command_that_writes_a_folder_is_looked_at() {
     assert_eq!(options_of("DIR"), known.map(str::to_owned).collect());
 }
 
-/// Files of others in the folder, and files that were edited, survive each command, with `--force` and without.
+/// Files of others in the folder, and edited files, survive each command, with `--force` and
+/// without.
 #[test]
 fn files_of_others_survive_every_command() {
     let dir = tempfile::tempdir().unwrap();
@@ -173,7 +175,7 @@ fn files_of_others_survive_every_command() {
         let forced = [command, &["--force"]].concat();
         let has_force = run_in(dir.path(), &[command[0], "--help"]).stdout.contains("--force");
         let commands = if has_force { vec![command, &forced] } else { vec![command] };
-        // A folder that Foveate did not write, with names that it uses.
+        // The folder was not written by Foveate, but has names that Foveate uses.
         fs::create_dir(&out).unwrap();
         let names = [
             "thesis.tex",
@@ -203,7 +205,7 @@ fn files_of_others_survive_every_command() {
             survives(&names, "in a folder of somebody else");
         }
         fs::remove_dir_all(&out).unwrap();
-        // A folder that it wrote.
+        // The folder was written by Foveate.
         run_in(dir.path(), command);
         assert!(out.is_dir(), "{option}: {}", run_in(dir.path(), command).stderr);
         fs::create_dir_all(out.join("sub/deep")).unwrap();
@@ -230,7 +232,8 @@ fn files_of_others_survive_every_command() {
     }
 }
 
-/// A file that is written keeps the mode of the one that was there, and is named if it cannot be.
+/// A file that is written keeps the mode of the file that it replaces, and is named if it cannot be
+/// written.
 #[cfg(unix)]
 #[test]
 fn a_file_that_is_replaced_keeps_its_mode() {
@@ -269,7 +272,7 @@ fn a_file_that_is_replaced_keeps_its_mode() {
     }
 }
 
-/// The next run that writes beside them removes the leftovers of a killed run, and leaves those of a living one.
+/// A run removes the leftovers of a killed run beside its output, and keeps those of a running one.
 #[cfg(target_os = "linux")]
 #[test]
 fn the_next_run_removes_what_a_killed_one_left() {
@@ -282,7 +285,7 @@ fn the_next_run_removes_what_a_killed_one_left() {
         names.sort();
         names
     };
-    // It reads from a pipe that stays open, so that it waits.
+    // The command waits, because it reads from a pipe that stays open.
     let start = |out: &str| {
         let mut command = Command::new(env!("CARGO_BIN_EXE_foveate"));
         command.args(["simulate", "-", "-o", out]).current_dir(dir.path());
@@ -302,7 +305,7 @@ fn the_next_run_removes_what_a_killed_one_left() {
     let (mut killed, mut living) = (start("killed"), start("living"));
     killed.kill().unwrap();
     killed.wait().unwrap();
-    // As a user or an older version may have named one.
+    // A user or an older version may have given such a name to a folder.
     fs::create_dir(dir.path().join(".mine.partial-1234567890")).unwrap();
     fs::write(dir.path().join(".mine.partial-1234567890/file"), "mine").unwrap();
     assert_eq!(names().len(), 3, "{:?}", names());
@@ -314,7 +317,8 @@ fn the_next_run_removes_what_a_killed_one_left() {
     living.wait().unwrap();
 }
 
-/// A cache from which somebody else could have programs run is refused, with a line that says what to do.
+/// A cache from which another user could make the command run programs is refused, with a line that
+/// says what to do.
 #[cfg(unix)]
 #[test]
 fn a_cache_that_others_can_write_is_refused() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cores whose names begin with a prefix: their benches, and co-simulation that finds them.
+//! Tests of cores with a prefix: their benches, and co-simulation that finds them.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use crate::common::{fail_in, run_in, succeed_in};
 use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
-/// Writes a small core of that prefix into a folder of its name.
+/// Writes a small core with a prefix into a folder of the same name.
 fn core(folder: &Path, prefix: &str, settings: &[&str]) {
     let mut args = vec!["generate", "--preset", "bare", "--prefix", prefix, "-o", prefix];
     for setting in ["region.size=4", "frame={width=16,height=8}"].iter().chain(settings) {
@@ -18,7 +18,7 @@ fn core(folder: &Path, prefix: &str, settings: &[&str]) {
     succeed_in(folder, &args);
 }
 
-/// Co-simulates a folder with one round in Icarus, and more options.
+/// Returns the command that co-simulates a folder with one round in Icarus, with more options.
 fn cosim<'a>(config: &'a str, rtl: &'a str, more: &[&'a str]) -> Vec<&'a str> {
     let args =
         ["cosim", "--config", config, "--rtl", rtl, "--rounds", "1", "--simulator", "iverilog"];
@@ -43,14 +43,15 @@ fn a_core_with_a_prefix_passes_its_benches_and_cosim_without_further_options() {
         let text = succeed_in(dir.path(), &cosim(&config, &rtl, &[]));
         let runs = if prefix == "left" { 2 } else { 3 };
         assert_eq!(text.matches("no mismatch").count(), runs, "{text}");
-        // A fault in a leaf is found, so it is this Verilog that runs.
+        // A fault in a leaf is found, so that it is this Verilog that runs.
         let leaf = folder.join(format!("rtl/{prefix}_rcm.v"));
         let sound = fs::read_to_string(&leaf).unwrap();
         fs::write(&leaf, sound.replace(".trs_o(trs_o", ".trs_o(srs_o")).unwrap();
         assert_eq!(run_in(dir.path(), &cosim(&config, &rtl, &[])).code, 1, "{prefix}");
         fs::write(&leaf, sound).unwrap();
     }
-    // Both in one folder: which one has to be said, and the other is not simulated.
+    // With both cores in one folder, one must be chosen, and the other is reported as not
+    // simulated.
     for entry in fs::read_dir(dir.path().join("right/rtl")).unwrap() {
         let path = entry.unwrap().path();
         fs::copy(&path, dir.path().join("left/rtl").join(path.file_name().unwrap())).unwrap();

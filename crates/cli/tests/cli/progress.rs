@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Progress where standard error is a log: a line now and then, and none when quiet.
+//! Tests of progress in a log: a line now and then, and no line if the command is quiet.
 
 use std::io::Write as _;
 use std::process::{Command, Stdio};
 use std::time::Duration;
 
-/// What a run over two frames said, of which the second comes after more than a second.
+/// Returns the messages of a run over two frames, of which the second comes after more than a
+/// second.
 fn said(options: &[&str], every: &str) -> String {
     let dir = tempfile::tempdir().unwrap();
     let mut child = Command::new(env!("CARGO_BIN_EXE_foveate"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Users, passwords and keys in addresses are in no result, no message and no file, whatever command has the address and
-//! however it is written.
+//! Tests that users, passwords and keys in addresses appear in no result, message or file, for all
+//! commands and all forms of an address.
 #![cfg(unix)]
 
 use std::fs;
@@ -11,7 +11,8 @@ use foveate_toolchain::testing::require_tools;
 
 use crate::common::{files_below, foveate};
 
-/// Addresses of one camera with every kind of secret; each secret holds this word, as it is or percent-encoded.
+/// The word in every secret of the addresses below, written as it is or percent-encoded. The
+/// addresses name one camera.
 const SECRET: &str = "secret";
 const ADDRESSES: [&str; 7] = [
     "rtsp://me:secret@cam/live",
@@ -23,7 +24,7 @@ const ADDRESSES: [&str; 7] = [
     "rtsp://cam?secret",
 ];
 
-/// A camera: an ffmpeg that shows test pictures and repeats all that it was told, in other words too.
+/// A stub of ffmpeg that shows test pictures and repeats all its arguments, also with other words.
 const CAMERA: &str = r#"#!/bin/sh
 [ "$1" = -version ] && exec ffmpeg -version
 for word in "$@"; do case "$word" in *://*) echo "[rtsp @ 0x1] [error] DESCRIBE of $word failed: secret" >&2;; esac; done
@@ -72,7 +73,7 @@ fn no_secret_of_an_address_is_in_any_result() {
     }
 }
 
-/// Addresses that are refused, and words that are none of a command.
+/// The addresses are refused, or are words that no command takes.
 #[test]
 fn no_secret_of_an_address_is_in_a_message() {
     let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! cosim of serial designs, end to end.
+//! Tests of `cosim` with serial designs, end to end.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use foveate_toolchain::testing::{data_folder, require_tools};
 use serde_json::Value;
 
 const SIMULATORS: &[Tool] = &[Tool::Verilator, Tool::Cxx, Tool::Iverilog, Tool::Vvp];
-/// Small regions, two of them in a lane.
+/// A configuration with small regions, two of them per lane.
 const FOLDED: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n\
                       [hardware]\norganization = \"serial\"\nfold = 2\n";
 
@@ -38,7 +38,7 @@ fn serial_model_and_rtl_agree_at_every_level() {
         let report = cosim(dir.path(), &["--rounds", "1", "--simulator", simulator]);
         assert!(report["mismatch"].is_null(), "{report}");
         assert_eq!(report["grid"], serde_json::json!([2, 1]), "one lane, two slots");
-        // Most of the outputs mean something at few clocks only, and count where they do.
+        // Most outputs are valid at few clocks only, and are compared at these clocks.
         let (clocks, compared) = (report["clocks"].as_u64(), report["comparisons"].as_u64());
         assert!(compared > clocks.map(|clocks| 7 * clocks), "{report}");
         assert!(compared < clocks.map(|clocks| 9 * clocks), "{report}");
@@ -54,7 +54,7 @@ fn serial_model_and_rtl_agree_at_every_level() {
     assert_eq!(names, ["camera.toml"], "a good run leaves nothing");
 }
 
-/// Real images, where the environment variable FOVEATE_DATA names their folder.
+/// This test uses real images, if the environment variable FOVEATE_DATA names their folder.
 #[test]
 fn real_images_agree() {
     let Some(data) = data_folder() else { return };
@@ -103,12 +103,12 @@ fn edited_serial_verilog_is_caught_and_replayed() {
             let log = String::from_utf8_lossy(&again.stdout).into_owned();
             assert_eq!(again.status.code(), Some(1), "{simulator} {replayed}: {log}");
         }
-        // Repaired by hand, the replay passes.
+        // The replay passes after the fault is corrected in its files.
         let broken = replay.join("rtl/serial_decision.v");
         let text = fs::read_to_string(&broken).unwrap();
         fs::write(&broken, text.replace("score_o > minimum", "score_o >= minimum")).unwrap();
         assert_eq!(again("iverilog").status.code(), Some(0), "{simulator}");
-        // The next run would not replace a replay that was edited.
+        // The next run would not replace a replay folder that was edited.
         fs::remove_dir_all(&replay).unwrap();
     }
 }

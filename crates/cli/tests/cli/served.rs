@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A command that serves a page until a signal comes, and a browser that knows its link.
+//! A command that serves a page until a signal comes, and a client that knows its link.
 #![cfg(unix)]
 
 use std::io::{BufRead as _, BufReader, Read as _, Write as _};
@@ -13,17 +13,17 @@ use crate::common::listening;
 pub(crate) struct Served {
     child: Child,
     pub(crate) link: String,
-    /// What it says.
+    /// The standard error of the command.
     pub(crate) errors: BufReader<ChildStderr>,
 }
 
 impl Served {
-    /// Starts it in `folder`.
+    /// Starts the command in `folder`.
     pub(crate) fn start(folder: &Path, args: &[&str]) -> Self {
         Self::reading(folder, args, Stdio::null())
     }
 
-    /// Starts it in `folder` with an input.
+    /// Starts the command in `folder` with `input` as its standard input.
     pub(crate) fn reading(folder: &Path, args: &[&str], input: Stdio) -> Self {
         let mut child = listening()
             .args(args)
@@ -39,7 +39,7 @@ impl Served {
         Self { child, link: link.trim().to_owned(), errors }
     }
 
-    /// Asks for what is below the link, and expects a good answer.
+    /// Requests a path below the link, and expects the status 200.
     pub(crate) fn gives(&self, what: &str) {
         let (page, _settings) = self.link.split_once('#').unwrap_or((&self.link, ""));
         let (host, token) = page.strip_prefix("http://").unwrap().split_once('/').unwrap();
@@ -50,14 +50,14 @@ impl Served {
         assert_eq!(&status, b"HTTP/1.1 200 OK");
     }
 
-    /// Memory that it takes, in KiB; none where the system does not say.
+    /// Returns the memory of the command in KiB; `None` if the system does not provide it.
     pub(crate) fn memory(&self) -> Option<u64> {
         let status = std::fs::read_to_string(format!("/proc/{}/status", self.child.id())).ok()?;
         let line = status.lines().find_map(|line| line.strip_prefix("VmRSS:"))?;
         line.trim().strip_suffix(" kB")?.parse().ok()
     }
 
-    /// Ends it by a signal; its exit code, and what it said since it was read last.
+    /// Ends the command by a signal. Returns its exit code and its messages since the last read.
     pub(crate) fn stopped_by(mut self, signal: &str) -> (Option<i32>, String) {
         let id = self.child.id().to_string();
         let sent = Command::new("kill").args([&format!("-{signal}"), &id]).status().unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Signals that ask to stop, as terminals, containers, Slurm and systemd send them.
+//! Tests of signals that ask the command to stop, as terminals, containers, Slurm and systemd send
+//! them.
 #![cfg(unix)]
 
 use std::fs;
@@ -13,7 +14,7 @@ use serde_json::Value;
 
 use crate::common::listening;
 
-/// The codes of 128 and the number of the signal.
+/// The signals and their exit codes, which are 128 plus the number of the signal.
 pub(crate) const SIGNALS: [(&str, i32); 3] = [("INT", 130), ("TERM", 143), ("HUP", 129)];
 
 fn start(folder: &Path, args: &[&str]) -> Child {
@@ -28,7 +29,7 @@ fn start(folder: &Path, args: &[&str]) -> Child {
         .unwrap()
 }
 
-/// Sends a signal, and ends with what was said.
+/// Sends a signal, waits for the end, and returns the output.
 fn stop(child: Child, signal: &str) -> Output {
     kill(child.id(), signal);
     child.wait_with_output().unwrap()
@@ -47,7 +48,7 @@ pub(crate) fn wait_for(what: &str, mut there: impl FnMut() -> bool) {
     }
 }
 
-/// Whether a folder that is in the making below `folder` holds this file.
+/// Returns true if a temporary folder below `folder` holds this file.
 pub(crate) fn has(folder: &Path, file: &str) -> bool {
     let entries = fs::read_dir(folder).unwrap().flatten();
     entries.filter(|e| e.path().is_dir()).any(|entry| entry.path().join("work").join(file).exists())
@@ -77,7 +78,8 @@ fn every_signal_leaves_what_was_done() {
     }
 }
 
-/// `timeout` and job systems send more than one; only a second Ctrl-C is a person who has no patience.
+/// `timeout` and job systems send more than one signal. Only a second Ctrl-C means that a person
+/// wants the command to end at once.
 #[test]
 fn a_second_sigterm_changes_nothing() {
     let dir = tempfile::tempdir().unwrap();
@@ -91,7 +93,7 @@ fn a_second_sigterm_changes_nothing() {
     assert_eq!(problem(&dir.path().join("out")), (false, "interrupted".to_owned()));
 }
 
-/// What `nohup` does.
+/// `nohup` starts a command with this signal ignored.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_signal_that_is_ignored_stays_ignored() {
@@ -110,7 +112,7 @@ fn a_signal_that_is_ignored_stays_ignored() {
     assert_eq!(stop(child, "HUP").status.code(), Some(0));
 }
 
-/// The tool that is at work ends, too, and no folder is left.
+/// The running tool ends, too, and no folder is left.
 #[test]
 fn sigterm_stops_a_tool() {
     if !require_tools(&[Tool::Yosys]) {
@@ -121,7 +123,7 @@ fn sigterm_stops_a_tool() {
     for folder in [&temporary, &tools] {
         fs::create_dir(folder).unwrap();
     }
-    // A Yosys that starts another program, as verilator and iverilog do, and is never done.
+    // This Yosys starts another program, as verilator and iverilog do, and never ends.
     let wrapper = tools.join("yosys");
     let script =
         "#!/bin/sh\n[ \"$1\" = -V ] && exec yosys -V\nsleep 600 & echo $! > \"$PIDS\"; wait\n";
@@ -145,7 +147,7 @@ fn sigterm_stops_a_tool() {
     wait_for("end of the tool", || ended(pid.trim()));
 }
 
-/// A comparison has no part that is worth keeping; its temporary files go, too.
+/// No part of a comparison is worth keeping; its temporary files are removed, too.
 #[test]
 fn a_comparison_of_links_leaves_nothing() {
     if !require_tools(&[Tool::Ffmpeg, Tool::Ffprobe]) {
@@ -171,7 +173,7 @@ fn a_comparison_of_links_leaves_nothing() {
     assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1, "only the folder for temporary files");
 }
 
-/// Nothing has this number any more, or only its parent has not noticed yet.
+/// Returns true if no process has this number, or if only its parent has not yet noticed its end.
 pub(crate) fn ended(pid: &str) -> bool {
     let state = Command::new("ps").args(["-o", "stat=", "-p", pid]).output();
     match state {
@@ -182,7 +184,8 @@ pub(crate) fn ended(pid: &str) -> bool {
     }
 }
 
-/// Job systems signal every process of a job: ffmpeg, too, which ends as if the video had.
+/// Job systems signal every process of a job. This includes ffmpeg, which then ends as it does at
+/// the end of a video.
 #[test]
 fn a_signal_to_the_whole_job_leaves_what_was_done() {
     if !require_tools(&[Tool::Ffmpeg]) {

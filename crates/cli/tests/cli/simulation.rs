@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! simulate, end to end.
+//! Tests of `simulate`, end to end.
 
 use std::fs;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::common::{fail_in, files_below, run_in, succeed_in};
 use serde_json::Value;
 
-/// A PGM of `size` x `size` pixels of one value.
+/// Writes a PGM of `size` x `size` pixels with one value.
 fn pgm(path: &Path, size: usize, value: u8) {
     let mut bytes = format!("P5\n{size} {size}\n255\n").into_bytes();
     bytes.extend(std::iter::repeat_n(value, size * size));
@@ -71,7 +71,7 @@ fn bad_inputs_end_with_2_and_leave_nothing() {
     fail_in(dir.path(), 2, &["simulate", "small.pgm", "-o", "small.pgm/out"], &["small.pgm"]);
 }
 
-/// An interrupt ends a long run soon, says so, and leaves what was done.
+/// An interrupt ends a long run soon, with a message, and leaves the results so far.
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_what_was_done() {
@@ -83,7 +83,7 @@ fn ctrl_c_leaves_what_was_done() {
         .stderr(std::process::Stdio::piped())
         .spawn()
         .unwrap();
-    // The hidden folder has its first picture when the first frame is done.
+    // The temporary folder has its second picture when two frames are done.
     let done = || {
         let hidden = fs::read_dir(dir.path()).unwrap().next()?.ok()?.path();
         hidden.join("work/rendered/000001.png").exists().then_some(())
@@ -104,7 +104,7 @@ fn ctrl_c_leaves_what_was_done() {
     assert!(summary["frames"].as_u64().unwrap() > 0);
 }
 
-/// Real images, where the environment variable FOVEATE_DATA names their folder.
+/// This test uses real images, if the environment variable FOVEATE_DATA names their folder.
 #[test]
 fn real_images_run() {
     let Some(data) = foveate_toolchain::testing::data_folder() else {
@@ -122,7 +122,7 @@ fn real_images_run() {
     assert!(share > 0.01 && share < 0.99, "real images have edges here and there: {share}");
 }
 
-/// Thresholds follow the depth, whether the file leaves them out or has every key.
+/// Thresholds depend on the depth, whether the file leaves them out or has every key.
 #[test]
 fn a_camera_of_five_bits_sees_as_much_as_one_of_eight() {
     let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Entries of folders, trees and patterns that are not read: what is said of them, and what is refused.
+//! Tests of entries of folders, trees and patterns that are not read: the warnings about them, and
+//! the refusals.
 
 use std::fs;
 use std::path::Path;
@@ -19,7 +20,7 @@ fn y4m() -> Vec<u8> {
     [&b"YUV4MPEG2 W16 H16 F25:1 Cmono\nFRAME\n"[..], &[7; 256]].concat()
 }
 
-/// Files below a folder.
+/// Writes files below a folder.
 fn files(folder: &Path, files: &[(&str, &[u8])]) {
     for (name, bytes) in files {
         let path = folder.join(name);
@@ -28,7 +29,7 @@ fn files(folder: &Path, files: &[(&str, &[u8])]) {
     }
 }
 
-/// Warnings of a run, without their first words, in order.
+/// Returns the warnings of a run in order, without their first words.
 fn warnings(folder: &Path, args: &[&str]) -> Vec<String> {
     let _ = fs::remove_dir_all(folder.join("out"));
     let outcome = run_in(folder, args);
@@ -43,7 +44,7 @@ fn told(said: &str) -> Vec<String> {
         .collect()
 }
 
-/// Each warning begins like one of these, in this order.
+/// Fails unless each warning begins with the text at its place in `starts`.
 fn assert_told(found: &[String], starts: &[&str]) {
     let fit = found.len() == starts.len()
         && found.iter().zip(starts).all(|(found, start)| found.starts_with(start));
@@ -55,7 +56,7 @@ fn link(target: &str, path: &Path) {
     std::os::unix::fs::symlink(target, path).unwrap();
 }
 
-/// A folder of two images, and of much that is none.
+/// Writes a folder with two images and many entries that are not images.
 #[cfg(unix)]
 fn mixed(folder: &Path) {
     let (one, other) = (pgm(3), pgm(5));
@@ -69,7 +70,7 @@ fn mixed(folder: &Path) {
             ("clip/5.PGM", &other),
             ("clip/6.dat", &one),
             ("clip/8.pgm/note.txt", b"a folder"),
-            // Nobody takes these for frames.
+            // These entries are never taken for frames, so that nothing is said about them.
             ("clip/.hidden.webp", WEBP),
             ("clip/Thumbs.db", b"\0\x01"),
             ("clip/desktop.ini", b"[x]"),
@@ -108,7 +109,7 @@ fn every_command_says_what_it_leaves_out_of_a_folder() {
     ] {
         let outcome = run_in(dir.path(), args);
         let _ = fs::remove_dir_all(dir.path().join("out"));
-        // Sheets are read one at a time; what is left out is said all the same.
+        // Sheets are read one at a time, but the warnings are printed nevertheless.
         assert_eq!(
             outcome.code,
             if args.contains(&"cifar-sheet") { 2 } else { 0 },
@@ -219,7 +220,7 @@ fn a_tree_says_what_is_no_clip_and_takes_no_text_for_one() {
         .map(|clip| clip["inputs"][0].as_str().unwrap())
         .collect();
     assert_eq!(inputs, ["clips/a.y4m", "clips/cars/frames"]);
-    // A text is no clip of its own either.
+    // A text file is not a clip of its own either.
     let parts = ["`clips/notes.txt` is not an image", "it is text"];
     fail_in(dir.path(), 2, &["simulate", "clips/notes.txt", "-o", "no"], &parts);
     let outcome =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! stress, end to end.
+//! Tests of `stress`, end to end.
 
 use crate::common::succeed_in;
 use serde_json::Value;

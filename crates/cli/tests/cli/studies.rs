@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate analyze`, end to end.
+//! Tests of `foveate analyze`, end to end.
 
 use crate::common::{fail_in, files_below, succeed_in};
 
@@ -23,7 +23,7 @@ fn every_study_of_scenes_writes_tables_and_charts() {
     ] {
         let printed = succeed_in(dir.path(), &analyze(study, &["--force"]));
         assert!(printed.starts_with(&format!("out: {study}.csv, {study}")), "{printed}");
-        // One more is the list of them.
+        // The additional file is the list of the files.
         assert_eq!(files_below(&dir.path().join("out")).len(), files + 1, "{study}");
     }
     let json = succeed_in(dir.path(), &analyze("temporal", &["--force", "--json"]));
@@ -47,7 +47,7 @@ fn recall_prints_objects_and_writes_everything() {
     for row in ["| street | all | 3 |", "| shake | all | 1 |", "| all clips | all | 4 |"] {
         assert!(printed.contains(row), "{row}: {printed}");
     }
-    // What shares are of stands below their bars.
+    // The number of objects stands below the bars of their shares.
     let chart = std::fs::read_to_string(dir.path().join("out/recall-size.svg")).unwrap();
     assert!(chart.contains("\nsmall (n = 4)\n"), "{chart}");
     let json =

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The scripts of a core that place and route it: they give the clock that `estimate` prints.
+//! Tests of the scripts of a core that place and route it. They must give the clock that `estimate`
+//! prints.
 
 use std::path::Path;
 use std::process::Command;
@@ -9,7 +10,7 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 use serde_json::Value;
 
-/// The worst clock that a script prints for so many seeds.
+/// Returns the slowest clock that a script prints for several seeds.
 fn worst(core: &Path, script: &str, words: &[&str], nextpnr: Tool) -> f64 {
     let program = |tool| Toolchain::system().find(tool).unwrap().path;
     let mut command = Command::new("sh");
@@ -22,7 +23,8 @@ fn worst(core: &Path, script: &str, words: &[&str], nextpnr: Tool) -> f64 {
     rest.split(' ').next().unwrap().parse().unwrap()
 }
 
-/// Netlists are the same but for the names of the registers at the ports, and so differ by as much as two seeds.
+/// The allowed difference of the clocks. The netlists differ only in the names of the registers at
+/// the ports, and so their clocks differ as those of two seeds do.
 const TOLERANCE: f64 = 0.15;
 
 #[test]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Progress on terminals of any width, as a pseudo-terminal receives it.
+//! Tests of progress on terminals of any width, as a pseudo-terminal receives it.
 
 use std::fs::File;
 use std::io::{Read as _, Write as _};
@@ -9,7 +9,7 @@ use std::time::Duration;
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 use rustix::termios::{Winsize, tcsetwinsize};
 
-/// Lines that a command drew on a terminal of so many columns, one for each time that it drew.
+/// Returns the lines that a command draws on a terminal of `columns` columns, one for each drawing.
 fn drawn(columns: u16, arguments: &[&str], feed: impl FnOnce(ChildStdin)) -> Vec<String> {
     let own = openpt(OpenptFlags::RDWR | OpenptFlags::NOCTTY).unwrap();
     grantpt(&own).unwrap();
@@ -31,7 +31,7 @@ fn drawn(columns: u16, arguments: &[&str], feed: impl FnOnce(ChildStdin)) -> Vec
         .unwrap();
     let reader = std::thread::spawn(move || {
         let mut bytes = Vec::new();
-        // A terminal that nobody writes to any more ends with an error.
+        // Reading a terminal ends with an error when no process has it open for writing.
         let _ = File::from(own).read_to_end(&mut bytes);
         bytes
     });
@@ -45,7 +45,7 @@ fn drawn(columns: u16, arguments: &[&str], feed: impl FnOnce(ChildStdin)) -> Vec
         .collect()
 }
 
-/// The text without sequences that move the cursor or choose a colour.
+/// Returns the text without sequences that move the cursor or choose a colour.
 fn without_controls(text: &str) -> String {
     let mut plain = String::new();
     let mut rest = text.chars();
@@ -59,7 +59,7 @@ fn without_controls(text: &str) -> String {
     plain
 }
 
-/// Six frames, one every 0.7 seconds.
+/// Writes six frames, one every 0.7 seconds.
 fn slowly(mut input: ChildStdin) {
     input.write_all(b"YUV4MPEG2 W16 H16 F1:1 Cmono\n").unwrap();
     for _ in 0..6 {
@@ -72,7 +72,7 @@ fn slowly(mut input: ChildStdin) {
 
 const STREAM: &[&str] = &["simulate", "-", "-o", "out", "--no-rendered"];
 
-/// The number before ` frames/s`, if the line has one.
+/// Returns the number before ` frames/s`, if the line has one.
 fn rate(line: &str) -> Option<f64> {
     let (before, _) = line.split_once(" frames/s")?;
     before.rsplit([' ', '[']).next()?.parse().ok()
@@ -84,7 +84,7 @@ fn a_stream_shows_its_count_and_a_true_rate() {
     assert!(lines.iter().any(|line| line.contains("5 frames")), "{lines:?}");
     let rates: Vec<f64> = lines.iter().filter_map(|line| rate(line)).collect();
     assert!(!rates.is_empty(), "{lines:?}");
-    // 1.43 frames a second at most; a busy machine is slower.
+    // The rate is at most 1.43 frames per second; a busy machine is slower.
     for rate in rates {
         assert!((0.3..=1.6).contains(&rate), "{rate} in {lines:?}");
     }
@@ -110,7 +110,7 @@ fn no_line_is_wider_than_the_terminal() {
 
 #[test]
 fn nothing_is_shown_of_nothing() {
-    // A source of known length shows it from the first line on, never 0 of 0.
+    // A source of known length shows its length from the first line on, never 0 of 0.
     let scene: &[&str] = &["simulate", "scene:street", "-o", "out", "--max-frames", "40"];
     for arguments in [scene, STREAM] {
         let lines = drawn(80, arguments, |input| {

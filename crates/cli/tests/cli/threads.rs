@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `--threads` and RAYON_NUM_THREADS: how many there are, which wins, and what is refused. The results are the same.
+//! Tests of `--threads` and RAYON_NUM_THREADS: the number of threads, the precedence, the refusals,
+//! and equal results.
 
 use std::path::Path;
 
@@ -37,7 +38,7 @@ fn every_number_gives_the_same_files() {
         let status = command.current_dir(dir.path()).env(VARIABLE, variable).output().unwrap();
         assert!(status.status.success(), "{status:?}");
         let mut files = files_below(&dir.path().join("out"));
-        // It has the seconds that the run took.
+        // This file has the duration of the run.
         files.retain(|(name, _)| name != Path::new("summary.json"));
         files
     };
@@ -46,7 +47,7 @@ fn every_number_gives_the_same_files() {
         assert!(files(&["--threads", threads], "") == one, "{threads}");
     }
     assert!(files(&[], "3") == one && files(&[], "0") == one);
-    // The option wins, even over a variable that is wrong.
+    // The option takes precedence, even over an invalid variable.
     assert!(files(&["--threads", "2"], "100000") == one);
 }
 
@@ -61,7 +62,7 @@ fn every_command_that_shares_its_work_says_so() {
     }
 }
 
-/// Threads of a simulation under way.
+/// Returns the number of threads of a running simulation.
 #[cfg(target_os = "linux")]
 fn threads(folder: &Path, asked: &str, variable: &str) -> usize {
     use std::time::{Duration, Instant};
@@ -74,7 +75,7 @@ fn threads(folder: &Path, asked: &str, variable: &str) -> usize {
         let line = status.lines().find_map(|line| line.strip_prefix("Threads:")).unwrap();
         line.trim().parse::<usize>().unwrap()
     };
-    // The most that there are until nothing has changed for a while.
+    // This is the largest number of threads until it has not changed for a second.
     let (mut most, mut since) = (0, Instant::now());
     while since.elapsed() < Duration::from_secs(1) {
         if count() > most {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate explore --plan` and `--only`: units of work that machines do apart, end to end.
+//! Tests of `foveate explore --plan` and `--only`, end to end: units of work that several machines
+//! do.
 
 use std::fs;
 use std::path::Path;
@@ -57,7 +58,7 @@ fn units_and_then_the_command_are_the_command_alone() {
     assert!(!apart.path().join("out").exists());
     for unit in &units {
         let file = text(&unit["file"]);
-        // The whole line is as good as the name.
+        // The whole line is as good as the name of a unit.
         let line = unit.to_string();
         let which = if unit == &units[0] { text(&unit["unit"]) } else { &line };
         let said = succeed(apart.path(), &["--only", which]);
@@ -130,7 +131,7 @@ fn a_unit_of_a_clip_that_breaks_off_is_not_done() {
     assert_eq!(there.len(), 1, "only the mark of the folder: {there:?}");
 }
 
-/// The process is killed as a job system or a lack of memory kills it: it cannot tidy up.
+/// The process is killed as a job system or a lack of memory kills it, so that it cannot clean up.
 #[cfg(unix)]
 #[test]
 fn workers_that_are_killed_lose_only_what_they_were_at() {
@@ -147,7 +148,7 @@ fn workers_that_are_killed_lose_only_what_they_were_at() {
     let finished = count();
     for attempt in 0..20 {
         let mut child = start(&units[1]);
-        // As soon as it writes its first result, or a little before.
+        // The process is killed at its first result, or a little before.
         while attempt % 4 > 0 && count() == finished && child.try_wait().unwrap().is_none() {}
         child.kill().unwrap();
         child.wait().unwrap();
@@ -171,7 +172,8 @@ fn workers_that_are_killed_lose_only_what_they_were_at() {
     assert_eq!(table(&dir), table(&whole));
 }
 
-/// Every size of a disk from one that has no room for the folder to one that has room for some results.
+/// The sizes of the disk range from one without room for the folder to one with room for some
+/// results.
 #[cfg(target_os = "linux")]
 #[test]
 fn a_unit_for_which_there_is_no_room_is_not_done() {

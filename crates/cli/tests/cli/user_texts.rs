@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Names of clips, however they are made, are text in every page, chart, table and command that is generated, and in a project
-//! of a board whose file has such a name.
+//! Tests that names of clips, whatever their characters, are plain text in every generated page,
+//! chart, table and command, and in a project of a board whose file has such a name.
 
 use std::fs;
 use std::path::Path;
@@ -14,7 +14,8 @@ use crate::common::{fail_in, files_below, foveate};
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
 
-/// Paths of clips; each would end a comment, an attribute, an element, a word or a line, or starts a command.
+/// The paths of clips. Each would end a comment, an attribute, an element, a word or a line, or
+/// would start a command.
 const CLIPS: &[&str] = &[
     "plain.y4m",
     "\"><script>alert(1)</script>.y4m",
@@ -27,14 +28,15 @@ const CLIPS: &[&str] = &[
     "]]>&amp;%2C#\u{e4}\u{202e}.y4m",
 ];
 
-/// Values that no design takes are told on the page, and so are those that a text hides in.
+/// A space with values that no design takes. The page must show them, including those that contain
+/// markup.
 const SPACE: &str = r#"
 [vary]
 "region.size" = [4, 8]
 "region.neighborhood" = ["isolated", "</script><script>alert(1)</script>", "a\u0001\n*/ ---> <svg onload=alert(1)>"]
 "#;
 
-/// A folder with a short clip of each name; their paths begin with `./`.
+/// Returns a folder with a short clip of each name, and their paths, which begin with `./`.
 fn clips() -> (tempfile::TempDir, Vec<String>) {
     let dir = tempfile::tempdir().unwrap();
     let mut clip = b"YUV4MPEG2 W64 H48 F30:1 Cmono\n".to_vec();
@@ -60,7 +62,8 @@ fn run(dir: &Path, before: &[&str], clips: &[String], after: &[&str]) {
     assert!(output.status.success(), "{before:?}: {}", String::from_utf8_lossy(&output.stderr));
 }
 
-/// Every page and chart of a folder is whole XML, with scripts and handlers of its own alone; tables have columns.
+/// Fails unless every page and chart of a folder is well-formed XML with only its own scripts and
+/// handlers, and tables have their columns.
 fn check(folder: &Path) {
     for (path, bytes) in files_below(folder) {
         let ending = path.extension().unwrap_or_default().to_string_lossy().into_owned();
@@ -85,7 +88,7 @@ fn check_markup(path: &Path, text: &str) {
         let name = node.tag_name().name();
         assert!(name != "script" || is_page, "{}: a chart has a script", path.display());
         if name == "script" || name == "style" {
-            // As a browser reads it: up to the first end of the element.
+            // A browser reads up to the first end of the element.
             assert!(!node.text().unwrap_or_default().contains("alert"), "{}", path.display());
         }
         for attribute in node.attributes() {
@@ -105,7 +108,7 @@ fn names_of_clips_are_text_on_the_page_of_a_network() {
     check(&dir.path().join("out"));
     let page = fs::read_to_string(dir.path().join("out/report.html")).unwrap();
     assert!(page.contains("&lt;svg onload") || page.contains("&#60;svg onload"));
-    // The command of the page gives the same words to a shell.
+    // A shell reads the same words from the command on the page.
     let (_, command) = page.split_once("<pre>foveate infer ").unwrap();
     let (command, _) = command.split_once("</pre>").unwrap();
     let pre = format!("<pre>{command}</pre>");
@@ -146,7 +149,7 @@ fn names_of_clips_are_text_in_charts_and_reports() {
     }
 }
 
-/// The name of a board's file becomes one of a bitstream, in scripts.
+/// The name of a board's file becomes the name of a bitstream in scripts.
 #[test]
 fn a_board_whose_file_has_a_hostile_name_is_refused() {
     let dir = tempfile::tempdir().unwrap();

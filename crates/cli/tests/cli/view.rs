@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! view, end to end: its link is printed, and Ctrl-C ends it. What the page delivers is tested in its own crate.
+//! Tests of `view`, end to end: its link is printed, and Ctrl-C ends it. The crate `view` tests the
+//! page.
 #![cfg(unix)]
 
 use std::fs::File;
@@ -22,7 +23,7 @@ fn a_stream_is_shown_until_it_is_told_to_stop() {
         while !told.contains("the stream has ended; frames shown: 3") {
             assert_ne!(view.errors.read_line(&mut told).unwrap(), 0, "{told}");
         }
-        // It can be looked at after its end.
+        // The page is served after the end of the stream, too.
         view.gives("");
         let (stopped, last) = view.stopped_by(signal);
         assert_eq!(stopped, Some(code));
@@ -30,7 +31,7 @@ fn a_stream_is_shown_until_it_is_told_to_stop() {
     }
 }
 
-/// A command hears a signal within this time.
+/// The time within which a command must react to a signal.
 const PROMPT: Duration = Duration::from_secs(1);
 
 fn fifo(folder: &Path) {
@@ -44,9 +45,9 @@ fn a_source_that_sends_nothing_or_noise_without_end_is_left_at_once() {
     let device = |name: &str| Stdio::from(File::open(name).unwrap());
     for signal in ["INT", "TERM"] {
         for (input, stdin) in [
-            // Nobody writes to it.
+            // No process writes to the FIFO.
             ("fifo", Stdio::null()),
-            // Somebody has it open and writes nothing.
+            // A process has the pipe open and writes nothing.
             ("-", Stdio::piped()),
             ("-", device("/dev/zero")),
             ("-", device("/dev/urandom")),

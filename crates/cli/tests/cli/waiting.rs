@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Signals while the program waits: for ffmpeg, a FIFO, standard input, a camera in the network. It ends within a second with
-//! what is complete, by the right code, and no ffmpeg remains.
+//! Tests of signals while the program waits for ffmpeg, a FIFO, standard input or a camera in the
+//! network. It must end within a second with the complete results so far and the right exit code,
+//! and no ffmpeg may remain.
 #![cfg(unix)]
 
 use std::fs::{self, File};
@@ -17,17 +18,17 @@ use serde_json::Value;
 use crate::common::listening;
 use crate::signals::{SIGNALS, ended, has, kill, wait_for};
 
-/// Longer than the program may take, for a machine that does much else.
+/// The time limit for the end of the program, long enough for a busy machine.
 const PATIENCE: Duration = Duration::from_secs(4);
 
-/// A folder with an ffmpeg of our own: a script that writes down its number and does what it is to do in place of the real
-/// one, or after it.
+/// A folder with a stub of ffmpeg: a script that records its process number, and then runs the
+/// test's commands in place of the real ffmpeg or after it.
 struct Stub {
     dir: tempfile::TempDir,
 }
 
 impl Stub {
-    /// `script` is what it does when it is not asked for its version; `$REAL` is the real ffmpeg.
+    /// Makes the stub. `script` runs unless the version is asked for; `$REAL` is the real ffmpeg.
     fn new(script: &str) -> Self {
         let dir = tempfile::tempdir().unwrap();
         let real = Command::new("sh").args(["-c", "command -v ffmpeg"]).output().unwrap();
@@ -43,7 +44,7 @@ impl Stub {
         Self { dir }
     }
 
-    /// Clips of five frames.
+    /// Writes clips of five frames.
     fn clips(&self, names: &[&str]) {
         for name in names {
             let made = Command::new("ffmpeg")
@@ -83,13 +84,14 @@ impl Stub {
         self.command(args).spawn().unwrap()
     }
 
-    /// The numbers of all that were started.
+    /// Returns the process numbers of all started stubs.
     fn pids(&self) -> Vec<String> {
         let text = fs::read_to_string(self.at("pids")).unwrap_or_default();
         text.lines().map(str::to_owned).collect()
     }
 
-    /// Waits until the stub runs, stops the program, and looks that it ends soon and alone.
+    /// Waits until the stub runs, stops the program, and checks that it ends soon and that no stub
+    /// remains. Returns its messages.
     fn stopped(&self, child: Child, signal: &str, code: i32) -> String {
         wait_for("ffmpeg", || !self.pids().is_empty());
         std::thread::sleep(Duration::from_millis(300));
@@ -100,7 +102,7 @@ impl Stub {
     }
 }
 
-/// Sends a signal to a program that waits, and looks that it ends soon, with this code.
+/// Sends a signal to a waiting program, and checks that it ends soon with this exit code.
 fn stopped(mut child: Child, signal: &str, code: i32) -> Output {
     assert!(child.try_wait().unwrap().is_none(), "it does not wait");
     let start = Instant::now();
@@ -143,7 +145,7 @@ fn has_frames(folder: &Path, frames: usize) -> bool {
 }
 
 const STALLED: &str = "exec sleep 600";
-/// All frames, and then neither an end nor more.
+/// The stub gives all frames, and then neither an end nor more frames.
 const STALLED_LATER: &str = "$REAL \"$@\"\nsleep 600";
 
 #[test]
@@ -212,7 +214,7 @@ fn pipes_that_stall_end_with_the_program() {
         command.stderr(Stdio::piped()).spawn().unwrap()
     };
     for (signal, code) in SIGNALS {
-        // Nobody writes.
+        // No process writes.
         for args in [
             &["simulate", "in", "-o", "out"][..],
             &["decode", "in", "-o", "out"],
@@ -237,7 +239,7 @@ fn pipes_that_stall_end_with_the_program() {
             }
             drop(stdin);
         }
-        // Somebody writes some frames.
+        // A process writes some frames.
         let mut child = start(&["simulate", "-", "-o", "out"], Stdio::piped());
         let mut stdin = child.stdin.take().unwrap();
         stdin.write_all(&stream(3)).unwrap();
@@ -277,7 +279,7 @@ fn a_camera_in_the_network_that_never_answers_is_left() {
     }
 }
 
-/// An encoder that takes every frame and never ends: the first Ctrl-C gives it time, the second none.
+/// This encoder takes every frame and never ends. The first Ctrl-C gives it time, the second none.
 #[test]
 fn a_second_ctrl_c_ends_everything_at_once() {
     if !require_tools(&[Tool::Ffmpeg]) {
@@ -292,7 +294,7 @@ fn a_second_ctrl_c_ends_everything_at_once() {
     stub.stopped(child, "INT", 130);
 }
 
-/// One that takes nothing: what else is done is kept, and the video is named.
+/// This encoder takes nothing. The other results are kept, and the video is named.
 #[test]
 fn an_encoder_that_stalls_is_given_up() {
     if !require_tools(&[Tool::Ffmpeg]) {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A bench as a table: in lines as wide as the terminal, or in Markdown.
+//! The report of a bench as a table: in lines as wide as the terminal, or in Markdown.
 
 use foveate_bench::{BenchReport, Level, LevelRow, Measured};
 
 const HEADINGS: [&str; 7] = ["frames", "clocks", "pixels", "x RTL", "memory", "build", "differ"];
-/// What the first three count per second.
+/// The number of leading headings that count per second.
 const PER_SECOND: usize = 3;
-/// Columns of the first cell, and of the others.
+/// The widths of the first cell and of the other cells, in columns of the terminal.
 const FIRST: usize = 23;
 const OTHER: usize = 8;
 const TABLE: usize = FIRST + HEADINGS.len() * OTHER;
 
-/// A table where it fits; otherwise a paragraph per level.
+/// Returns a table if it fits into `width` columns, and otherwise a paragraph per level.
 pub(super) fn text(report: &BenchReport, width: usize) -> String {
     let mut text = if width < TABLE {
         String::new()
@@ -84,7 +84,7 @@ fn cells(row: &Measured) -> [String; 7] {
     ]
 }
 
-/// What is compared, and what the figures include.
+/// Returns the notes below the table: which levels are compared, and what the figures include.
 fn notes(report: &BenchReport) -> Vec<String> {
     let BenchReport { design, organization, regions, size, frames, streamed, clocks, .. } = report;
     let mut notes = vec![format!(
@@ -131,7 +131,7 @@ fn fill(text: &str, width: usize) -> String {
     textwrap::fill(text, textwrap::Options::new(width).subsequent_indent("  ")) + "\n"
 }
 
-/// Three digits and a unit.
+/// Returns a number with three digits and the prefix of its unit.
 fn short(value: f64) -> String {
     let units = [(1e9, " G"), (1e6, " M"), (1e3, " k")];
     let (scale, unit) = units.into_iter().find(|(scale, _)| value >= *scale).unwrap_or((1.0, ""));
@@ -140,7 +140,7 @@ fn short(value: f64) -> String {
     format!("{scaled:.digits$}{unit}")
 }
 
-/// Megabytes, as memory is sold: 10^6 bytes.
+/// Returns a size in megabytes of 10^6 bytes.
 #[allow(clippy::cast_precision_loss, reason = "three digits are shown")]
 fn memory(bytes: u64) -> String {
     let megabytes = bytes as f64 / 1e6;

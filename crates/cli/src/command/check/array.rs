@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The part of the card that is about silicon against speed: lanes, memory, frames per second, folds.
+//! The part of the card about area and speed: lanes, memory, frames per second and folds.
 
 use foveate_design::{Area, Decimal, Design, LaneMemory, MemoryChoice, SerialDesign};
 use serde::Serialize;
@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::args::{Clock, Rate};
 use crate::error::CliError;
 
-/// The lanes of a serial design.
+/// The lanes of a serial design, as the card shows them.
 #[derive(Serialize)]
 pub(super) struct Array {
     pub(super) lanes: u32,
@@ -16,11 +16,11 @@ pub(super) struct Array {
     pub(super) memory: Memory,
 }
 
-/// The memory of a lane, in words of a pixel.
+/// The memory of a lane, in words of one pixel.
 #[derive(Serialize)]
 pub(super) struct Memory {
     pub(super) kind: &'static str,
-    /// Why it is of that kind, in words.
+    /// The reason for the kind of memory, in words.
     pub(super) why: String,
     pub(super) read_latency: u32,
     pub(super) words: u64,
@@ -36,7 +36,7 @@ pub(super) struct AreaRow {
     pub(super) words: u32,
 }
 
-/// Frames per second at a clock.
+/// The frames per second at a clock.
 #[derive(Serialize)]
 pub(super) struct FrameRate {
     pub(super) clock_hz: u64,
@@ -45,7 +45,7 @@ pub(super) struct FrameRate {
     pub(super) text: String,
 }
 
-/// The clock that a rate needs, of a design whose clock is not known.
+/// The clock that a frame rate needs, for a design whose clock is not known.
 #[derive(Serialize)]
 pub(super) struct Needed {
     pub(super) frames_per_second: f64,
@@ -54,12 +54,12 @@ pub(super) struct Needed {
     pub(super) text: String,
 }
 
-/// The largest fold that reaches a rate, or what fold 1 reaches where none does. A design that does not fold
-/// has fold 1.
+/// The largest fold that reaches a frame rate, or the rate of fold 1 if no fold reaches it. A
+/// design that does not fold has fold 1.
 #[derive(Serialize)]
 pub(super) struct Proposal {
     pub(super) wanted: f64,
-    /// Whether the rate is reached, with that fold.
+    /// True if `fold` reaches the frame rate.
     pub(super) reached: bool,
     pub(super) fold: u32,
     pub(super) lanes: u32,
@@ -94,7 +94,7 @@ impl Array {
     }
 }
 
-/// Why a lane's memory is of its kind.
+/// Returns the reason for the kind of a lane's memory.
 fn why(memory: &LaneMemory) -> String {
     match memory.why {
         MemoryChoice::Configured => "as hardware.memory says".to_owned(),
@@ -119,7 +119,8 @@ impl FrameRate {
 }
 
 impl Needed {
-    /// For the rate that was asked for, or for a round one.
+    /// Returns the clock for the frame rate `wanted`, or for 1000 frames per second if none is
+    /// given.
     pub(super) fn of(wanted: Option<Rate>, clocks: u64) -> Self {
         let rate = wanted.unwrap_or(Rate(Decimal::whole(1000)));
         let clock = rate.needs(clocks);
@@ -133,8 +134,8 @@ impl Needed {
 }
 
 impl Proposal {
-    /// What is proposed for a design that folds, whatever its own fold; of another whether it reaches the
-    /// rate as it is.
+    /// Proposes a fold for a design that folds, whatever its own fold. For any other design, it
+    /// states whether the design reaches the rate as it is.
     pub(super) fn of(design: &Design, rate: Rate, clock: Clock) -> Result<Self, CliError> {
         let (most, folds) = (rate.max_clocks(clock), design.organization().folds());
         let reaches = design.timing().clocks_per_frame() <= most;
@@ -168,13 +169,14 @@ impl Proposal {
     }
 }
 
-/// Both are far below 2^53.
+/// Returns the frames per second. Both arguments are far below 2^53.
 #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
 fn per_second(clock: Clock, clocks: u64) -> f64 {
     clock.0 as f64 / clocks as f64
 }
 
-/// Frames per second, rounded down: whole from 100 on, else with two digits after the point.
+/// Returns the frames per second, rounded down: whole from 100 on, else with two digits after the
+/// point.
 fn shown(clock: Clock, clocks: u64) -> String {
     let hundredths = clock.0 * 100 / clocks;
     match hundredths {

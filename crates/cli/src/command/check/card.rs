@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The card: everything that follows from a configuration, in the form of its JSON.
+//! The card: all values that follow from a configuration, in the form of its JSON.
 
 use foveate_design::{Config, Design, Direction, Hardware, Port, Timing};
 use serde::Serialize;
@@ -9,7 +9,7 @@ use super::array::{Array, FrameRate, Needed, Proposal};
 use crate::args::{Clock, Rate};
 use crate::error::CliError;
 
-/// Everything that follows from a configuration.
+/// All values that follow from a configuration.
 #[derive(Serialize)]
 pub(super) struct Card {
     pub(super) format_version: u32,
@@ -21,17 +21,17 @@ pub(super) struct Card {
     pub(super) stream: Stream,
     pub(super) features: Vec<Feature>,
     pub(super) count_bits: u32,
-    /// Only of a design whose regions may share a unit.
+    /// The lanes, for a serial design only.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) array: Option<Array>,
     pub(super) timing: Clocks,
-    /// Only at a clock that was given.
+    /// The frame rate at the given clock. It is left out if no clock is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) rate: Option<FrameRate>,
-    /// Only without a clock.
+    /// The clock that is needed. It is left out if a clock is given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) needs: Option<Needed>,
-    /// Only where a rate was asked for, at a clock that was given.
+    /// The proposed fold. It is left out unless both a clock and a frame rate are given.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(super) proposal: Option<Proposal>,
     pub(super) rpu_ports: Vec<PortRow>,
@@ -62,7 +62,7 @@ pub(super) struct Feature {
     pub(super) score_bits: u32,
 }
 
-/// The figures of the organization by their names, and `phases` where it has some.
+/// The timing figures of the organization by their names, with `phases` if it has phases.
 pub(super) struct Clocks(pub(super) Timing);
 
 #[derive(Serialize)]

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate check`: the derived card of a design.
+//! `foveate check`: the card with the values that follow from a configuration.
 
 mod array;
 mod card;

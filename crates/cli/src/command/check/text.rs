@@ -108,7 +108,7 @@ fn stream_line(design: &Design, card: &Card) -> String {
     format!("{0} x {0} = {1} pixels per region{halo}", card.stream.side, card.stream.pixels)
 }
 
-/// Of a core that takes the frame as it is.
+/// Returns the line about the stream of a core that takes the frame row by row (`raster`).
 fn word_line(pixels: u32) -> String {
     let word = if pixels == 1 { "pixel".to_owned() } else { format!("word of {pixels} pixels") };
     format!("the frame row by row, a {word} at every clock")
@@ -151,7 +151,7 @@ fn ports(text: &mut String, module: &str, rows: &[PortRow]) {
     }
 }
 
-/// A line that starts with `start`; what does not fit goes on under `rest`.
+/// Appends `start` and `rest`. Lines that do not fit go on below the beginning of `rest`.
 fn wrap(text: &mut String, start: &str, rest: &str) {
     let indent = " ".repeat(start.len());
     let options = textwrap::Options::new(output::width())

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From a clip through a core on AXI to a receiver's screen, beside what `simulate` says without any hardware.
+//! A clip that goes through a core on AXI to a receiver's screen, compared with the results of
+//! `simulate`, which uses no hardware.
 
 use std::collections::BTreeSet;
 use std::fs::{self, File};
@@ -16,21 +17,21 @@ use crate::args::CosimArgs;
 use crate::error::CliError;
 use crate::interrupt;
 
-/// What is in the folder: the packets, what a receiver makes of them, and what the model says.
+/// The names in the folder: the packets, the receiver's results, and the model's results.
 const PACKETS: &str = "packets.bin";
 const RECEIVED: &str = "received";
 const SIMULATED: &str = "simulated";
-/// An earlier one makes way, if nothing else is in it.
+/// The kind of the folder. An earlier folder is replaced if nothing else is in it.
 const END_TO_END: FolderKind = FolderKind {
     what: "a clip through the hardware (its packets.bin)",
     is: |folder| folder.join(PACKETS).is_file(),
 };
 
-/// The folder in the making.
+/// The folder while it is being written.
 pub(super) struct EndToEndFolder(StagedFolder);
 
 impl EndToEndFolder {
-    /// Refuses a folder that holds something else.
+    /// Fails if the folder holds anything else.
     pub(super) fn check(folder: &Path) -> Result<(), CliError> {
         Ok(StagedFolder::check(folder, END_TO_END, true)?)
     }
@@ -39,12 +40,12 @@ impl EndToEndFolder {
         Ok(Self(StagedFolder::new(folder, END_TO_END, true)?))
     }
 
-    /// Where the packets go.
+    /// Returns the path of the packets.
     pub(super) fn packets(&self) -> PathBuf {
         self.0.folder().join(PACKETS)
     }
 
-    /// An error as it is told.
+    /// Returns the error with the final path of the folder in place of the temporary one.
     pub(super) fn named(&self, error: CliError) -> CliError {
         match error {
             CliError::Cosim(error) => CliError::Cosim(error.named(&self.0)),
@@ -52,19 +53,19 @@ impl EndToEndFolder {
         }
     }
 
-    /// Puts the folder into its place, with what there is; nothing if no packets have come.
+    /// Moves the folder with its contents to its final path. Does nothing if there are no packets.
     pub(super) fn end(self) -> Result<(), CliError> {
         if self.packets().is_file() { Ok(self.0.commit()?) } else { Ok(()) }
     }
 }
 
-/// Whether a receiver sees what `simulate` says.
+/// The comparison of the receiver's screen with the results of `simulate`.
 #[derive(Debug, Serialize)]
 pub(super) struct EndToEnd {
     frames: u64,
-    /// Arrays and pictures that were compared.
+    /// The number of arrays and pictures that were compared.
     files: usize,
-    /// Those that are not the same, or not in both folders.
+    /// The files that differ, or that are not in both folders.
     differences: Vec<String>,
     received: PathBuf,
     simulated: PathBuf,
@@ -75,7 +76,7 @@ impl EndToEnd {
         self.differences.is_empty()
     }
 
-    /// A line for people.
+    /// Returns the result as a line of text.
     pub(super) fn text(&self) -> String {
         let Self { frames, files, differences, received, simulated } = self;
         let (received, simulated) = (received.display(), simulated.display());
@@ -89,7 +90,7 @@ impl EndToEnd {
     }
 }
 
-/// Decodes the packets that a core has sent, simulates the same frames, and compares.
+/// Decodes the packets that the core has sent, simulates the same frames, and compares the results.
 pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEnd, CliError> {
     let EndToEndFolder(staged) = trip;
     let told = |folder: &Path| staged.shown(folder);
@@ -99,7 +100,7 @@ pub(super) fn compare(args: &CosimArgs, trip: &EndToEndFolder) -> Result<EndToEn
     let options = RunOptions::default();
     let (received, simulated) = (folder.join(RECEIVED), folder.join(SIMULATED));
     let simulation = simulation(args, &config)?;
-    // The clip says how large its frames are; packets alone do not.
+    // The clip gives the size of its frames; packets do not.
     let config = simulation.design().config().clone();
 
     let packets = folder.join(PACKETS);
@@ -123,8 +124,9 @@ fn simulation(args: &CosimArgs, config: &Config) -> Result<Simulation, CliError>
     Ok(Simulation::new(config, open(&args.inputs, &config.camera, &input)?)?)
 }
 
-/// How many arrays and pictures a receiver has, and which of them differ from those of the model. Of a picture that only one
-/// has, too: the model has no more of them. Scores are in its folder alone, as packets have none.
+/// Returns the number of the receiver's arrays and pictures, and the names of those that differ
+/// from the model's. A picture that only the model has counts and differs, too. Scores are in the
+/// model's folder alone, because packets have none, and are not compared.
 fn differences(received: &Path, simulated: &Path) -> Result<(usize, Vec<String>), CliError> {
     let arrays = names(received)?.into_iter().filter(|name| name.ends_with(".npy"));
     let pictures = [received, simulated].map(|folder| names(&folder.join("rendered")));
@@ -139,7 +141,7 @@ fn differences(received: &Path, simulated: &Path) -> Result<(usize, Vec<String>)
     Ok((all.len(), all.iter().filter(differs).cloned().collect()))
 }
 
-/// The names of the files of a folder.
+/// Returns the names of the files in a folder.
 fn names(folder: &Path) -> Result<Vec<String>, CliError> {
     let entries = fs::read_dir(folder).map_err(CliError::io("read the folder", folder))?;
     let name = |entry: std::io::Result<fs::DirEntry>| {
@@ -153,7 +155,7 @@ fn names(folder: &Path) -> Result<Vec<String>, CliError> {
 mod tests {
     use super::*;
 
-    /// A folder as `simulate` writes it.
+    /// Writes a folder as `simulate` does, and returns its path.
     fn folder(root: &Path, name: &str, pictures: &[&str]) -> PathBuf {
         let folder = root.join(name);
         fs::create_dir_all(folder.join("rendered")).unwrap();

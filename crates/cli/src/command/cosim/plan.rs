@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the options of `foveate cosim` ask to be simulated.
+//! The co-simulations that the options of `foveate cosim` ask for.
 
 use std::fs;
 use std::path::Path;
@@ -12,9 +12,10 @@ use foveate_toolchain::check_source_name;
 use crate::args::{self, CosimArgs, SimulatorChoice};
 use crate::error::CliError;
 
-/// The largest file of Verilog that is read, in bytes; the longest that is generated has a few MiB.
+/// The largest Verilog file that is read, in bytes. The largest generated file has a few MiB.
 const VERILOG_LIMIT: u64 = 1 << 26;
-/// Clocks of the whole frame that are enough where nobody asked for it: some ten seconds of a raster core.
+/// The clocks of the whole frame that are enough if `--full` is not given: some ten seconds of
+/// simulation of a raster core.
 const ENOUGH: u64 = 40_000_000;
 
 /// A co-simulation: of an array clock by clock, or of a core on AXI packet by packet.
@@ -32,18 +33,18 @@ impl Work {
     }
 }
 
-/// What is to be done.
+/// The co-simulations of a command, and the inputs that they share.
 pub(super) struct Plan {
     pub(super) design: Design,
-    /// The Verilog that is given.
+    /// The given Verilog; `None` if it is generated.
     pub(super) rtl: Option<Vec<SourceFile>>,
     pub(super) prefix: Prefix,
-    /// The co-simulations, the smallest first; at least one.
+    /// The co-simulations, the smallest first; there is at least one.
     pub(super) works: Vec<Work>,
 }
 
 impl Plan {
-    /// Keeps the packets of a core on AXI in this file.
+    /// Makes the core on AXI write its packets into `file`.
     pub(super) fn keep_packets(&mut self, file: &Path) {
         for work in &mut self.works {
             if let Work::Axi(job) = work {
@@ -65,7 +66,8 @@ pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
             Level::Rpu => 3,
             Level::Rcm { .. } | Level::Full => 1,
         });
-        // The whole frame is simulated beside a small one, which all sequences have shown.
+        // The whole frame is simulated in addition to a small frame, to which all sequences are
+        // applied.
         let enough = (!args.full && level == Level::Full).then_some(ENOUGH);
         let stimulus = Stimulus { level, seed: args.seed, rounds, frames: frames.clone(), enough };
         let mut job = Job::new(&design, stimulus, &args.replay)?;
@@ -91,7 +93,7 @@ pub(super) fn plan(args: &CosimArgs) -> Result<Plan, CliError> {
     Ok(Plan { design, rtl, prefix, works })
 }
 
-/// The core on AXI, where it is to be simulated.
+/// Returns the job of the core on AXI, if it is to be simulated.
 fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
     let is_part = args.full || args.netlist || args.simulator == SimulatorChoice::Iverilog;
     let packets = args.packets.clone();
@@ -116,7 +118,7 @@ fn axi(args: &CosimArgs, design: &Design) -> Result<Option<BusJob>, CliError> {
     }
 }
 
-/// Whether all of the Verilog is to be simulated: it is given, and no part of it was asked for.
+/// Returns true if all of the Verilog is to be simulated: it is given, and no part of it is chosen.
 pub(super) fn is_whole(args: &CosimArgs) -> bool {
     args.rtl.is_some() && args.level.is_none() && !args.full
 }
@@ -145,7 +147,7 @@ fn levels(
     Ok(vec![one])
 }
 
-/// The prefix of the core in these files: the one that is asked for, or the only one that is there.
+/// Returns the prefix of the core in these files: the given one, or the only one in the files.
 fn prefix_of(
     args: &CosimArgs,
     design: &Design,
@@ -167,7 +169,7 @@ fn prefix_of(
     Err(CliError::Usage(message))
 }
 
-/// The Verilog files of a folder, in the order of their names.
+/// Reads the Verilog files of a folder, in the order of their names.
 fn read_rtl(folder: &Path) -> Result<Vec<SourceFile>, CliError> {
     let mut files = Vec::new();
     for entry in fs::read_dir(folder).map_err(CliError::io("read the folder", folder))? {

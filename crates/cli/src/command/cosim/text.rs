@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A summary of co-simulations for people.
+//! The text of a summary of co-simulations.
 
 use foveate_cosim::CosimReport;
 
 use super::Told;
 
-/// The text, in lines of at most `width` columns where words allow it.
+/// Returns the text in lines of at most `width` columns; longer words are not broken.
 pub(super) fn of(told: &Told<'_>, width: usize) -> String {
     let Told { summary, end_to_end } = told;
     let mut text = String::new();
@@ -26,7 +26,8 @@ pub(super) fn of(told: &Told<'_>, width: usize) -> String {
             add(&mut text, &format!("waves in {}", waves.display()), "  ", width);
         }
     }
-    // Runs that a mismatch has ended have not reached the rest.
+    // Situations are counted only without a mismatch, which ends a run before it reaches all of
+    // them.
     let all_agree = summary.runs.iter().all(CosimReport::passed);
     if all_agree && !summary.situations.0.is_empty() {
         add(&mut text, &format!("situations  {}", summary.situations), "", width);
@@ -59,11 +60,11 @@ fn about(report: &CosimReport) -> String {
     )
 }
 
-/// Appends a paragraph, whose later lines are indented by two more.
+/// Appends a paragraph. Its later lines are indented by two more columns.
 fn add(text: &mut String, paragraph: &str, indent: &str, width: usize) {
     let further = format!("{indent}  ");
     for line in paragraph.lines() {
-        // A path or a number is longer than the line sooner than it is broken.
+        // A path or a number is not broken, even if it is longer than the line.
         let options = textwrap::Options::new(width)
             .initial_indent(indent)
             .subsequent_indent(&further)

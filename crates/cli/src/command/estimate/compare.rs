@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate estimate --compare`: which designs stand in the table.
+//! `foveate estimate --compare`: the designs of the table.
 
 use foveate_design::{
     Config, ConfigError, Design, FeatureKind, Feed, Filter, Organization, SpatialConfig,
@@ -12,14 +12,15 @@ use crate::error::CliError;
 use crate::output;
 use crate::progress::Progress;
 
-/// Frames per second of the folded arrays, the fewer the more regions may share a lane. Each has the cheapest fold that
-/// its clock allows.
+/// The frame rates of the folded arrays, in frames per second. A lower rate lets more regions share
+/// a lane. Each array has the cheapest fold that its clock allows.
 const FOLDED_RATES: [u64; 2] = [500, 30];
 
-/// A row that the table should have.
+/// A row of the table, before its synthesis.
 struct Wanted {
     name: String,
-    /// What is said together with others if the design is refused.
+    /// The name under which the row is reported, once for the whole family, if the design is
+    /// refused.
     family: String,
     design: Result<Design, ConfigError>,
 }
@@ -60,7 +61,8 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     }
 }
 
-/// The design in each organization with each feature, without and with denoising.
+/// Returns the rows of the design in each organization with each feature, without and with
+/// denoising.
 fn organizations(base: &Config) -> Vec<Wanted> {
     let mut list = Vec::new();
     for &organization in Organization::ALL {
@@ -92,8 +94,8 @@ fn with_feature(base: &Config, kind: FeatureKind, filter: Filter) -> Config {
     config
 }
 
-/// Median and the default feature, one pixel at a time, in the cheapest number of lanes that does that many frames per
-/// second.
+/// Returns the row of a serial array with the median, the default feature and raster feed, in the
+/// cheapest number of lanes that reaches `rate` frames per second.
 fn folded(base: &Config, rate: u64, given: Option<f64>, flow: &Flow) -> Result<Wanted, CliError> {
     let feature = FeatureKind::default();
     let mut config = with_feature(base, feature, Filter::Median3x3);

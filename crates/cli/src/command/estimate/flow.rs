@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One synthesis, for a report or for a row of the comparison.
+//! The synthesis of one design, for a report or for a row of the comparison.
 
 use foveate_design::Design;
 use foveate_emit::Top;
@@ -8,7 +8,7 @@ use foveate_toolchain::{Cache, Toolchain};
 
 use crate::error::CliError;
 
-/// What every synthesis needs.
+/// The tools that every synthesis needs.
 pub(super) struct Flow {
     pub(super) toolchain: Toolchain,
     pub(super) cache: Cache,

@@ -34,7 +34,8 @@ pub(super) fn run(args: &EstimateArgs, flow: &Flow) -> Result<(), CliError> {
     }
 }
 
-/// What is placed: the core on AXI, if the design is one and no part of it is asked for.
+/// Returns the job to place. Without `--level` it is the core on AXI if the design is one, and one
+/// RPU otherwise.
 fn job(args: &EstimateArgs, design: &Design) -> Result<RouteJob, CliError> {
     let of = |top| RouteJob::of(design, top, args.seeds, args.portable);
     let on_bus = || RouteJob::on_bus(design, args.seeds, args.portable);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Points for a terminal and as Markdown.
+//! The points of an exploration as text and as Markdown.
 
 use std::fmt::Write as _;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::path::Path;
 use foveate_estimate::ramb36;
 use foveate_explore::{DesignRow, Exploration};
 
-/// A column: its name, and what stands in it.
+/// A column: its name, and the function that writes its cells.
 type Column = (&'static str, fn(&DesignRow) -> String);
 
 const COLUMNS: [Column; 16] = [
@@ -40,7 +40,7 @@ fn decibels(value: Option<f64>) -> String {
     value.map_or_else(|| "same".to_owned(), |value| format!("{value:.1}"))
 }
 
-/// Largest, mean and RMS of every score that can be compared.
+/// Returns the largest, mean and RMS error of every score that can be compared.
 fn scores(row: &DesignRow) -> String {
     let score = |score: &foveate_explore::ScoreError| {
         let digits = |value: f64| {
@@ -94,7 +94,7 @@ pub(super) fn markdown(found: &Exploration) -> String {
     text
 }
 
-/// What was found in short: the points on the front, and where the rest is.
+/// Returns a short text: the points on the Pareto front, and the files with all points.
 pub(super) fn text(folder: &Path, found: &Exploration, width: usize) -> String {
     let front: Vec<&DesignRow> = found.rows.iter().filter(|row| row.front.all).collect();
     let mut text = format!(

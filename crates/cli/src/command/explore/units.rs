@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate explore` in units that machines do apart. Synthesis is no part of a unit, so Yosys is not needed.
+//! `foveate explore` in units of work for several machines. Synthesis is no part of a unit, so that
+//! Yosys is not needed.
 
 use std::path::Path;
 
@@ -10,7 +11,7 @@ use crate::args::ExploreArgs;
 use crate::error::CliError;
 use crate::output;
 
-/// One unit in each line, as compact JSON.
+/// Prints one unit per line, as compact JSON.
 pub(super) fn print_plan(
     request: &Request<'_>,
     folder: &Path,

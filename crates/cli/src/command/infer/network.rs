@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `foveate infer` of a network alone, without a camera: on arrays, or only looked at.
+//! `foveate infer` with a network alone, without a camera: on arrays, or only checked.
 
 use std::ffi::OsString;
 use std::fmt::Write as _;
@@ -18,9 +18,9 @@ use crate::args::{Cli, InferArgs};
 use crate::error::CliError;
 use crate::output;
 
-/// Arguments that arrays have in common with clips.
+/// The arguments that are valid for arrays, too.
 const OF_ARRAYS: [&str; 7] = ["network", "inputs", "output", "force", "json", "quiet", "threads"];
-/// Arguments that a check has in common with clips.
+/// The arguments that are valid for a check, too.
 const OF_CHECK: [&str; 5] = ["network", "check", "json", "resize", "threads"];
 
 /// Runs the network on arrays.
@@ -40,7 +40,7 @@ pub(super) fn arrays(args: &InferArgs, words: &[OsString], folder: &Path) -> Res
     }
 }
 
-/// Looks at all nodes of the network.
+/// Checks all nodes of the network.
 pub(super) fn check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError> {
     only(words, &OF_CHECK, "with --check, which reads no frames")?;
     let checked = check_network(&args.network, args.input.resize.unwrap_or(OPEN_SIZE))?;
@@ -59,7 +59,8 @@ pub(super) fn check(args: &InferArgs, words: &[OsString]) -> Result<(), CliError
     }
 }
 
-/// Refuses arguments that have no meaning here.
+/// Fails if an argument outside of `allowed` is given. `here` names the use of the command in the
+/// message.
 fn only(words: &[OsString], allowed: &[&str], here: &str) -> Result<(), CliError> {
     let command = Cli::command();
     let matches = command.clone().get_matches_from(words);
@@ -79,7 +80,7 @@ fn only(words: &[OsString], allowed: &[&str], here: &str) -> Result<(), CliError
     }
 }
 
-/// A count in millions.
+/// Returns a count in millions.
 #[allow(clippy::cast_precision_loss, reason = "one digit is shown")]
 fn millions(count: u64) -> String {
     format!("{:.1} M", count as f64 / 1e6)

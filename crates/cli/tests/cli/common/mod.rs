@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs the command as a user does.
+//! Functions that run the command as a user does.
 
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
 
-/// The command, with a cache that all tests share.
+/// Returns the command, with a cache that all tests share.
 pub(crate) fn foveate(args: &[&str]) -> Command {
     let mut command = Command::cargo_bin("foveate").unwrap();
-    // Lines of progress depend on how busy the machine is.
+    // The number of progress lines depends on the load of the machine.
     command.args(args).env("FOVEATE_PROGRESS", "0");
     command
 }
 
-/// The command as a terminal starts it, to be sent signals. Tests that run under `nohup` or in the background of a
-/// script inherit signals that are ignored, and so would the command.
+/// Returns the command as a terminal starts it, for tests that send signals. Tests that run under
+/// `nohup` or in the background of a script inherit ignored signals, and so would the command.
 #[cfg(unix)]
 pub(crate) fn listening() -> std::process::Command {
     if cfg!(target_os = "linux") {
@@ -26,7 +26,7 @@ pub(crate) fn listening() -> std::process::Command {
     }
 }
 
-/// What a command printed, and its exit code.
+/// The output of a command, and its exit code.
 pub(crate) struct CommandOutput {
     pub(crate) code: i32,
     pub(crate) stdout: String,
@@ -44,14 +44,15 @@ pub(crate) fn run_in(folder: &Path, args: &[&str]) -> CommandOutput {
     }
 }
 
-/// Runs the command in `folder` and expects it to end well.
+/// Runs the command in `folder`, and fails unless its exit code is 0. Returns its standard output.
 pub(crate) fn succeed_in(folder: &Path, args: &[&str]) -> String {
     let outcome = run_in(folder, args);
     assert_eq!(outcome.code, 0, "{args:?}: {}", outcome.stderr);
     outcome.stdout
 }
 
-/// Runs the command in `folder` and expects one line on standard error, beside warnings, that has all of `parts`.
+/// Runs the command in `folder`, and expects the exit code `code` and one line on standard error,
+/// besides warnings, that contains all of `parts`.
 pub(crate) fn fail_in(folder: &Path, code: i32, args: &[&str], parts: &[&str]) -> CommandOutput {
     let outcome = run_in(folder, args);
     assert_eq!(outcome.code, code, "{args:?}: {}", outcome.stderr);
@@ -63,7 +64,7 @@ pub(crate) fn fail_in(folder: &Path, code: i32, args: &[&str], parts: &[&str]) -
     outcome
 }
 
-/// Every file below `folder` by its path, sorted.
+/// Returns every file below `folder` with its path, sorted.
 pub(crate) fn files_below(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let mut found = Vec::new();
     let mut open = vec![folder.to_owned()];
