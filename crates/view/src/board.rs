@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The registers of a core on a serial line: all are read again and again, and a threshold is written when a browser
-//! asks for it. One command at a time is on the line.
+//! The registers of a core on a serial line. All are read again and again, and a register is
+//! written when a browser asks for it. Only one command at a time is on the line.
 
 use std::fs::File;
 use std::io::Write as _;
@@ -16,28 +16,29 @@ use serde_json::{Value, json};
 use crate::ViewError;
 use crate::live::{Live, Reading};
 
-/// How long an answer is waited for. Longer than the pause after which a board takes the next byte for the first of a
-/// command.
+/// The time to wait for an answer. It is longer than the pause after which a board takes the next
+/// byte for the first byte of a command.
 const ANSWER: Duration = Duration::from_millis(300);
-/// How often a command is sent.
+/// The number of times that a command is sent.
 const ATTEMPTS: u32 = 3;
-/// Between two rounds through all registers.
+/// The time between two rounds through all registers.
 const ROUND: Duration = Duration::from_secs(1);
-/// How long a browser waits for its write.
+/// The time that a browser waits for its write.
 const WRITE: Duration = Duration::from_secs(10);
-/// Answers that wait to be looked at; a board that sends more of them was not asked.
+/// The number of answers that are kept until they are read. A board that sends more answers was not
+/// asked for them.
 const ANSWERS: usize = 256;
-/// The board's own register.
+/// The address of the board's own register.
 const BOARD: u32 = 0x1000;
 
-/// A register that a browser wants to be written, and where the answer goes.
+/// A register that a browser wants to write, and the sender for the result.
 struct Write {
     address: u16,
     value: u32,
     done: Sender<bool>,
 }
 
-/// The registers of a core.
+/// The registers of a core, and the port to it.
 #[derive(Debug, Default)]
 pub(crate) struct Board {
     table: OnceLock<Vec<Register>>,
@@ -46,7 +47,8 @@ pub(crate) struct Board {
 }
 
 impl Board {
-    /// Begins to read the registers, if there is a port and the design has some. Returns where answers go.
+    /// Begins to read the registers, if there is a port and the design has registers. Returns the
+    /// sender for the board's answers.
     pub(crate) fn start(
         self: &Arc<Self>,
         config: &Config,
@@ -54,7 +56,7 @@ impl Board {
         has_port: bool,
     ) -> Result<SyncSender<Answer>, ViewError> {
         let (answer, answers) = sync_channel(ANSWERS);
-        // The size of frames does not change the map, but for what is constant.
+        // The size of frames changes only the constants of the register map.
         let design = config.validate().ok().filter(|design| has_port && design.is_on_axi());
         if let Some(table) = design.as_ref().and_then(table) {
             let (write, writes) = channel();
@@ -66,18 +68,19 @@ impl Board {
         Ok(answer)
     }
 
-    /// The port to write to; none while it is gone.
+    /// Sets the port to write to; `None` while the port is gone.
     pub(crate) fn attach(&self, port: Option<File>) {
         *self.port.lock().unwrap_or_else(PoisonError::into_inner) = port;
     }
 
-    /// A copy, so that nothing is held while a command is written: the reader may want to say that the port is gone.
+    /// Returns a copy of the port, so that no lock is held while a command is written. The reader
+    /// may want to report meanwhile that the port is gone.
     fn port(&self) -> Option<File> {
         let port = self.port.lock().unwrap_or_else(PoisonError::into_inner);
         port.as_ref().and_then(|port| port.try_clone().ok())
     }
 
-    /// What a browser is told of the registers.
+    /// Returns the description of the registers for the page.
     pub(crate) fn describe(&self) -> Value {
         let field = |field: &Field| {
             let Field { name, low, width, kind, doc } = field;
@@ -92,7 +95,8 @@ impl Board {
         })
     }
 
-    /// Writes a register that can be written.
+    /// Writes a register. Fails with a message if the register cannot be written, the value is too
+    /// large, or the board does not answer.
     pub(crate) fn write(&self, address: u64, value: u64) -> Result<(), String> {
         let table = self.table.get().ok_or("there is no core whose registers can be written")?;
         let own = table.iter().find(|own| u64::from(own.address) == address);
@@ -125,7 +129,8 @@ impl Board {
                 let is_silent =
                     readings.first().is_some_and(|first: &Reading| first.value.is_none());
                 let address = u16::try_from(own.address).unwrap_or(u16::MAX);
-                // A board that does not answer once is asked again in the next round.
+                // If the first register of a round has no answer, the others are not asked for
+                // until the next round.
                 let value =
                     if is_silent { None } else { self.ask(Command::read(address), answers) };
                 readings.push(Reading { address: own.address, value });
@@ -141,14 +146,14 @@ impl Board {
 
     fn serve(&self, write: &Write, answers: &Receiver<Answer>) {
         let answer = self.ask(Command::write(write.address, write.value), answers);
-        // A browser that does not wait any more sees it in the table.
+        // A browser that no longer waits sees the value in the table.
         let _ = write.done.send(answer.is_some());
     }
 
-    /// Sends a command until it is answered.
+    /// Sends a command up to [`ATTEMPTS`] times, until it is answered.
     fn ask(&self, command: Command, answers: &Receiver<Answer>) -> Option<u32> {
         for _ in 0..ATTEMPTS {
-            // Answers to what was asked before; more than these may come meanwhile.
+            // Answers to earlier commands are dropped; further answers may come meanwhile.
             answers.try_iter().take(ANSWERS).for_each(drop);
             let port = self.port();
             port?.write_all(&command.bytes()).ok()?;
@@ -165,7 +170,7 @@ impl Board {
     }
 }
 
-/// The registers of a core and of its board that are read.
+/// Returns the registers of a core and of its board that are read.
 fn table(design: &Design) -> Option<Vec<Register>> {
     let status = |name: &str, low: u32, width: u32, doc: &str| Field {
         name: name.to_owned(),
@@ -184,13 +189,14 @@ fn table(design: &Design) -> Option<Vec<Register>> {
         ],
         doc: "the board around the core".to_owned(),
     };
-    // The first says that there is a core at all; what else is constant every FRAME says.
+    // The first register shows that there is a core. Other constant registers are left out, because
+    // every FRAME packet has their values.
     let is_told = |own: &Register| own.address == 0 || own.fields.iter().any(changes);
     let all = register_table(design)?;
     Some(all.into_iter().filter(is_told).chain([board]).collect())
 }
 
-/// Whether it may read as another value.
+/// Returns true if a field may read as another value later.
 fn changes(field: &Field) -> bool {
     match field.kind {
         Kind::Status | Kind::Control { .. } | Kind::Threshold { .. } | Kind::Event => true,

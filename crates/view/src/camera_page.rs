@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page on which a camera runs in the browser: the files of `web/` as one, with the engine inside.
+//! The page on which a camera runs in the browser: the files of `web/` in one file, with the engine
+//! inside.
 //!
-//! It loads nothing. Its policy allows its own script and style by their hashes, and requests only to where it came from,
-//! for the frames of `foveate live`.
+//! The page loads nothing. Its policy allows its own script and style by their hashes, and requests
+//! only to its own server, for the frames of `foveate live`.
 
 use std::io::Write as _;
 
@@ -18,7 +19,7 @@ macro_rules! web {
     ($($name:literal),* $(,)?) => { [$(include_str!(concat!("../web/", $name))),*] };
 }
 
-/// The modules of the page, each behind those that it imports.
+/// The modules of the page. Each stands behind those that it imports.
 const MODULES: [&str; 20] = web![
     "engine.js",
     "elements.js",
@@ -42,10 +43,11 @@ const MODULES: [&str; 20] = web![
     "main.js",
 ];
 
-/// The modules of the thread in which a network runs, in the same way.
+/// The modules of the thread in which a network runs, in the same order.
 const WORKER: [&str; 2] = web!["engine.js", "network_worker.js"];
 
-/// The page as one file. With `frames` it begins with the frames that are served at that address, relative to its own.
+/// Returns the page as one file. With `frames` it begins with the frames that the server has at
+/// that address, relative to the page's own.
 #[must_use]
 pub fn camera_page(frames: Option<&str>) -> String {
     let script = as_one(&MODULES);
@@ -63,18 +65,19 @@ pub fn camera_page(frames: Option<&str>) -> String {
         .replace("/*WASM*/", &packed(include_bytes!("../web/foveate.wasm")))
 }
 
-/// Modules as one script.
+/// Joins modules into one script.
 fn as_one(modules: &[&str]) -> String {
     modules.iter().map(|module| as_part(module)).collect()
 }
 
-/// A module as a part of one script: it imports nothing, because what it would import stands above it.
+/// Turns a module into a part of one script. It imports nothing, because its imports stand above
+/// it.
 fn as_part(module: &str) -> String {
     let lines = module.lines().filter(|line| !line.starts_with("import "));
     lines.map(|line| format!("{}\n", line.strip_prefix("export ").unwrap_or(line))).collect()
 }
 
-/// Compressed, as text.
+/// Compresses bytes and encodes them as text.
 fn packed(bytes: &[u8]) -> String {
     let mut gzip = GzEncoder::new(Vec::new(), Compression::best());
     let written = gzip.write_all(bytes).and_then(|()| gzip.finish());
@@ -115,7 +118,7 @@ mod tests {
         for loaded in [" src=", "<link rel=\"stylesheet", "url(", "@import"] {
             assert!(!page.contains(loaded), "{loaded}");
         }
-        // What would end it early.
+        // Another end tag would end the script or the style early.
         assert_eq!(page.matches("</script").count(), 4);
         assert_eq!(page.matches("</style").count(), 1);
     }
@@ -126,7 +129,7 @@ mod tests {
         let files = std::fs::read_dir(folder).unwrap().map(|entry| entry.unwrap().path());
         let modules: Vec<_> =
             files.filter(|path| path.extension().is_some_and(|own| own == "js")).collect();
-        // Both have the engine.
+        // Both scripts have the engine.
         assert_eq!(modules.len(), MODULES.len() + WORKER.len() - 1, "{modules:?}");
         for path in modules {
             let text = std::fs::read_to_string(&path).unwrap();

@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The connections of a server. There are never more than [`CONNECTIONS`], and a new one always finds room: the connection that
-//! was silent for the longest time is closed, first of all one that has not shown the token of the link. So connections that are
-//! slow, idle or stuck cost a browser that behaves well nothing.
+//! The connections of a server. There are never more than [`CONNECTIONS`], and a new connection
+//! always finds room: the connection that has been silent for the longest time is closed, and
+//! connections that have not shown the token of the link are closed first. So slow, idle or stuck
+//! connections do not affect a browser that behaves well.
 
 use std::collections::BTreeMap;
 use std::net::{Shutdown, TcpStream};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Connections at a time.
+/// The number of connections at a time.
 const CONNECTIONS: usize = 32;
-/// How long a new connection waits until the thread of a closed one has ended.
+/// The time that a new connection waits for the thread of a closed one to end.
 const ROOM: Duration = Duration::from_secs(1);
-/// After this time another connection is closed, too.
+/// The time after which another connection is closed, too.
 const CLOSING: Duration = Duration::from_millis(100);
 
-/// The connections that are open.
+/// The open connections.
 #[derive(Debug, Default)]
 pub(crate) struct ConnectionTable {
     state: Mutex<State>,
@@ -31,14 +32,14 @@ struct State {
 #[derive(Debug)]
 struct Connection {
     stream: Arc<TcpStream>,
-    /// Whether it has shown the token.
+    /// True if the connection has shown the token.
     is_admitted: bool,
-    /// When its last request came, or when it was opened.
+    /// The time of its last request, or of its opening.
     since: Instant,
     is_closed: bool,
 }
 
-/// A connection's place in the table, until this is dropped.
+/// The place of a connection in the table. The place is free again when this value is dropped.
 #[derive(Debug)]
 pub(crate) struct ConnectionPlace {
     table: Arc<ConnectionTable>,
@@ -46,7 +47,8 @@ pub(crate) struct ConnectionPlace {
 }
 
 impl ConnectionTable {
-    /// Takes a new connection. There is no place only while [`CONNECTIONS`] threads have not ended although theirs were closed.
+    /// Takes a new connection. There is no place only while the threads of [`CONNECTIONS`] closed
+    /// connections have not ended.
     pub(crate) fn take(self: &Arc<Self>, stream: &Arc<TcpStream>) -> Option<ConnectionPlace> {
         let until = Instant::now() + ROOM;
         let mut state = self.lock();
@@ -72,19 +74,21 @@ impl ConnectionTable {
 }
 
 impl State {
-    /// Closes the connection that was silent for the longest time, first one that has not shown the token.
+    /// Closes the connection that has been silent for the longest time. Connections that have not
+    /// shown the token are closed first.
     fn close_one(&mut self) {
         let open = self.open.values_mut().filter(|own| !own.is_closed);
         if let Some(longest) = open.min_by_key(|own| (own.is_admitted, own.since)) {
             longest.is_closed = true;
-            // Its thread sees the end of the stream. One that is gone already needs no closing.
+            // The thread of the connection sees the end of the stream. A failure means that the
+            // connection is closed already.
             let _ = longest.stream.shutdown(Shutdown::Both);
         }
     }
 }
 
 impl ConnectionPlace {
-    /// The connection has sent a request that shows the token.
+    /// Notes that the connection has sent a request with the token.
     pub(crate) fn admit(&self) {
         if let Some(own) = self.table.lock().open.get_mut(&self.number) {
             (own.is_admitted, own.since) = (true, Instant::now());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a stream cannot be shown.
+//! The errors of a stream, or of frames, that cannot be shown.
 
 use std::io;
 use std::net::SocketAddr;
@@ -9,53 +9,53 @@ use foveate_design::ConfigError;
 use foveate_footage::FootageError;
 use thiserror::Error;
 
-/// A stream, or frames, that cannot be shown.
+/// An error of a stream, or of frames, that cannot be shown.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ViewError {
     /// The input cannot be opened.
     #[error("cannot read the packets `{}`: {source}", path.display())]
     Open {
-        /// What was given.
+        /// The path as given.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// A folder has no packets.
+    /// The input is a folder, which has no packets.
     #[error("`{}` is a folder; give the file with the packets, such as packets.bin in it", path.display())]
     Folder {
-        /// What was given.
+        /// The path as given.
         path: PathBuf,
     },
-    /// A device that is none.
+    /// The input is a device, but no serial port.
     #[error("`{}` is a device, but no serial port; give a port such as /dev/ttyUSB0, a file, a FIFO, or -", path.display())]
     NoPort {
-        /// What was given.
+        /// The path as given.
         path: PathBuf,
     },
-    /// A port that does not do what is asked of it.
+    /// The port cannot have the requested rate.
     #[error("cannot set `{}` to {baud} bits per second: {source}; choose a rate that the port has with --baud", path.display())]
     Rate {
-        /// The port.
+        /// The path of the port.
         path: PathBuf,
-        /// The rate that was asked for.
+        /// The requested rate in bits per second.
         baud: u32,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// What comes once only cannot be repeated.
+    /// The input can be read only once, and so cannot be repeated.
     #[error("`{}` is no file, so it cannot be played again; leave --play looped out", path.display())]
     NotAgain {
-        /// What was given.
+        /// The path as given.
         path: PathBuf,
     },
-    /// Frames that cannot be read.
+    /// The frames cannot be read.
     #[error(transparent)]
     Footage(#[from] FootageError),
-    /// Settings that there are not.
+    /// The configuration is not valid.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// An address that others could reach.
+    /// Other machines could reach the address.
     #[error(
         "{address} is not an address of this machine alone; take one that begins with 127.0.0.1 or \
          [::1], and from another machine a tunnel: ssh -L 8000:127.0.0.1:8000"
@@ -64,24 +64,24 @@ pub enum ViewError {
         /// The address as given.
         address: SocketAddr,
     },
-    /// The address is taken.
+    /// The server cannot listen on the address.
     #[error("cannot listen on {address}: {source}; choose another port, or 0 for any that is free")]
     Listen {
         /// The address as given.
         address: SocketAddr,
-        /// Why.
+        /// The cause.
         source: io::Error,
     },
-    /// The system gave no thread.
+    /// The system started no thread.
     #[error("the system cannot start a thread: {source}; try again with fewer programs running")]
     Thread {
-        /// What it says.
+        /// The cause.
         source: io::Error,
     },
     /// The system gave no random numbers.
     #[error("the system gives no random numbers, so the page cannot be kept from others: {reason}")]
     Random {
-        /// What it says.
+        /// The cause.
         reason: String,
     },
 }

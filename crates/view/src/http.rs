@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! As much of HTTP/1.1 as a browser on the same machine needs: requests with a length, one after the other on a
-//! connection. Requests and answers have limits in bytes, lines and time.
+//! The part of HTTP/1.1 that a browser on the same machine needs: requests with a length, one after
+//! the other on a connection. Requests and answers have limits in bytes, lines and time.
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::net::TcpStream;
@@ -9,31 +9,33 @@ use std::time::Duration;
 
 use crate::timed_stream::TimedStream;
 
-/// Longest head of a request.
+/// The largest head of a request, in bytes.
 const HEAD: u64 = 16 << 10;
-/// Most lines of it.
+/// The largest number of lines in a head.
 const LINES: usize = 100;
-/// Longest body of a request.
+/// The largest body of a request, in bytes.
 const BODY: usize = 4 << 10;
-/// Time for a whole request, from its first byte on; for the first of a connection, from the beginning of that on.
+/// The time for a whole request, from its first byte on. For the first request of a connection it
+/// begins with the connection.
 const REQUEST: Duration = Duration::from_secs(5);
-/// Longest silence between two requests.
+/// The longest silence between two requests.
 const IDLE: Duration = Duration::from_secs(30);
-/// Time in which a browser takes an answer, and bytes of it for which it has another second.
+/// The time in which a browser must take an answer. It gets one more second for every
+/// [`BYTES_PER_SECOND`] bytes.
 const ANSWER: Duration = Duration::from_secs(10);
 const BYTES_PER_SECOND: usize = 64 << 10;
 
-/// A request.
+/// A request of a browser.
 #[derive(Debug)]
 pub(crate) struct Request {
     pub(crate) method: String,
     pub(crate) target: String,
-    /// Whom the browser means to talk to.
+    /// The name of the server in the request.
     pub(crate) host: String,
     pub(crate) body: Vec<u8>,
 }
 
-/// An answer.
+/// An answer to a request.
 #[derive(Debug)]
 pub(crate) struct Answer {
     pub(crate) status: &'static str,
@@ -47,7 +49,7 @@ impl Answer {
         Self { status, kind: "text/plain; charset=utf-8", body }
     }
 
-    /// To a method that is not for this.
+    /// Returns the answer to a method that the path does not have.
     pub(crate) fn not_so() -> Self {
         Self::text("405 Method Not Allowed", "not so")
     }
@@ -57,7 +59,7 @@ impl Answer {
     }
 }
 
-/// A browser's requests, each with its answer.
+/// The requests of a browser on one connection, each with its answer.
 #[derive(Debug)]
 pub(crate) struct RequestStream {
     requests: BufReader<TimedStream>,
@@ -69,7 +71,7 @@ impl RequestStream {
         Self { requests: BufReader::new(TimedStream::new(stream)), is_begun: false }
     }
 
-    /// The next request; none where the browser has no more.
+    /// Returns the next request; `None` if the browser sends no more.
     pub(crate) fn next(&mut self) -> io::Result<Option<Request>> {
         if std::mem::replace(&mut self.is_begun, true) {
             self.requests.get_mut().allow(IDLE);
@@ -81,8 +83,8 @@ impl RequestStream {
         read(&mut self.requests)
     }
 
-    /// Writes an answer. Nothing of it is kept or shown in other pages; `policy` says what it may load. The browser is told
-    /// whether it is the last.
+    /// Writes an answer. Browsers do not store it, and other pages cannot show it; `policy` says
+    /// what it may load. `is_last` announces the end of the connection.
     pub(crate) fn answer(
         &mut self,
         answer: &Answer,
@@ -108,7 +110,7 @@ fn invalid(what: &str) -> io::Error {
     io::Error::new(io::ErrorKind::InvalidData, what.to_owned())
 }
 
-/// A line without its end; none where nothing comes any more.
+/// Reads a line without its end; `None` at the end of the stream.
 fn line(head: &mut impl BufRead) -> io::Result<Option<String>> {
     let mut text = Vec::new();
     head.read_until(b'\n', &mut text)?;
@@ -119,7 +121,7 @@ fn line(head: &mut impl BufRead) -> io::Result<Option<String>> {
     }
 }
 
-/// Sets what may be said once.
+/// Sets a header that may occur only once.
 fn set<T>(place: &mut Option<T>, value: T) -> io::Result<()> {
     match place.replace(value) {
         None => Ok(()),
@@ -155,7 +157,7 @@ fn read(stream: &mut impl BufRead) -> io::Result<Option<Request>> {
     Ok(Some(Request { method, target, host: host.unwrap_or_default(), body }))
 }
 
-/// The length of a body that is taken.
+/// Parses the length of a body, up to [`BODY`].
 fn body_length(text: &str) -> io::Result<usize> {
     let digits = text.bytes().all(|byte| byte.is_ascii_digit());
     let length: Option<usize> = if digits { text.parse().ok() } else { None };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is read: a serial port, a file, or something that comes once, such as a FIFO.
+//! The input of a view: a serial port, a file, or something that can be read only once, such as a
+//! FIFO.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -15,7 +16,7 @@ enum Kind {
     Once,
 }
 
-/// An input that is there.
+/// An input that exists.
 #[derive(Clone, Debug)]
 pub(crate) struct Input {
     path: PathBuf,
@@ -23,10 +24,10 @@ pub(crate) struct Input {
     baud: u32,
 }
 
-/// An input that is open.
+/// An opened input.
 pub(crate) struct Source {
     pub(crate) reader: Box<dyn Read + Send>,
-    /// To write to a serial port.
+    /// The port for writing, if the input is a serial port.
     pub(crate) port: Option<File>,
 }
 
@@ -50,7 +51,7 @@ impl Input {
         self.kind == Kind::Port
     }
 
-    /// Whether it sends when it wants to.
+    /// Returns true if the input sends at times of its own.
     pub(crate) fn is_live(&self) -> bool {
         self.kind != Kind::File
     }
@@ -59,7 +60,8 @@ impl Input {
         self.path.display().to_string()
     }
 
-    /// When its frames are shown, if that was asked for.
+    /// Returns when the frames are shown: as asked, or else by the kind of the input. Fails if an
+    /// input that can be read only once is to be repeated.
     pub(crate) fn play(&self, asked: Option<Play>) -> Result<Play, ViewError> {
         match (asked, self.kind) {
             (None, Kind::File) => Ok(Play::Timed),
@@ -71,7 +73,7 @@ impl Input {
         }
     }
 
-    /// Opens it. A FIFO waits for whoever writes to it.
+    /// Opens the input. Opening a FIFO waits for a process that writes to it.
     pub(crate) fn open(&self) -> Result<Source, ViewError> {
         let failed = |source| ViewError::Open { path: self.path.clone(), source };
         if self.is_port() {
@@ -85,7 +87,8 @@ impl Input {
         Ok(Source { reader, port: None })
     }
 
-    /// Opens a serial port: bytes as they are, both ways, at its rate, and for nobody else.
+    /// Opens a serial port for raw bytes in both directions, at its rate, and for this process
+    /// alone.
     #[cfg(unix)]
     fn open_port(&self) -> Result<Source, ViewError> {
         use rustix::fs::{Mode, OFlags};
@@ -94,7 +97,7 @@ impl Input {
 
         let path = || self.path.clone();
         let failed = |source: io::Errno| ViewError::Open { path: path(), source: source.into() };
-        // Without NONBLOCK a port whose modem lines are open would not open.
+        // Without NONBLOCK, a port with open modem lines would not open.
         let flags = OFlags::RDWR | OFlags::NOCTTY | OFlags::CLOEXEC | OFlags::NONBLOCK;
         let port = fs::open(&self.path, flags, Mode::empty()).map_err(failed)?;
         if !termios::isatty(&port) {

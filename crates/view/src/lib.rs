@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pages in the browser of this machine, live: what a camera sends ([`View`]: its screen, its decisions, what is lost, and the
-//! registers of a core on a serial line), and a camera that runs in the page itself ([`Player`]), with frames of an input.
+//! Live pages in the browser of this machine. A [`View`] shows what a camera sends: its screen, its
+//! decisions, its losses, and the registers of a core on a serial line. A [`Player`] serves a page
+//! in which a camera runs, with the frames of an input.
 //!
-//! A [`View`] has three threads. One reads the stream and never waits for a browser; one asks the board for its
-//! registers; one answers browsers on this machine, each of which asks for the newest frame when it has drawn the
-//! last. The library never prints: what there is to say is fetched with [`View::news`].
+//! A [`View`] has three threads. One reads the stream and never waits for a browser. One asks the
+//! board for its registers. One accepts browsers on this machine, each of which asks for the newest
+//! frame when it has drawn the one before. The library never prints: its messages are fetched with
+//! [`View::news`].
 
 mod board;
 mod camera_page;
@@ -39,33 +41,34 @@ use reader::Reader;
 use server::Server;
 use site::StreamSite;
 
-/// When the frames of a stream are shown.
+/// The times at which the frames of a stream are shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Play {
-    /// By their times.
+    /// At the times of the frames.
     Timed,
-    /// As soon as they are read.
+    /// At once, as they are read.
     AtOnce,
-    /// By their times, again and again.
+    /// At the times of the frames, again and again.
     Looped,
 }
 
-/// What is to be shown, and where.
+/// The options of a view: its input, its camera and its address.
 #[derive(Clone, Debug)]
 pub struct ViewOptions {
     /// A serial port, a file, a FIFO, or `-` for standard input.
     pub input: PathBuf,
-    /// The configuration of the camera, of which the frame size may be missing.
+    /// The configuration of the camera, whose frame size may be missing.
     pub config: Config,
-    /// Bits per second of a serial port.
+    /// The rate of a serial port in bits per second.
     pub baud: u32,
-    /// Where browsers find the page. It must be an address of this machine alone.
+    /// The address at which browsers find the page. It must be an address of this machine alone.
     pub address: SocketAddr,
-    /// When frames are shown; without it a file by its times, and anything else at once.
+    /// The times at which frames are shown. Without it, the frames of a file are shown at their
+    /// times, and those of any other input at once.
     pub play: Option<Play>,
 }
 
-/// A stream that is shown until this is dropped.
+/// A stream that is shown until this value is dropped.
 #[derive(Debug)]
 pub struct View {
     live: Arc<Live>,
@@ -76,12 +79,12 @@ impl View {
     /// Opens the input and begins to show it.
     ///
     /// # Errors
-    /// When the input or the address cannot be used.
+    /// Fails if the input or the address cannot be used.
     pub fn open(options: ViewOptions) -> Result<Self, ViewError> {
         let ViewOptions { input, config, baud, address, play } = options;
         let input = Input::find(input, baud)?;
         let play = input.play(play)?;
-        // First, so that a port that cannot be used is an error.
+        // The port is opened first, so that a port that cannot be used is an error here.
         let mut first = if input.is_port() { Some(input.open()?) } else { None };
         let (live, board) = (Arc::new(Live::new(&input)), Arc::<Board>::default());
         board.attach(first.as_mut().and_then(|source| source.port.take()));
@@ -93,19 +96,19 @@ impl View {
         Ok(Self { live, server })
     }
 
-    /// The link of the page.
+    /// Returns the link of the page.
     #[must_use]
     pub fn link(&self) -> &str {
         self.server.link()
     }
 
-    /// What should be said since this was asked last.
+    /// Returns the messages since the last call.
     #[must_use]
     pub fn news(&self) -> Vec<String> {
         self.live.news()
     }
 
-    /// Frames that were shown.
+    /// Returns the number of frames that were shown.
     #[must_use]
     pub fn frames(&self) -> u64 {
         self.live.frames()

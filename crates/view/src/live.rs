@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is known of the stream now: the one value that reader, board and browsers share. Of frames only the newest is
-//! kept, so a slow browser misses some, and nobody waits for it.
+//! The present state of the stream, which the reader, the board and the browsers share. Only the
+//! newest frame is kept: a slow browser misses frames, and no other part waits for it.
 
 use std::collections::{BTreeMap, VecDeque};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -15,18 +15,19 @@ use serde_json::{Value, json};
 use crate::input::Input;
 use crate::picture::{facts, picture};
 
-/// After so long without a byte the page and the terminal say so.
+/// The time without a byte after which the page and the terminal report silence.
 const SILENCE: Duration = Duration::from_secs(2);
-/// Frames whose figures are kept.
+/// The number of frames whose figures are kept.
 const HISTORY: usize = 240;
-/// Losses that the page lists, the newest.
+/// The number of losses that the page lists, the newest ones.
 const LISTED: usize = 50;
-/// Losses, and refusals, that are told in the terminal, the first.
+/// The number of losses, and of refusals, that are reported in the terminal, the first ones.
 const TOLD: u64 = 10;
-/// Messages that wait for the terminal; further ones are left out while it takes none.
+/// The number of messages that wait for the terminal. Further messages are left out until they are
+/// fetched.
 const WAITING_NEWS: usize = 100;
 
-/// What becomes of the stream.
+/// The status of the stream.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Status {
@@ -34,34 +35,34 @@ pub(crate) enum Status {
     Waiting,
     /// Frames come.
     Running,
-    /// A port is gone, and may come back.
+    /// The port is gone, and may come back.
     Gone,
-    /// Nothing more will come.
+    /// No more frames will come.
     Ended,
 }
 
-/// Figures of a frame.
+/// The figures of a frame.
 #[derive(Clone, Debug, Serialize)]
 struct Sample {
-    /// When this was known, as [`Change`].
+    /// The [`Change`] that added the frame.
     #[serde(skip)]
     at: u64,
     number: u32,
     active: usize,
     bytes: u64,
-    /// When it was shown, in milliseconds since the start.
+    /// The time at which the frame was shown, in milliseconds since the start.
     shown_ms: u64,
 }
 
-/// A register as it was read last.
+/// A register with the value of the last read.
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Reading {
     pub(crate) address: u32,
-    /// None where the board did not answer.
+    /// The value; `None` if the board did not answer.
     pub(crate) value: Option<u32>,
 }
 
-/// Counts what has happened, so that a browser can ask for what it does not know.
+/// A count of all changes, by which a browser asks for what it does not know.
 type Change = u64;
 
 #[derive(Debug)]
@@ -69,12 +70,12 @@ struct State {
     change: Change,
     status: Status,
     text: String,
-    /// Why frames cannot be shown.
+    /// The reason why frames cannot be shown.
     refused: Option<String>,
     heard: Instant,
     is_silent: bool,
     design: Value,
-    /// Decisions and pixels of the newest frame, and when they were known.
+    /// The decisions and pixels of the newest frame, and the change that added them.
     picture: (Change, Vec<u8>),
     frames: u64,
     bytes: u64,
@@ -82,7 +83,7 @@ struct State {
     losses: BTreeMap<&'static str, u64>,
     listed: VecDeque<String>,
     registers: (Change, Vec<Reading>),
-    /// Refusals that were told.
+    /// The number of refusals that were reported.
     refusals: u64,
     news: Vec<String>,
 }
@@ -97,7 +98,7 @@ impl State {
     }
 }
 
-/// What is known of the stream.
+/// The state of the stream, and what waits for its changes.
 #[derive(Debug)]
 pub(crate) struct Live {
     state: Mutex<State>,
@@ -139,7 +140,7 @@ impl Live {
         }
     }
 
-    /// Everything ends.
+    /// Ends all threads of the view.
     pub(crate) fn end(&self) {
         self.is_over.store(true, Ordering::Relaxed);
         self.changed.notify_all();
@@ -157,7 +158,7 @@ impl Live {
         std::mem::take(&mut self.look().news)
     }
 
-    /// Bytes came.
+    /// Notes that bytes have come.
     pub(crate) fn heard(&self) {
         let mut state = self.lock();
         state.heard = Instant::now();
@@ -174,12 +175,12 @@ impl Live {
         self.change(&mut state);
     }
 
-    /// Says something that changes nothing.
+    /// Adds a message for the terminal that does not change the status.
     pub(crate) fn tell(&self, text: String) {
         self.lock().tell(text);
     }
 
-    /// The next frame is not due for a while.
+    /// Notes that the next frame is due only after `left`.
     pub(crate) fn expect(&self, number: u32, left: Duration) {
         let mut state = self.lock();
         let seconds = left.as_secs();
@@ -187,7 +188,8 @@ impl Live {
         self.change(&mut state);
     }
 
-    /// A FRAME cannot be read. It is told once, until one can, and no more than ten times.
+    /// Notes that a FRAME packet cannot be read. This is reported once until a frame is shown, and
+    /// at most [`TOLD`] times.
     pub(crate) fn refuse(&self, text: String) {
         let mut state = self.lock();
         if state.refused.is_none() && state.refusals < TOLD {
@@ -213,7 +215,7 @@ impl Live {
         self.change(&mut state);
     }
 
-    /// A frame is on the screen; so many bytes have come for it.
+    /// Notes that a frame is on the screen, and that its packets had `bytes` bytes.
     pub(crate) fn show(&self, frame: &ShownFrame, design: &Design, bytes: u64) {
         let picture = picture(frame);
         let active = frame.outcome.active.iter().filter(|&&active| active).count();
@@ -234,16 +236,16 @@ impl Live {
         state.history.push_front(Sample { at, number: frame.number, active, bytes, shown_ms });
     }
 
-    /// Registers were read.
+    /// Notes the values of a round of reads of all registers.
     pub(crate) fn read(&self, registers: Vec<Reading>) {
         let mut state = self.lock();
         self.change(&mut state);
         state.registers = (state.change, registers);
     }
 
-    /// What a browser needs that knows all up to `after`: the bytes of a JSON text as a number of 32 bits, the text,
-    /// and the picture of the newest frame if that is new: a byte per region, a byte per pixel. Waits a while for
-    /// something to tell.
+    /// Returns what a browser needs that knows all changes up to `after`: the length of a JSON text
+    /// in bytes as a 32-bit number, the text, and, if the newest frame is new, its decisions and
+    /// pixels with a byte per region and a byte per pixel. Waits up to `patience` for a change.
     pub(crate) fn next(&self, after: Change, patience: Duration) -> Vec<u8> {
         let until = Instant::now() + patience;
         let mut state = self.look();
@@ -275,7 +277,7 @@ impl Live {
         [&length.to_le_bytes(), text.as_bytes(), picture].concat()
     }
 
-    /// The state, in which it is noted if nothing comes.
+    /// Locks the state. If nothing has come for too long, this is noted in it.
     fn look(&self) -> MutexGuard<'_, State> {
         let mut state = self.lock();
         let comes = matches!(state.status, Status::Waiting | Status::Running) && self.is_live;

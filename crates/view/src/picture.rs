@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a browser needs to draw a frame.
+//! The data from which a browser draws a frame.
 
 use foveate_design::Design;
 use foveate_simulator::ShownFrame;
 use serde_json::{Value, json};
 
-/// What the page says of a design.
+/// Returns the facts about a design that the page needs.
 pub(crate) fn facts(design: &Design) -> Value {
     json!({
         "fingerprint": design.fingerprint(),
@@ -17,7 +17,7 @@ pub(crate) fn facts(design: &Design) -> Value {
     })
 }
 
-/// A byte per region, as the engine packs them; then a byte per pixel.
+/// Returns a byte per region, as the engine packs them, and then a byte per pixel.
 pub(crate) fn picture(frame: &ShownFrame) -> Vec<u8> {
     let mut picture: Vec<u8> = frame.outcome.region_bytes().collect();
     frame.screen.plane().grey(frame.screen.bits(), &mut picture);

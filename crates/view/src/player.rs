@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What `foveate live` shows: the page on which a camera runs in the browser, with frames that this machine decodes.
+//! The page of `foveate live`, on which a camera runs in the browser, with frames that this machine
+//! decodes.
 
 use std::fmt::Write as _;
 use std::net::SocketAddr;
@@ -17,25 +18,26 @@ use crate::reel::Reel;
 use crate::server::{Server, Site};
 use crate::{ViewError, thread};
 
-/// How long a browser waits for a frame.
+/// The time that a browser waits for a frame.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// What the page is to show, and where.
+/// The options of a player: its inputs, its camera and its address.
 #[derive(Clone, Debug)]
 pub struct PlayerOptions {
-    /// Inputs as of `foveate simulate`. Without one the page has what the browser has: scenes, its camera, files that it decodes.
+    /// The inputs, as for `foveate simulate`. Without inputs, the page offers scenes, the browser's
+    /// camera, and files that the browser decodes.
     pub inputs: Vec<String>,
-    /// How they are read.
+    /// The options for reading the inputs.
     pub input: InputOptions,
-    /// The preset with which the page begins; without one it is the page's own.
+    /// The preset with which the page begins; the page has its own if this is `None`.
     pub preset: Option<String>,
-    /// The camera with which it begins, if that is another than the preset's.
+    /// The camera with which the page begins, if it differs from the preset.
     pub camera: Option<CameraConfig>,
-    /// Where browsers find the page. It must be an address of this machine alone.
+    /// The address at which browsers find the page. It must be an address of this machine alone.
     pub address: SocketAddr,
 }
 
-/// A page with a camera, until this is dropped.
+/// A page with a camera, which is served until this value is dropped.
 #[derive(Debug)]
 pub struct Player {
     site: Arc<PlayerSite>,
@@ -47,7 +49,7 @@ impl Player {
     /// Opens the inputs and serves the page.
     ///
     /// # Errors
-    /// When the inputs or the address cannot be used.
+    /// Fails if the inputs or the address cannot be used.
     pub fn open(options: PlayerOptions) -> Result<Self, ViewError> {
         let PlayerOptions { inputs, input, preset, camera, address } = options;
         let settings = settings(preset.as_deref(), camera.as_ref())?;
@@ -67,20 +69,20 @@ impl Player {
         Ok(Self { site, server, settings })
     }
 
-    /// The link of the page, with its settings.
+    /// Returns the link of the page, with its settings.
     #[must_use]
     pub fn link(&self) -> String {
         let link = self.server.link();
         if self.settings.is_empty() { link.to_owned() } else { format!("{link}#{}", self.settings) }
     }
 
-    /// What should be said since this was asked last.
+    /// Returns the messages since the last call.
     #[must_use]
     pub fn news(&self) -> Vec<String> {
         self.site.reel.as_ref().map(Reel::news).unwrap_or_default()
     }
 
-    /// Frames that were decoded.
+    /// Returns the number of frames that were decoded.
     #[must_use]
     pub fn frames(&self) -> u64 {
         self.site.reel.as_ref().map_or(0, Reel::frames)
@@ -97,11 +99,12 @@ impl Drop for Player {
     }
 }
 
-/// The page, and the inputs if there are some.
+/// The page, and the frames of the inputs if there are inputs.
 #[derive(Debug)]
 struct PlayerSite {
     reel: Option<Reel>,
-    /// Made for the first browser; to compress the engine takes a while.
+    /// The text of the page. It is made for the first browser, because compressing the engine takes
+    /// a while.
     page: OnceLock<String>,
     is_over: AtomicBool,
 }
@@ -116,7 +119,7 @@ impl Site for PlayerSite {
         self.page.get_or_init(|| camera_page(frames)).clone()
     }
 
-    /// The page says itself what it may load.
+    /// The page itself has a policy for what it may load.
     fn policy(&self, _nonce: &str) -> String {
         "base-uri 'none'; form-action 'none'; frame-ancestors 'none'".to_owned()
     }
@@ -142,7 +145,8 @@ impl Site for PlayerSite {
     }
 }
 
-/// Settings as the page takes them behind its link: the preset, and every key of the camera that is another than the preset's.
+/// Returns the settings that the page takes from its link: the preset, and every key of the camera
+/// whose value differs from the preset's.
 fn settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<String, ViewError> {
     let mut text = preset.map(|name| format!("preset={name}")).unwrap_or_default();
     let Some(camera) = camera else { return Ok(text) };
@@ -158,7 +162,7 @@ fn settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<Strin
     let feature_differs = before.iter().filter(|(key, _)| is_feature(key)).count()
         != now.iter().filter(|(key, _)| is_feature(key)).count()
         || now.iter().filter(differs).any(|(key, _)| is_feature(key));
-    // Features are numbered: they differ as a whole.
+    // Features are numbered, and so are given all together if one of them differs.
     let taken =
         |own: &&(String, Value)| if is_feature(&own.0) { feature_differs } else { differs(own) };
     for (key, value) in now.iter().filter(taken) {
@@ -168,7 +172,8 @@ fn settings(preset: Option<&str>, camera: Option<&CameraConfig>) -> Result<Strin
     Ok(text)
 }
 
-/// Every key of a camera with its value, dotted: `spatial.0.level`. The frame has the size of the input.
+/// Returns every key of a camera with its value. Keys are dotted, such as `spatial.0.level`. The
+/// size of the frame is left out, because the input gives it.
 fn keys(camera: &CameraConfig) -> Vec<(String, Value)> {
     fn walk(path: &str, value: Value, found: &mut Vec<(String, Value)>) {
         let inner =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads the stream to its end, and shows its frames when their time has come.
+//! The thread that reads the stream to its end, and shows each frame at its time.
 
 use std::io::{ErrorKind, Read};
 use std::sync::Arc;
@@ -15,18 +15,19 @@ use crate::board::Board;
 use crate::input::{Input, Source};
 use crate::live::{Live, Status};
 
-/// Bytes that are read at once.
+/// The number of bytes that are read at once.
 const CHUNK: usize = 1 << 16;
-/// Between two attempts to open a port that is gone.
+/// The time between two attempts to open a port that is gone.
 const AGAIN: Duration = Duration::from_secs(1);
-/// Longest pause between two frames that are shown by their times; a longer one is cut to this.
+/// The longest pause between two frames that are shown at their times. A longer pause is cut to
+/// this.
 const PAUSE: Duration = Duration::from_secs(10);
-/// From this wait on it is said when the next frame is due.
+/// The wait from which on the page says when the next frame is due.
 const LONG: Duration = Duration::from_secs(2);
-/// Longest wait without a look at whether all is over.
+/// The longest wait before the end of the view is checked again.
 const NAP: Duration = Duration::from_millis(50);
 
-/// What the thread of a stream has.
+/// The state of the thread that reads a stream.
 pub(crate) struct Reader {
     pub(crate) input: Input,
     pub(crate) config: Config,
@@ -37,13 +38,14 @@ pub(crate) struct Reader {
 }
 
 impl Reader {
-    /// Reads until all is over. A port that is gone is waited for; `first` is one that is open.
+    /// Reads until the view ends. If a port is gone, it waits for the port. `first` is a source
+    /// that is open already.
     pub(crate) fn run(self, mut first: Option<Source>) {
         let name = self.input.name();
         while !self.live.is_over() {
             let source = match first.take().map_or_else(|| self.input.open(), Ok) {
                 Ok(source) => source,
-                // That it is gone has been said.
+                // It has been reported that the port is gone.
                 Err(_) if self.input.is_port() => {
                     sleep(AGAIN);
                     continue;
@@ -80,7 +82,7 @@ impl Reader {
         }
     }
 
-    /// Reads to the end of the stream; returns why it ended if that is an error.
+    /// Reads to the end of the stream. Returns the error that ended it, if there was one.
     fn read(&self, mut reader: Box<dyn Read + Send>) -> Option<std::io::Error> {
         let mut stream = Stream::new(&self.config);
         let (mut chunk, mut pace) = (vec![0; CHUNK], Pace::default());
@@ -104,13 +106,15 @@ impl Reader {
         }
     }
 
-    /// Takes what there is. A few bytes may make many frames, so it ends between two of them when all is over.
+    /// Takes all packets that are complete. A few bytes may make many frames, so the end of the
+    /// view is checked between two of them.
     fn take(&self, stream: &mut Stream, pace: &mut Pace) {
         while !self.live.is_over() {
             match stream.receive() {
                 Ok(None) => return,
                 Ok(Some(Received::Loss(loss))) => self.live.lose(&loss),
-                // Nobody waits for it where the board is not asked, or for more of them than were asked for.
+                // The channel is full or closed if the board is not asked, or if it answers more
+                // than it was asked for.
                 Ok(Some(Received::Register(answer))) => {
                     let _ = self.answers.try_send(answer);
                 }
@@ -133,20 +137,21 @@ impl Reader {
     }
 }
 
-/// How far a stream was shown.
+/// The times of a stream that is shown at the times of its frames.
 #[derive(Default)]
 struct Pace {
-    /// When the first frame was shown, and its time.
+    /// The moment at which the first frame was shown, and the frame's own time.
     start: Option<(Instant, u64)>,
     last_us: u64,
-    /// The parts of pauses that were left out.
+    /// The sum of the parts of pauses that were cut.
     cut: Duration,
-    /// Bytes before the next frame.
+    /// The position in the stream, in bytes, behind the last frame.
     position: u64,
 }
 
 impl Pace {
-    /// Waits until the time of a frame has come, but for no longer than [`PAUSE`] after the frame before.
+    /// Waits until the time of a frame has come, but no longer than [`PAUSE`] after the frame
+    /// before.
     fn wait(&mut self, frame: &ShownFrame, live: &Live) {
         let Some(time_us) = frame.time_us else { return };
         let (start, start_us) = *self.start.get_or_insert((Instant::now(), time_us));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames of an input, for a page that asks for one after the other. A clip waits for the page: it reads a frame when
-//! that is asked for, and none is lost. A camera does not wait: the page gets the newest.
+//! The frames of an input, for a page that asks for one after the other. A clip waits for the page:
+//! a frame is read when it is asked for, and none is lost. A camera does not wait: the page gets
+//! the newest frame.
 
 use std::path::Path;
 use std::sync::{Condvar, Mutex, MutexGuard, PoisonError};
@@ -11,13 +12,13 @@ use foveate_footage::{FootageError, InputOptions, Source, is_camera, is_read_onc
 use foveate_frame::{Plane, Raster};
 use serde_json::json;
 
-/// What becomes of the input.
+/// The status of the input.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Status {
     Running,
-    /// All its frames were shown.
+    /// All frames were shown.
     Ended,
-    /// It cannot be read further.
+    /// The input cannot be read any further.
     Failed,
 }
 
@@ -34,7 +35,7 @@ impl Status {
 /// A frame for the page.
 #[derive(Clone, Debug)]
 struct Shot {
-    /// Counts on where a clip begins again.
+    /// The number of the frame, which goes on when a clip begins again.
     number: u64,
     time_us: u64,
     frame: Raster,
@@ -47,9 +48,9 @@ struct State {
     newest: Option<Shot>,
     /// The number of the next frame.
     next: u64,
-    /// The last number that was asked for.
+    /// The largest number that was asked for.
     wanted: u64,
-    /// The page wants to begin again.
+    /// True if the page wants the input to begin again.
     begins_again: bool,
     is_over: bool,
     news: Vec<String>,
@@ -70,14 +71,14 @@ impl State {
     }
 }
 
-/// How frames come.
+/// The way in which frames come.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Kind {
-    /// When they are asked for, as often as is wanted.
+    /// Frames come when they are asked for, and the input can be read again.
     Clip,
-    /// When they are asked for, once.
+    /// Frames come when they are asked for, and the input can be read only once.
     Once,
-    /// When they want to.
+    /// Frames come at times of their own.
     Camera,
 }
 
@@ -92,19 +93,20 @@ impl Kind {
     }
 }
 
-/// An input, and how far it was read.
+/// An input, and its state.
 #[derive(Debug)]
 pub(crate) struct Reel {
     inputs: Vec<String>,
     options: InputOptions,
     kind: Kind,
-    /// Its name, which has no password.
+    /// The name of the input, without passwords.
     name: String,
     state: Mutex<State>,
     changed: Condvar,
 }
 
-/// Frames are given as bytes; the page brings them to the depth of its camera.
+/// Returns a configuration by which frames are read as bytes. The page converts them to the depth
+/// of its camera.
 fn bytes() -> CameraConfig {
     let mut config = CameraConfig::default();
     config.frame.pixel_bits = 8;
@@ -112,7 +114,7 @@ fn bytes() -> CameraConfig {
 }
 
 impl Reel {
-    /// Opens the input, so that what cannot be read is known at once.
+    /// Opens the input, so that an unreadable one is reported at once.
     pub(crate) fn open(
         inputs: Vec<String>,
         options: InputOptions,
@@ -131,7 +133,7 @@ impl Reel {
         Ok((reel, source))
     }
 
-    /// Reads until all is over.
+    /// Reads frames until the player ends.
     pub(crate) fn run(&self, source: Box<dyn Source>) {
         let mut source = Some(source);
         loop {
@@ -160,8 +162,8 @@ impl Reel {
         }
     }
 
-    /// Shows the frames of a source until it ends, is to begin again, or nobody looks any more; says why it ended too
-    /// early, if it did.
+    /// Reads the frames of a source until it ends, must begin again, or the player ends. Returns
+    /// the reason if the source has ended too early.
     fn play(&self, source: &mut dyn Source) -> Result<Option<String>, FootageError> {
         loop {
             let mut state = self.lock();
@@ -185,7 +187,7 @@ impl Reel {
         }
     }
 
-    /// Whether nobody has asked for the next frame, and it can wait.
+    /// Returns true if the next frame has not been asked for and can wait.
     fn is_early(&self, state: &State) -> bool {
         match self.kind {
             Kind::Clip | Kind::Once => state.next > state.wanted,
@@ -197,13 +199,13 @@ impl Reel {
         state.is_over || state.begins_again
     }
 
-    /// The frame after frame `after`, or none within `patience`: the bytes of a JSON text as a number of 32 bits, the text,
-    /// and a byte per pixel.
+    /// Returns the frame after frame `after`, or no frame if none comes within `patience`: the
+    /// length of a JSON text in bytes as a 32-bit number, the text, and a byte per pixel.
     pub(crate) fn frame(&self, after: Option<u64>, patience: Duration) -> Vec<u8> {
         let until = Instant::now() + patience;
         let first = after.map_or(0, |after| after.saturating_add(1));
         let mut state = self.lock();
-        // One frame at a time is asked for, whatever number a page gives.
+        // At most the next frame is asked for, whatever number a page gives.
         state.wanted = state.wanted.max(first.min(state.next));
         self.changed.notify_all();
         let is_new = |state: &State| state.newest.as_ref().is_some_and(|shot| shot.number >= first);
@@ -213,7 +215,7 @@ impl Reel {
             state = waited.unwrap_or_else(PoisonError::into_inner).0;
         }
         let shot = state.newest.as_ref().filter(|_| is_new(&state));
-        // A frame that is there is shown before it is said that it was the last.
+        // An existing frame is shown before the end of the clip is reported.
         let status = if shot.is_some() { Status::Running } else { state.status };
         let text = json!({
             "status": status.name(),
@@ -228,14 +230,14 @@ impl Reel {
         let length = u32::try_from(text.len()).unwrap_or(u32::MAX);
         let pixels = match shot.map(|shot| shot.frame.plane()) {
             Some(Plane::Bytes(pixels)) => pixels,
-            // The source was asked for bytes.
+            // The source reads frames as bytes.
             Some(Plane::Words(_)) | None => &[],
         };
         [&length.to_le_bytes(), text.as_bytes(), pixels].concat()
     }
 
-    /// Begins again, if the input can be read a second time. A camera that sends goes on; one that has broken off is opened
-    /// again.
+    /// Begins again, if the input can be read again. A running camera goes on; a camera that has
+    /// broken off is opened again.
     pub(crate) fn restart(&self) -> Result<(), String> {
         let mut state = self.lock();
         match (self.kind, state.status) {
@@ -253,7 +255,7 @@ impl Reel {
         Ok(())
     }
 
-    /// Everything ends.
+    /// Ends all waits of the reader and of browsers.
     pub(crate) fn end(&self) {
         self.lock().is_over = true;
         self.changed.notify_all();
@@ -282,7 +284,7 @@ mod tests {
 
     use super::*;
 
-    /// The head of an answer.
+    /// Returns the head of an answer.
     fn head(answer: &[u8]) -> serde_json::Value {
         let (length, rest) = answer.split_first_chunk().unwrap();
         serde_json::from_slice(&rest[..u32::from_le_bytes(*length) as usize]).unwrap()
@@ -292,11 +294,11 @@ mod tests {
     fn a_camera_that_has_broken_off_is_opened_again_and_one_that_sends_goes_on() {
         let options = InputOptions { frames: Some(3), ..InputOptions::default() };
         let (mut reel, source) = Reel::open(vec!["scene:street".to_owned()], options).unwrap();
-        // A scene that does not wait.
+        // The scene behaves as a camera, which does not wait.
         reel.kind = Kind::Camera;
         reel.restart().unwrap();
         assert!(!reel.lock().begins_again);
-        // It is not what it was any more before the reader has noticed.
+        // The status changes at once, before the reader has noticed the request.
         for status in [Status::Ended, Status::Failed] {
             *reel.lock() = State { status, begins_again: false, ..State::new(String::new()) };
             reel.restart().unwrap();
@@ -310,7 +312,7 @@ mod tests {
         };
         let long = Duration::from_secs(60);
         for run in 1..=2 {
-            // Nobody asked for the first two.
+            // The first two frames are never asked for.
             let last = head(&reel.frame(Some(3 * run - 2), long));
             assert_eq!((&last["number"], &last["live"]), (&(3 * run - 1).into(), &true.into()));
             assert_eq!(head(&reel.frame(Some(3 * run - 1), long))["status"], "ended");

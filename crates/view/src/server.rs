@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A page for browsers of this machine. Whoever does not know the link gets nothing: every path begins with a
-//! random token, and the name of the host must be ours, so that a page from elsewhere cannot reach it under another
-//! name. What there is to see is said by a [`Site`].
+//! A server of a page for browsers of this machine. Without the link a browser gets nothing: every
+//! path begins with a random token. The name of the host must be the server's, so that a foreign
+//! page cannot reach it under another name. A [`Site`] provides the content.
 
 use std::net::{SocketAddr, TcpListener, TcpStream};
 use std::sync::Arc;
@@ -12,21 +12,21 @@ use crate::ViewError;
 use crate::connections::{ConnectionPlace, ConnectionTable};
 use crate::http::{Answer, Request, RequestStream};
 
-/// How long it is waited for the server's own attention.
+/// The time to wait for the connection that wakes the server.
 const WAKE: Duration = Duration::from_millis(200);
-/// Before the next connection where the system gives none, because too many files are open.
+/// The pause before the next connection if the system gives none, because too many files are open.
 const NO_CONNECTION: Duration = Duration::from_millis(50);
 
-/// What a server shows below its link.
+/// The content that a server has below its link.
 pub(crate) trait Site: Send + Sync + 'static {
-    /// The command that prints the link.
+    /// Returns the command that prints the link.
     fn command(&self) -> &'static str;
 
-    /// The page, with scripts that `nonce` allows.
+    /// Returns the page, with scripts that `nonce` allows.
     fn page(&self, nonce: &str) -> String;
 
-    /// What the page may load, as a Content-Security-Policy: of its own only scripts and styles with `nonce`, and what
-    /// this server answers.
+    /// Returns what the page may load, as a Content-Security-Policy. The default allows scripts and
+    /// styles with `nonce`, and requests to this server.
     fn policy(&self, nonce: &str) -> String {
         format!(
             "default-src 'none'; script-src 'nonce-{nonce}'; style-src 'nonce-{nonce}'; connect-src 'self'; \
@@ -34,21 +34,21 @@ pub(crate) trait Site: Send + Sync + 'static {
         )
     }
 
-    /// The answer to a request for something beside the page; none where there is no such thing.
+    /// Returns the answer to a request for anything but the page; `None` if it does not exist.
     fn answer(&self, method: &str, within: &str, query: &str, body: &[u8]) -> Option<Answer>;
 
-    /// Whether nobody is served any more.
+    /// Returns true if the server must end.
     fn is_over(&self) -> bool;
 }
 
-/// A server, and how it is reached.
+/// A running server, and its address.
 #[derive(Debug)]
 pub(crate) struct Server {
     address: SocketAddr,
     link: String,
 }
 
-/// What each connection needs.
+/// The values that all connections share.
 struct Shared<S> {
     token: String,
     nonce: String,
@@ -58,7 +58,7 @@ struct Shared<S> {
 }
 
 impl Server {
-    /// Listens until the site is over.
+    /// Starts a server that listens until the site is over.
     pub(crate) fn start(address: SocketAddr, site: Arc<impl Site>) -> Result<Self, ViewError> {
         if !address.ip().is_loopback() {
             return Err(ViewError::Address { address });
@@ -84,7 +84,7 @@ impl Server {
         &self.link
     }
 
-    /// Lets it see that the site is over.
+    /// Wakes the server, so that it notices that the site is over.
     pub(crate) fn wake(&self) {
         let _ = TcpStream::connect_timeout(&self.address, WAKE);
     }
@@ -102,7 +102,8 @@ fn serve(listener: &TcpListener, shared: &Arc<Shared<impl Site>>) {
         };
         let Some(place) = connections.take(&stream) else { continue };
         let own = Arc::clone(shared);
-        // A browser that goes away is no problem of ours, and a thread that does not start ends the connection.
+        // A browser that goes away is no error, and a thread that does not start ends the
+        // connection.
         let _ = crate::thread("browser", move || drop(own.talk(stream, &place)));
     }
 }
@@ -116,7 +117,7 @@ impl<S: Site> Shared<S> {
             if admitted.is_ok() {
                 place.admit();
             }
-            // A browser without the token is told so once.
+            // A browser without the token gets one answer, and its connection is closed.
             let is_stranger = admitted.is_err();
             let answer = admitted.map_or_else(
                 |refusal| refusal,
@@ -131,7 +132,8 @@ impl<S: Site> Shared<S> {
         Ok(())
     }
 
-    /// The path below the link and the query of a request that shows the token; else the answer that refuses it.
+    /// Returns the path below the link and the query of a request with the token, or else the
+    /// answer that refuses the request.
     fn admitted<'a>(&self, request: &'a Request) -> Result<(&'a str, &'a str), Answer> {
         if !self.hosts.contains(&request.host.to_ascii_lowercase()) {
             return Err(Answer::text("403 Forbidden", "this page has another address"));
@@ -162,13 +164,13 @@ impl<S: Site> Shared<S> {
     }
 }
 
-/// Whether two texts are the same, in a time that does not say where they differ.
+/// Compares two texts in a time that does not depend on the place where they differ.
 fn same(given: &str, own: &str) -> bool {
     let differ = given.bytes().zip(own.bytes()).fold(0, |differ, (a, b)| differ | (a ^ b));
     given.len() == own.len() && differ == 0
 }
 
-/// A random text of 128 bits.
+/// Returns a random text of 128 bits.
 fn random() -> Result<String, ViewError> {
     let mut bytes = [0; 16];
     getrandom::fill(&mut bytes).map_err(|error| ViewError::Random { reason: error.to_string() })?;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What `foveate view` shows: a stream of packets, and the registers of a board.
+//! The content of `foveate view`: a stream of packets, and the registers of a board.
 
 use std::sync::Arc;
 use std::time::Duration;
@@ -12,7 +12,7 @@ use crate::live::Live;
 use crate::page;
 use crate::server::Site;
 
-/// How long a browser waits for something new.
+/// The time that a browser waits for a change.
 const PATIENCE: Duration = Duration::from_secs(1);
 
 /// A stream, and the board that sends it.

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A connection with a deadline for all that is read and written until then. The timeouts of a socket hold for each byte, so
-//! that a peer with a byte every few seconds would never meet one.
+//! A connection with one deadline for all bytes that are read and written until then. The timeouts
+//! of a socket apply to each byte, so that a peer that sends a byte every few seconds would never
+//! exceed them.
 
 use std::io::{self, ErrorKind, Read, Write};
 use std::net::TcpStream;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Most bytes that are written before the deadline is looked at again.
+/// The largest number of bytes that are written before the deadline is checked again.
 const PIECE: usize = 64 << 10;
 
 /// A connection that fails once its deadline has passed.
@@ -18,12 +19,12 @@ pub(crate) struct TimedStream {
 }
 
 impl TimedStream {
-    /// A connection whose deadline is now.
+    /// Makes a connection whose deadline is now.
     pub(crate) fn new(stream: Arc<TcpStream>) -> Self {
         Self { stream, deadline: Instant::now() }
     }
 
-    /// Sets another deadline, this long from now.
+    /// Sets the deadline to `time` from now.
     pub(crate) fn allow(&mut self, time: Duration) {
         self.deadline = Instant::now() + time;
     }
@@ -58,14 +59,15 @@ mod tests {
 
     use super::*;
 
-    /// Both ends of a connection.
+    /// Returns both ends of a connection.
     fn connected() -> (TimedStream, TcpStream) {
         let listener = TcpListener::bind("127.0.0.1:0").unwrap();
         let peer = TcpStream::connect(listener.local_addr().unwrap()).unwrap();
         (TimedStream::new(Arc::new(listener.accept().unwrap().0)), peer)
     }
 
-    /// Does something with the other end every 20 ms until `work` has ended; how long that took.
+    /// Calls `act` on the other end every 20 ms until `work` has ended. Returns the time that
+    /// `work` took.
     fn disturbed(mut peer: TcpStream, act: fn(&mut TcpStream), work: impl FnOnce()) -> Duration {
         let start = Instant::now();
         let (ended, end) = std::sync::mpsc::channel::<()>();
@@ -105,7 +107,7 @@ mod tests {
         own.allow(Duration::from_millis(300));
         let sip = |peer: &mut TcpStream| drop(peer.read(&mut [0; 1]));
         let took = disturbed(peer, sip, || {
-            // More than both ends of a connection hold.
+            // This is more than the buffers of both ends hold.
             let error = own.write_all(&vec![7; 64 << 20]).unwrap_err();
             assert!(is_timeout(&error), "{error}");
         });

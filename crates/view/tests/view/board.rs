@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Registers over a line: commands are REGISTER packets, answers are seen on the page, thresholds are written.
+//! Tests of registers over a line: commands are REGISTER packets, answers appear on the page, and
+//! thresholds are written.
 
 use std::sync::mpsc::{Receiver, channel};
 use std::thread;
@@ -11,8 +12,8 @@ use crate::client::{get, open, wait_for, write};
 use crate::line::Line;
 use crate::sent::{CORE, street};
 
-/// Answers with the address plus one, or what was written; returns every command. What `spoil` says comes in place of
-/// the bytes of an answer.
+/// Answers every command with its address plus one, or with the written value, and returns all
+/// commands. `spoil` may replace the bytes of an answer.
 fn answer(
     mut line: Line,
     spoil: impl Fn(usize, Vec<u8>) -> Vec<u8> + Send + 'static,
@@ -62,9 +63,9 @@ fn registers_are_read_and_thresholds_written() {
     let written: Vec<Register> = commands.try_iter().filter(|asked| asked.written).collect();
     assert_eq!(written, [Register { address: 0x104, written: true, value: 5 }]);
     assert_eq!(write(view.link(), 0x28, 0x41).status, 200);
-    // A restart, beside what the control says.
+    // This is a restart, with the other bits of the control as they are.
     assert_eq!(write(view.link(), 0x20, 5).status, 200);
-    // Too large, counters, constants, and what is not there.
+    // These are values that are too large, counters, constants, and registers that do not exist.
     for (address, value) in
         [(0x100, 1 << 32), (0x104, 70_000), (0x34, 0), (0x20, 8), (0x1000, 1), (0x200, 1), (0, 1)]
     {
@@ -82,7 +83,7 @@ fn answers_that_are_lost_or_of_others_are_asked_for_again() {
     let line = Line::new();
     let view = open(&line.path, &CORE, None).unwrap();
     let commands = answer(line, |number, mut bytes| match number {
-        // Damaged; then one of another register before the right one.
+        // The first answer is damaged. The second is preceded by one of another register.
         0 => {
             bytes[9] ^= 1;
             bytes
@@ -94,7 +95,7 @@ fn answers_that_are_lost_or_of_others_are_asked_for_again() {
         }
         _ => bytes,
     });
-    // In the first round already.
+    // The registers are complete after the first round.
     let page = wait_for(view.link(), "registers", |told| told["registers"].is_array());
     assert_eq!((value(&page.told, 0), value(&page.told, 0x40)), (Some(1), Some(0x41)));
     assert_eq!(page.told["losses"]["bytes"], 1);
@@ -125,7 +126,7 @@ fn a_board_that_does_not_answer_is_said_and_asked_again() {
     let mut line = Line::new();
     let view = open(&line.path, &CORE, None).unwrap();
     let asked = |line: &mut Line| line.command().address;
-    // Three attempts, and three in the next round.
+    // There are three attempts, and three more in the next round.
     assert_eq!(asked(&mut line), 0);
     let page = wait_for(view.link(), "list", |told| told["registers"].is_array());
     let list = page.told["registers"].as_array().unwrap();

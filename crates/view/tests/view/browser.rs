@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page in Chromium, where there is one.
+//! Tests of the page in Chromium, if Chromium is installed.
 
 use std::collections::HashSet;
 use std::fs::{self, File};
@@ -12,10 +12,10 @@ use foveate_pictures::page::browser::chromium;
 use crate::client::{open, wait_for};
 use crate::sent::{CORE, first, street};
 
-/// The longest that Chromium may take.
+/// The longest time that Chromium may take.
 const LIMIT: Duration = Duration::from_secs(120);
 
-/// What a program prints; one that does not end is ended.
+/// Returns the output of a program. A program that does not end in time is killed.
 fn printed(command: &mut Command, file: &Path) -> String {
     let mut child =
         command.stdout(File::create(file).unwrap()).stderr(Stdio::null()).spawn().unwrap();
@@ -36,7 +36,7 @@ fn a_browser_draws_the_screen_and_says_what_is_lost() {
     let folder = tempfile::tempdir().unwrap();
     let (sent, file) = (street(&CORE, 3), folder.path().join("packets.bin"));
     let mut bytes = sent.bytes();
-    // The first ROW.
+    // The damaged packet is the first ROW packet.
     let row = first(&bytes).len();
     bytes[row + 9] ^= 1;
     fs::write(&file, bytes).unwrap();
@@ -76,7 +76,7 @@ fn a_browser_draws_the_screen_and_says_what_is_lost() {
         assert!(page.contains(part), "{part}: {page}");
     }
 
-    // The greens of active regions are in the picture of the page, over the screen.
+    // The greens of active regions appear in the picture of the page, over the screen.
     run(&format!("--screenshot={}", picture.display()));
     let picture = image::open(&picture).unwrap().to_rgb8();
     let tinted = |pixel: &&image::Rgb<u8>| {
@@ -85,7 +85,7 @@ fn a_browser_draws_the_screen_and_says_what_is_lost() {
     };
     let is_active = sent.pictures[2][..20].iter().any(|&byte| byte & 3 == 3);
     let count = picture.pixels().filter(tinted).count();
-    // Left of the charts, whose lines are green, too.
+    // The screen is left of the charts, whose lines are green, too.
     let screen = picture.enumerate_pixels().filter(|(x, ..)| *x < 500);
     let colours: HashSet<_> = screen.map(|(.., pixel)| pixel).filter(tinted).collect();
     assert!(is_active && count > 1000, "{count} pixels are green");

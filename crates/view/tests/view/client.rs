@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A browser without a window.
+//! A client that behaves as the page in a browser.
 
 use std::io::{Read, Write};
 use std::net::TcpStream;
@@ -10,7 +10,7 @@ use foveate_design::Config;
 use foveate_view::{Play, View, ViewError, ViewOptions};
 use serde_json::Value;
 
-/// Longer than anything takes on a busy machine.
+/// A time limit that is longer than anything takes on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(60);
 
 /// Opens a view on any free port.
@@ -24,20 +24,20 @@ pub(crate) fn open(input: &Path, set: &[&str], play: Option<Play>) -> Result<Vie
     })
 }
 
-/// What a server answered.
+/// The answer of a server.
 pub(crate) struct Answer {
     pub(crate) status: u32,
     pub(crate) head: String,
     pub(crate) body: Vec<u8>,
 }
 
-/// What a link consists of: `127.0.0.1:port` and the token.
+/// Returns the parts of a link: `127.0.0.1:port` and the token.
 pub(crate) fn parts(link: &str) -> (&str, &str) {
     let rest = link.strip_prefix("http://").unwrap().strip_suffix('/').unwrap();
     rest.split_once('/').unwrap()
 }
 
-/// Sends a request as it stands, and reads the answer.
+/// Sends a request unchanged, and reads the answer.
 pub(crate) fn request(host: &str, text: &str) -> Answer {
     let mut stream = TcpStream::connect(host).unwrap();
     stream.write_all(text.as_bytes()).unwrap();
@@ -62,7 +62,7 @@ pub(crate) fn request(host: &str, text: &str) -> Answer {
     Answer { status: head.split(' ').nth(1).unwrap().parse().unwrap(), head, body }
 }
 
-/// Gets something below the link.
+/// Requests a path below the link.
 pub(crate) fn get(link: &str, what: &str) -> Answer {
     let (host, token) = parts(link);
     request(host, &format!("GET /{token}/{what} HTTP/1.1\r\nHost: {host}\r\n\r\n"))
@@ -81,10 +81,10 @@ pub(crate) fn write(link: &str, address: u32, value: u64) -> Answer {
     )
 }
 
-/// What a page knows.
+/// The data that a page has.
 pub(crate) struct Page {
     pub(crate) told: Value,
-    /// A byte per region, then a byte per pixel; empty where no frame is new.
+    /// A byte per region, and then a byte per pixel; empty if no frame is new.
     pub(crate) picture: Vec<u8>,
 }
 
@@ -96,7 +96,7 @@ pub(crate) fn next(link: &str, after: u64) -> Page {
     Page { told: serde_json::from_slice(text).unwrap(), picture: picture.to_owned() }
 }
 
-/// Asks until the page knows what is wanted. Everything is told again each time.
+/// Asks until the state of the page fulfils `wanted`. Each answer has the whole state.
 pub(crate) fn wait_for(link: &str, what: &str, wanted: impl Fn(&Value) -> bool) -> Page {
     let patience = Instant::now() + PATIENCE;
     loop {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Nobody else sees the page: not without the link, not under another name, not from another machine.
+//! Tests that the page is protected: it needs the link and the right host name, and cannot be
+//! reached from another machine.
 
 use std::fs;
 use std::path::Path;
@@ -60,13 +61,13 @@ fn only_the_link_opens_the_page() {
     assert_eq!(status(&format!("GET /{token}/../etc/passwd"), host), 404);
     assert_eq!(status(&format!("DELETE /{token}/"), host), 405);
     assert_eq!(status(&format!("GET /{token}/register"), host), 405);
-    // What is too long, or no request, ends the connection.
+    // A request that is too long, or that is no request, ends the connection.
     assert_eq!(status(&format!("GET /{token}/{}", "x".repeat(40_000)), host), 0);
     assert_eq!(status("nonsense", host), 403);
     let long = format!(
         "POST /{token}/register HTTP/1.1\r\nHost: {host}\r\nContent-Length: 99999999\r\n\r\n"
     );
-    // At once: nothing is kept for whoever only says that much will come.
+    // The connection ends at once: no memory is kept for a client that only announces much data.
     let start = Instant::now();
     assert_eq!(request(host, &long).status, 0);
     assert!(start.elapsed() < Duration::from_secs(15), "{:?}", start.elapsed());

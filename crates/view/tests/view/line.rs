@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A pseudo-terminal in place of a serial line: the test is the board.
+//! A pseudo-terminal in place of a serial line. The test is the board.
 
 use std::fs::File;
 use std::io::{Read, Write};
@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use foveate_packets::{Found, Packet, Register, Splitter};
 use rustix::pty::{OpenptFlags, grantpt, openpt, ptsname, unlockpt};
 
-/// The end of the board.
+/// The board's end of the line.
 pub(crate) struct Line {
     board: File,
     pub(crate) path: PathBuf,
@@ -27,7 +27,7 @@ impl Line {
         self.board.write_all(bytes).unwrap();
     }
 
-    /// The next command, which must be exactly a REGISTER packet.
+    /// Returns the next command, which must be exactly a REGISTER packet.
     pub(crate) fn command(&mut self) -> Register {
         let mut bytes = [0; 24];
         self.board.read_exact(&mut bytes).unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a page delivers of a stream that comes over a pseudo-terminal, from a file or through a FIFO.
+//! Tests of the page's data for a stream that comes over a pseudo-terminal, from a file or through
+//! a FIFO.
 #![cfg(unix)]
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames of an input for the page that runs a camera: each of a clip once, in order, the bits of the file.
+//! Tests of the frames of an input for the page that runs a camera. Each frame of a clip comes
+//! once, in order, with the pixels of the file.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +28,7 @@ fn play_at(inputs: &[&str], address: &str) -> Result<Player, ViewError> {
     })
 }
 
-/// The head and the pixels of an answer.
+/// Returns the head and the pixels of an answer.
 fn frame(link: &str, after: i64) -> (Value, Vec<u8>) {
     let answer = get(link, &format!("frames?after={after}"));
     assert_eq!(answer.status, 200);
@@ -41,7 +42,7 @@ fn restart(link: &str) -> Answer {
     request(host, &format!("POST /{token}/restart HTTP/1.1\r\nHost: {host}\r\n\r\n"))
 }
 
-/// Frames of a scene as `simulate` reads them.
+/// Returns the frames of a scene as `simulate` reads them.
 fn expected() -> Vec<Vec<u8>> {
     let options = InputOptions { frames: Some(3), ..InputOptions::default() };
     let mut source = open(&["scene:street"], &CameraConfig::default(), &options).unwrap();
@@ -63,7 +64,7 @@ fn a_clip_waits_for_the_page_and_loses_no_frame() {
     let mut after = -1;
     for round in 0..2_i64 {
         for (number, pixels) in (0_i64..).zip(&expected) {
-            // The page takes its time, but for the first frame, and asks twice.
+            // The page waits before each frame but the first, and asks twice.
             std::thread::sleep(Duration::from_millis(30 * u64::from(number > 0)));
             let (head, found) = frame(&link, after);
             assert_eq!(head["number"], 3 * round + number, "{head}");
@@ -77,7 +78,7 @@ fn a_clip_waits_for_the_page_and_loses_no_frame() {
         let (head, found) = frame(&link, after);
         assert_eq!((&head["status"], found.len()), (&"ended".into(), 0), "{head}");
         assert!(head["text"].as_str().unwrap().contains("has ended"), "{head}");
-        // The page begins again as if it knew nothing.
+        // The page begins again as a new page does.
         assert_eq!(restart(&link).status, 200);
         after = if round == 0 { -1 } else { after };
     }
@@ -110,7 +111,7 @@ fn only_the_link_opens_the_page_and_its_frames() {
             assert_eq!(request(host, &asked).status, 403, "{path}");
         }
     }
-    // Without an input the page has what the browser has.
+    // Without an input the page offers what the browser has.
     let player = play(&[]).unwrap();
     let page = String::from_utf8(get(&player.link(), "").body).unwrap();
     assert!(!page.contains("data-frames=") && page.contains("Foveate, live"));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What `simulate` sends and shows of a few frames of the street.
+//! The packets and the screens that `simulate` makes of a few frames of the street.
 
 use std::fs;
 
@@ -7,11 +7,11 @@ use foveate_design::Config;
 use foveate_footage::{InputOptions, open};
 use foveate_simulator::{EventTables, Medium, Packets, RunOptions, Silent, Simulation};
 
-/// A stream, and what must be seen of it.
+/// A stream, and what the page must show of it.
 pub(crate) struct Sent {
     /// The packets of each frame.
     pub(crate) frames: Vec<Vec<u8>>,
-    /// For each frame a byte per region, then a byte per pixel.
+    /// The decisions and pixels of each frame: a byte per region, then a byte per pixel.
     pub(crate) pictures: Vec<Vec<u8>>,
 }
 
@@ -21,12 +21,12 @@ impl Sent {
     }
 }
 
-/// The packet that these bytes begin with.
+/// Returns the packet at the beginning of `bytes`.
 pub(crate) fn first(bytes: &[u8]) -> &[u8] {
     &bytes[..8 * usize::from(u16::from_le_bytes([bytes[2], bytes[3]]))]
 }
 
-/// A design on AXI of 40 x 30 pixels.
+/// A design on AXI with frames of 40 x 30 pixels.
 pub(crate) const CORE: [&str; 4] = [
     "frame={width=40,height=30}",
     "hardware.organization='raster'",
@@ -54,7 +54,7 @@ pub(crate) fn street(set: &[&str], frames: u32) -> Sent {
         let packet = first(rest);
         rest = &rest[packet.len()..];
         frames.last_mut().unwrap().extend(packet);
-        // An END is the last of its frame.
+        // The END packet is the last one of its frame.
         if packet[1] & 15 == 5 {
             frames.push(Vec::new());
         }
@@ -76,7 +76,7 @@ pub(crate) fn street(set: &[&str], frames: u32) -> Sent {
         match file {
             image::DynamicImage::ImageLuma8(file) => picture.extend(file.as_raw()),
             image::DynamicImage::ImageLuma16(file) => {
-                // The page has the 8 high bits.
+                // The page shows the 8 high bits.
                 let pixels = file.as_raw().iter().map(|value| value.to_be_bytes()[0]);
                 picture.extend(pixels);
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page delivers the frames that were simulated, at their times.
+//! Tests that the page gets the simulated frames, at their times.
 
 use std::fs;
 use std::io::Write;
@@ -12,7 +12,7 @@ use crate::client::{get, next, open, parts, wait_for};
 use crate::line::Line;
 use crate::sent::{CORE, Sent, street};
 
-/// Designs of every way to show irrelevant regions, also deeper than a page.
+/// Designs with every rendering of irrelevant regions, some with more bits per pixel than a page.
 const DESIGNS: [&[&str]; 4] = [
     &["frame={width=45,height=38}"],
     &["frame={width=33,height=50,pixel_bits=10}", "render.irrelevant='hold'"],
@@ -32,7 +32,7 @@ fn frames_over_a_line_are_those_of_the_simulator() {
         let view = open(&line.path, set, None).unwrap();
         let mut bytes = 0;
         for (number, (packets, picture)) in (0u64..).zip(frames.iter().zip(&pictures)) {
-            // In pieces, as a line delivers them.
+            // A line delivers bytes in pieces.
             packets.chunks(1000).for_each(|piece| line.send(piece));
             let page = wait_for(view.link(), "frame", |told| told["frames"] == number + 1);
             assert!(page.picture == *picture, "frame {number} of {set:?} differs");
@@ -50,7 +50,7 @@ fn frames_over_a_line_are_those_of_the_simulator() {
             );
             assert_eq!(page.told["losses"], serde_json::json!({}));
         }
-        // Whoever knows all of it is told nothing again.
+        // A browser that knows all changes gets nothing again.
         let told = next(view.link(), 0).told;
         let again = next(view.link(), told["change"].as_u64().unwrap());
         assert!(again.picture.is_empty() && again.told["history"] == serde_json::json!([]));
@@ -58,7 +58,7 @@ fn frames_over_a_line_are_those_of_the_simulator() {
     }
 }
 
-/// Pixels of a frame.
+/// Returns the number of pixels of a frame.
 fn pixels(told: &serde_json::Value) -> usize {
     let side = |name: &str| told["design"][name].as_u64().unwrap();
     usize::try_from(side("width") * side("height")).unwrap()
@@ -69,7 +69,7 @@ fn a_file_is_played_by_its_times_to_its_end() {
     let folder = tempfile::tempdir().unwrap();
     let (sent, file) = (street(&CORE, 7), folder.path().join("packets.bin"));
     fs::write(&file, sent.bytes()).unwrap();
-    // 30 frames in a second.
+    // The frames have 1/30 s between them.
     for (play, least, most) in [(None, 199, 5000), (Some(Play::AtOnce), 0, 199)] {
         let view = open(&file, &CORE, play).unwrap();
         let page = wait_for(view.link(), "end", |told| told["status"] == "ended");
@@ -118,7 +118,7 @@ fn a_fifo_is_shown_as_it_comes() {
     wait_for(view.link(), "end", |told| told["status"] == "ended");
 }
 
-/// Frames of a megabyte, so that no buffer of a connection holds many.
+/// The frames have a megabyte, so that no buffer of a connection holds many of them.
 #[test]
 fn a_browser_that_does_not_read_stops_nobody() {
     let set = ["frame={width=1280,height=800}", "region.size=16"];
@@ -137,7 +137,7 @@ fn a_browser_that_does_not_read_stops_nobody() {
     std::thread::sleep(Duration::from_millis(300));
     let start = Instant::now();
     for _ in 0..20 {
-        // Number and time are those of the first, which restarts the stream.
+        // The frame has the number and the time of the first one, which restarts the stream.
         line.send(first);
     }
     line.send(again);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Connections that are slow, idle or too many do not keep the page from a browser that behaves well.
+//! Tests that slow, idle or too many connections do not keep the page from a browser that behaves
+//! well.
 
 use std::fs;
 use std::io::{ErrorKind, Read as _, Write as _};
@@ -12,12 +13,12 @@ use foveate_view::{Play, Player, PlayerOptions};
 use crate::client::{get, open, parts, request};
 use crate::sent::{CORE, street};
 
-/// Connections of somebody else; more than the server keeps.
+/// The number of foreign connections, which is more than the server keeps.
 const MANY: usize = 100;
-/// A browser that behaves well is served within this time, also on a busy machine.
+/// The time within which a browser that behaves well is served, also on a busy machine.
 const PROMPT: Duration = Duration::from_secs(3);
 
-/// Both pages that the library serves, for as long as the test looks at them.
+/// Runs a test on both pages that the library serves.
 fn on_both_pages(test: impl Fn(&str)) {
     let folder = tempfile::tempdir().unwrap();
     let file = folder.path().join("packets.bin");
@@ -37,11 +38,11 @@ fn on_both_pages(test: impl Fn(&str)) {
     test(&player.link());
 }
 
-/// Connections that send the beginning of a request and nothing else.
+/// Returns connections that have sent the beginning of a request and nothing else.
 fn begun(host: &str, text: &str) -> Vec<TcpStream> {
     let begin = |_| {
         let mut stream = TcpStream::connect(host).unwrap();
-        // The server may have closed it already.
+        // The server may have closed the connection already.
         let _ = stream.write_all(text.as_bytes());
         stream
     };
@@ -71,7 +72,8 @@ fn browsers_that_are_idle_or_do_not_read_keep_the_page_from_nobody() {
     on_both_pages(|link| {
         let (host, token) = parts(link);
         let whole = format!("GET /{token}/ HTTP/1.1\r\nHost: {host}\r\n\r\n");
-        // The first is served and stays open; the others ask for more than a connection holds without reading it.
+        // The first request is served and its connection stays open. The others ask for more than a
+        // connection holds, and do not read it.
         for text in [whole.clone(), whole.repeat(30)] {
             let held = begun(host, &text);
             is_served_promptly(link, "");
@@ -80,7 +82,7 @@ fn browsers_that_are_idle_or_do_not_read_keep_the_page_from_nobody() {
     });
 }
 
-/// Sends a byte every now and then; how long the server listened.
+/// Sends a byte every now and then. Returns the time until the server closes the connection.
 fn dripped(host: &str, text: &str) -> Duration {
     let mut stream = TcpStream::connect(host).unwrap();
     stream.set_read_timeout(Some(Duration::from_millis(200))).unwrap();

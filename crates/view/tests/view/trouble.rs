@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Damage, other designs, silence, and ports that go away are said on the page and in the terminal, and end nothing.
+//! Tests that damage, other designs, silence, and ports that go away are reported on the page and
+//! in the terminal, and do not end the view.
 
 use std::fs;
 
@@ -11,7 +12,7 @@ use crate::client::{open, wait_for};
 use crate::line::Line;
 use crate::sent::{CORE, first, street};
 
-/// News until one has all of `parts`.
+/// Collects messages until one contains all of `parts`.
 fn wait_for_news(view: &View, parts: &[&str]) -> Vec<String> {
     let mut all = Vec::new();
     for _ in 0..2000 {
@@ -32,7 +33,7 @@ fn damage_is_listed_and_the_rest_is_shown() {
     line.send(&sent.frames[0]);
     let mut damaged = sent.frames[1].clone();
     let frame = first(&damaged).len();
-    // The first ROW of the second frame.
+    // The damaged packet is the first ROW packet of the second frame.
     assert_eq!(damaged[frame + 1] & 15, 2);
     damaged[frame + 9] ^= 1;
     let row = first(&damaged[frame..]).len();
@@ -52,7 +53,7 @@ fn damage_is_listed_and_the_rest_is_shown() {
 fn many_losses_are_counted_but_not_all_told() {
     let folder = tempfile::tempdir().unwrap();
     let (sent, file) = (street(&CORE, 40), folder.path().join("packets.bin"));
-    // Without the END of every second frame.
+    // Every second frame has no END packet.
     let odd = |(number, frame): (usize, &Vec<u8>)| {
         let end = if number % 2 == 1 { frame.len() - 24 } else { frame.len() };
         frame[..end].to_vec()
@@ -85,14 +86,14 @@ fn another_design_is_refused_until_the_right_one_comes() {
     let page = wait_for(view.link(), "frame", |told| told["frames"] == 1);
     assert!(page.picture == own.pictures[0]);
     assert_eq!((&page.told["refused"], &page.told["losses"]), (&json!(null), &json!({})));
-    // Told once, not with every frame.
+    // The refusal is reported once, not with every frame.
     assert_eq!(view.news().iter().filter(|text| both(text)).count(), 0);
-    // A design that changes on the way.
+    // The design changes during the stream.
     line.send(&foreign.bytes());
     wait_for(view.link(), "message again", |told| told["refused"].as_str().is_some_and(both));
 }
 
-/// The packets of a frame with another time.
+/// Returns the packets of a frame with another time.
 fn at_time(packets: &[u8], time: u64) -> Vec<u8> {
     let mut packets = packets.to_vec();
     packets[24..32].copy_from_slice(&time.to_le_bytes());
@@ -196,7 +197,7 @@ fn a_port_that_is_gone_is_said() {
     drop(line);
     let page = wait_for(view.link(), "message", |told| told["status"] == "gone");
     assert!(page.told["text"].as_str().unwrap().contains(&path), "{}", page.told);
-    // The last frame is still there.
+    // The last frame is still shown.
     assert!(page.picture == sent.pictures[0]);
     wait_for_news(&view, &[&path, "is gone"]);
 }
