@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a page can offer: presets, scenes, keys with what they take, features with their defaults. All of it comes from the
-//! tables that the command uses, so that a page has no range of its own.
+//! The description of what a page can offer: presets, scenes, keys with their values, features with
+//! their defaults. All of it comes from the tables that the command uses, so that a page has no
+//! range of its own.
 
 use foveate_camera::text::AsToml as _;
 use foveate_camera::{
@@ -12,7 +13,7 @@ use serde_json::{Value, json};
 
 use crate::limits::{MAX_CAMERAS, MAX_NETWORK_FILE, MAX_PIXELS, MAX_RECORDING};
 
-/// All of it.
+/// Returns the whole description.
 pub(crate) fn describe() -> Result<Value, ConfigError> {
     let defaults = defaults()?;
     let presets = PRESETS.iter().map(
@@ -33,7 +34,8 @@ pub(crate) fn describe() -> Result<Value, ConfigError> {
     }))
 }
 
-/// The default camera with every key, those of a periphery too, which it has not.
+/// Returns the default camera with every key. The keys of a periphery are included, although the
+/// default has no periphery.
 fn defaults() -> Result<Value, ConfigError> {
     let design = Config::default().validate()?;
     let mut shown = CameraConfig::default();
@@ -43,7 +45,8 @@ fn defaults() -> Result<Value, ConfigError> {
     Ok(defaults)
 }
 
-/// A key: its kind, what it takes in words, its range or choices where these depend on no other key, and its default.
+/// Describes a key: its kind, its values in words, its range or choices if these depend on no other
+/// key, and its default.
 fn described((key, takes): &Key, defaults: &Value) -> Value {
     let path = format!("/{}", key.replacen("spatial.", "spatial.0.", 1).replace('.', "/"));
     let mut told =
@@ -59,7 +62,8 @@ fn described((key, takes): &Key, defaults: &Value) -> Value {
     told
 }
 
-/// A feature with its keys where the configuration leaves them out, for pixels of 8 bits; keys that do not apply are left out.
+/// Returns a feature with the default values of its keys for pixels of 8 bits. Keys that do not
+/// apply are left out.
 fn feature(kind: FeatureKind) -> Value {
     let mut told = json!(SpatialConfig::new(kind).with_defaults(8));
     told["unit"] = json!(kind.measure().name());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cameras of a page, by number, and the scenes that it shows them.
+//! The cameras of a page, by number, and the scenes that it shows to them.
 
 use foveate_design::Config;
 use foveate_scenes::{Scene, SceneFrames, SceneSize};
@@ -9,28 +9,30 @@ use crate::describe::describe;
 use crate::limits::{MAX_CAMERAS, MAX_PIXELS};
 use crate::{LiveCamera, WebError, facts};
 
-/// What a page works with.
+/// The state of a page: its cameras and its scene.
 #[derive(Debug, Default)]
 pub struct Desk {
     cameras: [Option<LiveCamera>; MAX_CAMERAS],
-    /// The scene that was asked for last, so that its backdrop is painted once.
+    /// The scene that was asked for last. It is kept so that its backdrop is drawn only once.
     scene: Option<(Scene, SceneSize, SceneFrames)>,
     frame: Vec<u8>,
 }
 
 impl Desk {
-    /// What can be asked of it.
+    /// Returns the description of what a page can ask for.
     ///
     /// # Errors
-    /// Never for the tables of this program, which a test proves.
+    /// Does not fail for the tables of this program, which a test proves.
     pub fn describe(&self) -> Result<Value, WebError> {
         Ok(describe()?)
     }
 
-    /// A camera for frames of that size, of a configuration as TOML: its number, and what it is.
+    /// Makes a camera for frames of this size from a configuration in TOML. Returns its number, and
+    /// the facts about it.
     ///
     /// # Errors
-    /// When the configuration is refused, the frame is too large, or there are too many cameras.
+    /// Fails if the configuration is refused, the frame is too large, or there are too many
+    /// cameras.
     pub fn configure(
         &mut self,
         toml: &[u8],
@@ -45,10 +47,10 @@ impl Desk {
         Ok((number, facts::facts(camera.design())))
     }
 
-    /// The camera of that number.
+    /// Returns the camera with this number.
     ///
     /// # Errors
-    /// When there is none.
+    /// Fails if there is no such camera.
     pub fn camera(&mut self, handle: u32) -> Result<&mut LiveCamera, WebError> {
         let camera = self.cameras.get_mut(handle as usize).and_then(Option::as_mut);
         camera.ok_or(WebError::NoSuchCamera { handle })
@@ -57,18 +59,18 @@ impl Desk {
     /// Ends a camera.
     ///
     /// # Errors
-    /// When there is none of that number.
+    /// Fails if there is no camera with this number.
     pub fn free(&mut self, handle: u32) -> Result<(), WebError> {
         self.camera(handle)?;
         self.cameras[handle as usize] = None;
         Ok(())
     }
 
-    /// A frame of a scene as 8-bit grey, made for regions of `region_size` pixels a side; behind the last frame the first
-    /// comes again.
+    /// Returns a frame of a scene as 8-bit grey, made for regions of `region_size` x `region_size`
+    /// pixels. After the last frame the first comes again.
     ///
     /// # Errors
-    /// When there is no scene of that name, or the frame is too large.
+    /// Fails if there is no scene of that name, or if the frame is too large.
     pub fn scene(
         &mut self,
         name: &[u8],
@@ -90,7 +92,7 @@ impl Desk {
     }
 }
 
-/// Refuses a frame without pixels, or with too many.
+/// Fails if a frame has no pixels or too many.
 pub(crate) fn check_size(width: u32, height: u32) -> Result<(), WebError> {
     let pixels = u64::from(width) * u64::from(height);
     if (1..=u64::from(MAX_PIXELS)).contains(&pixels) {

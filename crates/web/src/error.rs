@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a page may ask that cannot be.
+//! The errors of requests of a page.
 
 use foveate_camera::ConfigError;
 use foveate_engine::EngineError;
@@ -8,7 +8,7 @@ use foveate_network::sight::SightError;
 use foveate_scenes::SceneError;
 use thiserror::Error;
 
-/// A wish of the page that is refused.
+/// A request of the page that is refused.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum WebError {
@@ -24,126 +24,126 @@ pub enum WebError {
     /// There is no such scene.
     #[error(transparent)]
     Scene(#[from] SceneError),
-    /// The network cannot be read, shown frames, or understood.
+    /// The network cannot be read, cannot take the frames, or has outputs that cannot be read.
     #[error(transparent)]
     Sight(#[from] SightError),
-    /// A file of a network that is too large.
+    /// The file of a network is too large.
     #[error("the file has {given} bytes; a page takes networks of at most {most}")]
     NetworkFile {
-        /// Its bytes.
+        /// The size of the file in bytes.
         given: usize,
-        /// The most.
+        /// The largest size in bytes.
         most: usize,
     },
-    /// A network whose tensors take too much memory.
+    /// The tensors of a network take too much memory.
     #[error(
         "the network keeps {} MB of tensors for a frame; a page has {} MB for them: take a smaller network, or a smaller input as in letterbox=320x320",
         needed / 1_000_000,
         most / 1_000_000
     )]
     NetworkMemory {
-        /// Bytes that it needs.
+        /// The needed bytes.
         needed: u64,
-        /// The most.
+        /// The largest number of bytes.
         most: u64,
     },
-    /// Pixels that no camera has.
+    /// No camera has pixels of this depth.
     #[error("pixels of {bits} bits are refused; a camera has 1 to 16")]
     Bits {
-        /// Bits that were asked for.
+        /// The requested bits of a pixel.
         bits: u32,
     },
-    /// A setting of a network that cannot be read.
+    /// A setting of a network cannot be read.
     #[error("{what}: {problem}")]
     Wish {
-        /// The setting.
+        /// The name of the setting.
         what: &'static str,
-        /// What would be right.
+        /// The message, with what would be right.
         problem: String,
     },
-    /// A pixel that is larger than the bits of the frames hold.
+    /// A pixel is larger than its bits allow.
     #[error("a pixel is larger than {bits} bits hold; give pixels as the camera has them")]
     PixelBits {
-        /// Bits of a pixel.
+        /// The bits of a pixel.
         bits: u32,
     },
     /// There is no network yet.
     #[error("there is no network; give the file of one first")]
     NoNetwork,
-    /// Bytes that are no text.
+    /// The bytes are not text.
     #[error("the {what} is not UTF-8 text, from byte {at} on; give it as UTF-8")]
     Text {
-        /// What should have been text.
+        /// The name of what should have been text.
         what: &'static str,
-        /// The first byte that is none.
+        /// The position of the first byte that is not text.
         at: usize,
     },
-    /// A frame without pixels, or with more than a page can hold.
+    /// The frame has no pixels, or more than a page can hold.
     #[error(
         "a frame of {width}x{height} pixels is refused; a page takes frames of 1 to {most} pixels"
     )]
     Size {
-        /// Width that was asked for.
+        /// The requested width in pixels.
         width: u32,
-        /// Height that was asked for.
+        /// The requested height in pixels.
         height: u32,
-        /// The most pixels.
+        /// The largest number of pixels.
         most: u32,
     },
-    /// Bytes that are no frame of the camera.
+    /// The bytes are no frame of the camera.
     #[error(
         "{given} bytes are no frame; one of {width}x{height} pixels has {needed}, {each} per pixel"
     )]
     FrameLength {
-        /// Bytes that came.
+        /// The number of bytes that came.
         given: usize,
-        /// Bytes of a frame.
+        /// The number of bytes of a frame.
         needed: usize,
-        /// Bytes of a pixel.
+        /// The number of bytes of a pixel.
         each: usize,
-        /// Width of the camera.
+        /// The width of the camera's frame in pixels.
         width: u32,
-        /// Height of the camera.
+        /// The height of the camera's frame in pixels.
         height: u32,
     },
-    /// One more camera than a page may have.
+    /// The page has the largest number of cameras already.
     #[error("there are {most} cameras already, the most of a page; free one first")]
     TooManyCameras {
-        /// The most.
+        /// The largest number of cameras.
         most: usize,
     },
-    /// A camera that was freed, or never was.
+    /// The camera was freed, or never existed.
     #[error("there is no camera number {handle}; it was freed, or never configured")]
     NoSuchCamera {
-        /// The number.
+        /// The requested number.
         handle: u32,
     },
-    /// A feature that the camera does not have.
+    /// The camera does not have the feature.
     #[error("there is no feature number {index}; the camera has {count}, counted from 0")]
     NoSuchFeature {
-        /// The number.
+        /// The requested number.
         index: u32,
-        /// How many there are.
+        /// The number of features of the camera.
         count: usize,
     },
-    /// A region outside of the grid.
+    /// The region is outside of the grid.
     #[error(
         "there is no region {x},{y}; the frame has {columns} x {rows} regions, counted from 0,0"
     )]
     NoSuchRegion {
-        /// Column that was asked for.
+        /// The requested column.
         x: u32,
-        /// Row that was asked for.
+        /// The requested row.
         y: u32,
-        /// Columns of regions.
+        /// The number of columns of regions.
         columns: u32,
-        /// Rows of regions.
+        /// The number of rows of regions.
         rows: u32,
     },
-    /// Nothing can be said of no frame.
+    /// The camera has seen no frame yet.
     #[error("the camera has seen no frame yet; show it one first")]
     NothingYet,
-    /// There are no events to take.
+    /// There is no recording.
     #[error("nothing is recorded; begin a recording first")]
     NotRecording,
 }

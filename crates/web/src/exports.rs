@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What WebAssembly exports: plain functions, called by `web/engine.js` alone.
+//! The exports of WebAssembly: plain functions, which only `web/engine.js` calls.
 //!
-//! Bytes come through one buffer: [`foveate_input`] makes it as long as asked and says where it is. A call answers with a
-//! number, 0 or more, or -1 where it refuses; then [`foveate_pointer`] and [`foveate_length`] say where the answer or the message
-//! lies, until the next call. No call reads or writes through a pointer, so nothing here is unsafe but the names.
+//! Input comes through one buffer: [`foveate_input`] gives it the requested length and returns its
+//! address. A call returns a number of 0 or more, or -1 if it refuses. [`foveate_pointer`] and
+//! [`foveate_length`] then give the address and length of the answer or the message, which stay
+//! valid until the next call. No call reads or writes through a pointer, so that only the exported
+//! names need `unsafe`.
 #![allow(
     unsafe_code,
     reason = "an export keeps its name, and the compiler cannot know that it is the only one"
@@ -16,18 +18,18 @@ use foveate_frame::Plane;
 use crate::limits::{MAX_NETWORK_FILE, MAX_PIXELS};
 use crate::{Desk, LiveCamera, NetworkDesk, Sent, WebError};
 
-/// The most bytes that can be put in: a network, which is more than a frame in colour.
+/// The largest input in bytes: the file of a network, which is larger than a frame in colour.
 const MAX_INPUT: usize = MAX_NETWORK_FILE;
 const _: () = assert!(MAX_INPUT >= 4 * MAX_PIXELS as usize);
 
-/// A page's desk and what lies between it and the page.
+/// The state of a page, and the buffers between it and the page.
 #[derive(Debug, Default)]
 struct Counter {
     desk: Desk,
     network: NetworkDesk,
     input: Vec<u8>,
     answer: Vec<u8>,
-    /// Where the answer lies, and how long it is.
+    /// The address of the answer, and its length in bytes.
     place: (usize, usize),
 }
 
@@ -36,13 +38,14 @@ thread_local! {
 }
 
 impl Counter {
-    /// Answers with text.
+    /// Makes a text the answer.
     fn say(&mut self, text: String) {
         self.answer = text.into_bytes();
         self.place = place(&self.answer);
     }
 
-    /// The number of a call that went well, or -1 and the message.
+    /// Returns the number of a successful call, or makes the error message the answer and returns
+    /// -1.
     fn told(&mut self, result: Result<i32, WebError>) -> i32 {
         result.unwrap_or_else(|error| {
             self.say(error.to_string());
@@ -50,7 +53,7 @@ impl Counter {
         })
     }
 
-    /// Shows a frame to a camera.
+    /// Shows a frame to a camera, and makes the result the answer.
     fn step(
         &mut self,
         handle: u32,
@@ -67,7 +70,7 @@ impl Counter {
         self.told(sent)
     }
 
-    /// Answers with what a camera holds.
+    /// Makes values that a camera holds the answer.
     fn show<T>(
         &mut self,
         handle: u32,
@@ -81,7 +84,7 @@ impl Counter {
         self.told(found)
     }
 
-    /// Answers with pixels of a camera.
+    /// Makes pixels of a camera the answer.
     fn plane(&mut self, handle: u32, of: impl FnOnce(&LiveCamera) -> Plane<'_>) -> i32 {
         let found = self.desk.camera(handle).map(|camera| match of(camera) {
             Plane::Bytes(pixels) => place(pixels),
@@ -95,15 +98,15 @@ impl Counter {
     }
 }
 
-/// A time as JavaScript has it; none where it is negative or no number.
+/// Converts a time from JavaScript; `None` if it is negative or not a number.
 fn microseconds(time_us: f64) -> Option<u64> {
-    /// All whole numbers up to here are numbers of JavaScript.
+    /// JavaScript represents all whole numbers up to this one exactly.
     const MOST: f64 = 9_007_199_254_740_992.0;
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "it is in range")]
     (0.0..=MOST).contains(&time_us).then_some(time_us as u64)
 }
 
-/// Where values lie, and how many bytes they take.
+/// Returns the address of values, and their length in bytes.
 fn place<T>(values: &[T]) -> (usize, usize) {
     (values.as_ptr().addr(), size_of_val(values))
 }
@@ -112,7 +115,8 @@ fn at_the_counter<R>(call: impl FnOnce(&mut Counter) -> R) -> R {
     COUNTER.with_borrow_mut(call)
 }
 
-/// Makes the buffer for input `length` bytes long, and says where it is; 0 where that is more than the largest network.
+/// Gives the input buffer a length of `length` bytes, and returns its address; 0 if that is more
+/// than the largest network.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_input(length: usize) -> usize {
     at_the_counter(|counter| {
@@ -124,19 +128,19 @@ pub extern "C" fn foveate_input(length: usize) -> usize {
     })
 }
 
-/// Where the last answer lies.
+/// Returns the address of the last answer.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_pointer() -> usize {
     at_the_counter(|counter| counter.place.0)
 }
 
-/// How many bytes it has.
+/// Returns the length of the last answer in bytes.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_length() -> usize {
     at_the_counter(|counter| counter.place.1)
 }
 
-/// Answers with what can be asked, as JSON.
+/// Answers with the description of what a page can ask for, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_describe() -> i32 {
     at_the_counter(|counter| {
@@ -148,58 +152,62 @@ pub extern "C" fn foveate_describe() -> i32 {
     })
 }
 
-/// Makes a camera of the TOML that was put in; answers with its number, and what it is as JSON.
+/// Makes a camera from the TOML in the input buffer. Returns its number, and answers with the facts
+/// about it, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_configure(width: u32, height: u32) -> i32 {
     at_the_counter(|counter| {
         let made =
             counter.desk.configure(&counter.input, (width, height)).map(|(number, facts)| {
                 counter.say(facts.to_string());
-                // There are few.
+                // There are at most [`crate::MAX_CAMERAS`] cameras, so that the number fits.
                 number.cast_signed()
             });
         counter.told(made)
     })
 }
 
-/// Shows a camera the 8-bit grey that was put in, of that time in microseconds since the first frame; below 0, frames are 30 a second.
-/// Answers with what it sends, as JSON.
+/// Shows a camera the frame of 8-bit grey in the input buffer. `time_us` is the time since the
+/// first frame in microseconds; if it is negative, there are 30 frames per second. Answers with
+/// what the camera sends, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_step_grey(handle: u32, time_us: f64) -> i32 {
     at_the_counter(|counter| counter.step(handle, time_us, LiveCamera::step_grey))
 }
 
-/// The same with colours, four bytes per pixel.
+/// Shows a camera the frame in the input buffer as [`foveate_step_grey`] does, but with four bytes
+/// of colour per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_step_rgba(handle: u32, time_us: f64) -> i32 {
     at_the_counter(|counter| counter.step(handle, time_us, LiveCamera::step_rgba))
 }
 
-/// Answers with what the camera saw: a byte per pixel.
+/// Answers with the last frame that the camera has seen: a byte per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_seen(handle: u32) -> i32 {
     at_the_counter(|counter| counter.show(handle, |camera| Ok(camera.input())))
 }
 
-/// Answers with what the receiver sees: a byte per pixel.
+/// Answers with the receiver's screen: a byte per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_screen(handle: u32) -> i32 {
     at_the_counter(|counter| counter.show(handle, |camera| Ok(camera.screen())))
 }
 
-/// Answers with what the camera saw as it has it: pixels of P bits, a byte each up to 8 bits, else two, the lower first.
+/// Answers with the last frame as the camera has it, in pixels of P bits. Pixels of up to 8 bits
+/// have one byte each; deeper pixels have two, the lower first.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_pixels(handle: u32) -> i32 {
     at_the_counter(|counter| counter.plane(handle, LiveCamera::pixels))
 }
 
-/// Answers with what the receiver sees, in the same way.
+/// Answers with the receiver's screen, in pixels as [`foveate_pixels`] has them.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_rendered(handle: u32) -> i32 {
     at_the_counter(|counter| counter.plane(handle, |camera| camera.engine().rendered()))
 }
 
-/// Answers with a byte per region: what was decided.
+/// Answers with the decisions: a byte per region.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_regions(handle: u32) -> i32 {
     at_the_counter(|counter| counter.show(handle, |camera| Ok(camera.regions())))
@@ -224,7 +232,8 @@ pub extern "C" fn foveate_hash(handle: u32) -> i32 {
     })
 }
 
-/// Begins or ends a recording: 0 ends it, 1 begins it with all regions, 2 with those that send something alone.
+/// Begins or ends a recording: 0 ends it, 1 begins one of all regions, and 2 begins one of regions
+/// that send something.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_record(handle: u32, how: u32) -> i32 {
     at_the_counter(|counter| {
@@ -236,13 +245,14 @@ pub extern "C" fn foveate_record(handle: u32, how: u32) -> i32 {
     })
 }
 
-/// Answers with what was recorded: `events.csv`.
+/// Answers with the recording, as `events.csv`.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_events(handle: u32) -> i32 {
     at_the_counter(|counter| counter.show(handle, LiveCamera::events))
 }
 
-/// Answers with why a region of the last frame, whose name was put in, was sent or not: `{"json": .., "text": ..}`.
+/// Answers with the reason why a region of the last frame was sent or not: `{"json": .., "text":
+/// ..}`. The input buffer holds the name of the frame.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_explain(handle: u32, x: u32, y: u32) -> i32 {
     at_the_counter(|counter| {
@@ -257,7 +267,7 @@ pub extern "C" fn foveate_explain(handle: u32, x: u32, y: u32) -> i32 {
     })
 }
 
-/// Makes a camera forget every frame.
+/// Makes a camera forget all frames.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_reset(handle: u32) -> i32 {
     at_the_counter(|counter| {
@@ -278,7 +288,7 @@ pub extern "C" fn foveate_free(handle: u32) -> i32 {
     })
 }
 
-/// Answers with a frame of the scene whose name was put in: a byte per pixel.
+/// Answers with a frame of the scene whose name is in the input buffer: a byte per pixel.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_scene(width: u32, height: u32, region_size: u32, number: u32) -> i32 {
     at_the_counter(|counter| {
@@ -292,7 +302,7 @@ pub extern "C" fn foveate_scene(width: u32, height: u32, region_size: u32, numbe
     })
 }
 
-/// Takes over what was put in as the file of a network.
+/// Takes the content of the input buffer as the file of a network.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_network_file() -> i32 {
     at_the_counter(|counter| {
@@ -301,7 +311,8 @@ pub extern "C" fn foveate_network_file() -> i32 {
     })
 }
 
-/// Makes the network of the file for frames of that size and depth, as wished by the JSON that was put in; answers with what it is, as JSON.
+/// Makes the network of the file for frames of this size and depth, with the settings in the input
+/// buffer, which are JSON. Answers with the facts about it, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_network_open(width: u32, height: u32, bits: u32) -> i32 {
     at_the_counter(|counter| {
@@ -314,8 +325,9 @@ pub extern "C" fn foveate_network_open(width: u32, height: u32, bits: u32) -> i3
     })
 }
 
-/// Shows the network the frame that was put in and, behind it, what the receiver sees, both as [`foveate_pixels`] has them; answers with what
-/// it says of them, as JSON.
+/// Runs the network on two frames in the input buffer: the whole frame and, behind it, the
+/// receiver's screen, both in pixels as [`foveate_pixels`] has them. Answers with a comparison of
+/// its outputs, as JSON.
 #[unsafe(no_mangle)]
 pub extern "C" fn foveate_network_look() -> i32 {
     at_the_counter(|counter| {

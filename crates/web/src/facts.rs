@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a page is told of a camera.
+//! The facts about a camera that a page gets.
 
 use foveate_camera::Bound;
 use foveate_design::Design;
 use serde_json::{Map, Value, json};
 
-/// Every key with its value, the sizes that follow, and what each key may be while the others stay.
+/// Returns every key with its value, the sizes that follow, and the possible values of each key
+/// while the others stay.
 pub(crate) fn facts(design: &Design) -> Value {
     let config = design.spelled_out();
     let features = design.features().iter().map(|feature| feature.kind().name());

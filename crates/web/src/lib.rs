@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The engine for a page in the browser.
 //!
-//! [`exports`] are plain functions over linear memory, without imports: bytes go into one buffer, every answer lies where a
-//! pointer and a length say. They do nothing but call a [`Desk`], which holds the cameras of a page, or a [`NetworkDesk`], which has a
-//! network that looks at frames; `web/engine.js` is the only caller that knows them. `scripts/web.sh` compiles this crate to `web/foveate.wasm`, on one thread, with
-//! vectors of 128 bits. What is computed is what `foveate simulate` computes on the same frames, bit for bit.
+//! [`exports`] has plain functions over linear memory, without imports. Bytes go into one buffer,
+//! and every answer lies at a pointer with a length. The functions only call a [`Desk`], which
+//! holds the cameras of a page, or a [`NetworkDesk`], which holds a network for frames;
+//! `web/engine.js` is their only caller. `scripts/web.sh` compiles this crate to
+//! `web/foveate.wasm`, on one thread, with vectors of 128 bits. The results are those of `foveate
+//! simulate` for the same frames, bit for bit.
 //!
-//! Wrong input gives a message. What grows has a limit: cameras, pixels of a frame, bytes of a recording, a network.
+//! Wrong input gives a message. Everything that grows has a limit: cameras, pixels of a frame,
+//! bytes of a recording, a network.
 
 mod describe;
 mod desk;

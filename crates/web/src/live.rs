@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One camera of a page: frames in, what came of the last one out.
+//! One camera of a page: it takes frames and holds the results of the last one.
 
 use foveate_design::{Action, Design};
 use foveate_engine::{Before, Engine, EventTable, Moment};
@@ -19,9 +19,9 @@ pub struct LiveCamera {
     design: Design,
     engine: Engine,
     depth: Depth,
-    /// Frames so far.
+    /// The number of frames so far.
     frames: u64,
-    /// Of the last.
+    /// The time of the last frame in microseconds.
     time_us: u64,
     recording: Option<Recording>,
     grey: Vec<u8>,
@@ -31,37 +31,37 @@ pub struct LiveCamera {
     regions: Vec<u8>,
 }
 
-/// How many regions had each action.
+/// The number of regions with each action.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Actions {
-    /// Pixels are sent.
+    /// Regions whose pixels are sent.
     pub forward: u32,
-    /// The screen stays.
+    /// Regions whose screen stays.
     pub hold: u32,
-    /// The screen becomes black.
+    /// Regions whose screen becomes black.
     pub blank: u32,
-    /// Means are sent.
+    /// Regions whose means are sent.
     pub summarize: u32,
 }
 
-/// What a camera sends of one frame, and why.
+/// What a camera sends of one frame, and the decisions behind it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Sent {
-    /// Number of the frame, from 0 on since the camera was configured or reset.
+    /// The number of the frame, from 0 on since the camera was configured or reset.
     pub number: u64,
-    /// Active regions.
+    /// The number of active regions.
     pub active: u32,
-    /// Regions by action.
+    /// The regions by action.
     pub actions: Actions,
-    /// Bits that are sent, as `foveate simulate` counts them.
+    /// The number of bits that are sent, as `foveate simulate` counts them.
     pub bits: u64,
-    /// Regions that did not have to be computed, because nothing had changed.
+    /// The number of regions that were not computed, because nothing had changed in them.
     pub skipped: usize,
-    /// Regions with SRS.
+    /// The number of regions with SRS.
     pub srs: u32,
-    /// Regions with TRS.
+    /// The number of regions with TRS.
     pub trs: u32,
-    /// How far the recording is, while there is one.
+    /// The state of the recording, if there is one.
     pub recording: Option<Recorded>,
 }
 
@@ -86,19 +86,19 @@ impl LiveCamera {
         camera
     }
 
-    /// The camera, and the hardware that would compute it.
+    /// Returns the camera, and the hardware that would compute it.
     #[must_use]
     pub fn design(&self) -> &Design {
         &self.design
     }
 
-    /// The engine behind it.
+    /// Returns the engine of the camera.
     #[must_use]
     pub fn engine(&self) -> &Engine {
         &self.engine
     }
 
-    /// Forgets every frame; a recording begins anew.
+    /// Forgets all frames. A recording begins again.
     pub fn reset(&mut self) {
         self.engine.reset();
         self.frames = 0;
@@ -108,7 +108,7 @@ impl LiveCamera {
         self.clear();
     }
 
-    /// Before the first frame everything is black, and nothing was decided.
+    /// Makes the screen and the input black and removes all decisions, as before the first frame.
     fn clear(&mut self) {
         let pixels = self.design.width() as usize * self.design.height() as usize;
         for plane in [&mut self.input, &mut self.screen] {
@@ -119,10 +119,11 @@ impl LiveCamera {
         self.regions.resize(self.design.regions() as usize, 0);
     }
 
-    /// Takes a frame of 8-bit grey, a byte per pixel, of that time since the first; without one, frames are 30 a second.
+    /// Takes a frame of 8-bit grey, a byte per pixel. `time_us` is the time since the first frame
+    /// in microseconds; without it, there are 30 frames per second.
     ///
     /// # Errors
-    /// When it is not of the camera's size; nothing has changed then.
+    /// Fails if the frame does not have the camera's size. Nothing has changed then.
     pub fn step_grey(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<Sent, WebError> {
         self.check_length(frame, 1)?;
         self.grey.clear();
@@ -133,7 +134,7 @@ impl LiveCamera {
     /// Takes a frame in colour, four bytes per pixel, as a canvas has it.
     ///
     /// # Errors
-    /// When it is not of the camera's size; nothing has changed then.
+    /// Fails if the frame does not have the camera's size. Nothing has changed then.
     pub fn step_rgba(&mut self, frame: &[u8], time_us: Option<u64>) -> Result<Sent, WebError> {
         self.check_length(frame, 4)?;
         self.grey.clear();
@@ -150,7 +151,7 @@ impl LiveCamera {
         Err(WebError::FrameLength { given: frame.len(), needed, each, width, height })
     }
 
-    /// Shows the engine what is in `grey`.
+    /// Shows the engine the frame in `grey`.
     fn step(&mut self, time_us: Option<u64>) -> Result<Sent, WebError> {
         let stride = self.design.width() as usize;
         self.depth.take(&self.grey, &mut self.pixels);
@@ -172,25 +173,26 @@ impl LiveCamera {
         Ok(self.sent())
     }
 
-    /// Begins to record what comes of every frame, or of regions that send something alone; or ends it, and forgets what was
-    /// recorded.
+    /// Begins to record the results of every frame, for all regions or only for those that send
+    /// something. With `on` false it ends the recording and forgets it.
     pub fn record(&mut self, on: bool, only_active: bool) {
         let table = || EventTable::new(&self.design, only_active);
         self.recording = on.then(|| Recording::new(table()));
     }
 
-    /// What was recorded, as `events.csv`.
+    /// Returns the recording as `events.csv`.
     ///
     /// # Errors
-    /// When nothing is recorded.
+    /// Fails if nothing is recorded.
     pub fn events(&self) -> Result<&[u8], WebError> {
         self.recording.as_ref().map(Recording::csv).ok_or(WebError::NotRecording)
     }
 
-    /// Why the region in column `x` and row `y` of the last frame, called `name`, was sent or not.
+    /// Explains why the region in column `x` and row `y` of the last frame, called `name`, was sent
+    /// or not.
     ///
     /// # Errors
-    /// When there was no frame yet, or there is no such region.
+    /// Fails if there was no frame yet, or if there is no such region.
     pub fn explain(&self, (x, y): (u32, u32), name: &str) -> Result<Explanation, WebError> {
         let design = &self.design;
         let (columns, rows) = (design.columns(), design.rows());
@@ -238,34 +240,35 @@ impl LiveCamera {
         }
     }
 
-    /// What the camera saw of the last frame: pixels of P bits, none before the first.
+    /// Returns the last frame as the camera has seen it, in pixels of P bits; empty before the
+    /// first frame.
     #[must_use]
     pub fn pixels(&self) -> Plane<'_> {
         self.pixels.plane()
     }
 
-    /// What the camera saw of the last frame, as 8-bit grey.
+    /// Returns the last frame as the camera has seen it, as 8-bit grey.
     #[must_use]
     pub fn input(&self) -> &[u8] {
         &self.input
     }
 
-    /// What the receiver sees after it, as 8-bit grey.
+    /// Returns the receiver's screen after the last frame, as 8-bit grey.
     #[must_use]
     pub fn screen(&self) -> &[u8] {
         &self.screen
     }
 
-    /// A byte per region, as [`foveate_engine::FrameOutcome::region_bytes`] packs them.
+    /// Returns a byte per region, as [`foveate_engine::FrameOutcome::region_bytes`] packs them.
     #[must_use]
     pub fn regions(&self) -> &[u8] {
         &self.regions
     }
 
-    /// The scores of a feature, region by region.
+    /// Returns the scores of a feature, region by region.
     ///
     /// # Errors
-    /// When the camera has no such feature.
+    /// Fails if the camera has no such feature.
     pub fn scores(&self, feature: u32) -> Result<&[u64], WebError> {
         let scores = &self.engine.outcome().scores;
         let none = WebError::NoSuchFeature { index: feature, count: scores.len() };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network beside a camera: what it says of whole frames, and of what the receiver sees, as `foveate infer` computes it.
+//! A network behind a camera: its outputs for whole frames and for the receiver's screen, compared
+//! as `foveate infer` does.
 
 use std::path::Path;
 
@@ -16,80 +17,81 @@ use crate::WebError;
 use crate::desk::check_size;
 use crate::limits::{MAX_NETWORK_BYTES, MAX_NETWORK_FILE};
 
-/// Side of the regions in which a picture is taken over. The network computes all of it anyway.
+/// The side of the regions in which a frame is converted. The network computes all of it anyway.
 const REGION: u32 = 16;
 
-/// How a network is to be shown frames, in the words of the command line.
+/// The settings for showing frames to a network, in the words of the command line.
 #[derive(Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Wishes {
-    /// Name of the file, for messages.
+    /// The name of the file, for messages.
     pub name: String,
-    /// As of `--framing`.
+    /// The value of `--framing`.
     pub framing: String,
-    /// As of `--mean`; what is usual where it is left out.
+    /// The value of `--mean`; the usual value of the network if it is left out.
     pub mean: Option<String>,
-    /// As of `--scale`; what is usual where it is left out.
+    /// The value of `--scale`; the usual value of the network if it is left out.
     pub scale: Option<String>,
-    /// As of `--detect`, or empty for none; what is likely where it is left out.
+    /// The value of `--detect`, or an empty text for no detections; the likely format of the
+    /// network if it is left out.
     pub detect: Option<String>,
 }
 
-/// The network of a page: its file, and what was made of it.
+/// The network of a page: its file, and the opened network.
 #[derive(Debug, Default)]
 pub struct NetworkDesk {
     file: Option<Vec<u8>>,
     network: Option<LiveNetwork>,
 }
 
-/// A network that looks at frames of one size and depth.
+/// A network for frames of one size and depth.
 #[derive(Debug)]
 struct LiveNetwork {
     witness: Witness,
     frames: Frames,
-    /// Bits of a pixel.
+    /// The bits of a pixel.
     bits: u32,
 }
 
-/// What a network says of a whole frame and of what the receiver sees.
+/// The outputs of a network for a whole frame and for the receiver's screen, compared.
 #[derive(Clone, Debug, Serialize)]
 pub struct Looked {
-    /// In one number, as of `foveate infer`.
+    /// The agreement as one number, as `foveate infer` computes it.
     pub agreement: f64,
-    /// How far the outputs are from those of the whole frame, as a share of these.
+    /// The distance of the outputs from those of the whole frame, as a share of these.
     pub relative_rms: f64,
-    /// How many were found, kept and added, if detections are read.
+    /// The numbers of detections that were found, kept and added, if detections are read.
     pub found: Option<Found>,
-    /// Those of the whole frame.
+    /// The detections in the whole frame.
     pub whole: Vec<Seen>,
-    /// Those in what the receiver sees.
+    /// The detections in the receiver's screen.
     pub seen: Vec<Seen>,
-    /// Of outputs that are one class.
+    /// The agreement of outputs that are one class.
     pub classes: Option<ClassKept>,
-    /// The class of the whole frame and of what the receiver sees, of the first such output.
+    /// The classes of the whole frame and of the receiver's screen, from the first such output.
     pub class: Option<[usize; 2]>,
-    /// Share of the places with the same class, of outputs that have one at every place.
+    /// The share of the places with the same class, for outputs that have a class at every place.
     pub same_places: Option<f64>,
 }
 
-/// A detection.
+/// A detection in a frame.
 #[derive(Clone, Debug, Serialize)]
 pub struct Seen {
-    /// Number of its class.
+    /// The number of its class.
     pub class: usize,
-    /// How sure the network is, 0 to 1.
+    /// The score of the detection, 0 to 1.
     pub score: f32,
-    /// Left, upper, right and lower side in pixels of the frame.
+    /// The left, upper, right and lower side, in pixels of the frame.
     pub rect: [f64; 4],
-    /// Whether the other picture has it, too.
+    /// True if the other frame has this detection, too.
     pub both: bool,
 }
 
 impl NetworkDesk {
-    /// Takes a file over. The network before it is gone.
+    /// Takes the file of a network. The previous network is dropped.
     ///
     /// # Errors
-    /// When it is too large.
+    /// Fails if the file is too large.
     pub fn take(&mut self, file: Vec<u8>) -> Result<(), WebError> {
         *self = Self::default();
         if file.len() > MAX_NETWORK_FILE {
@@ -99,10 +101,12 @@ impl NetworkDesk {
         Ok(())
     }
 
-    /// Makes the network of the file for frames of that size and depth. `wishes` are those of [`Wishes`] as JSON. Says what it is.
+    /// Makes the network of the file for frames of this size and depth. `wishes` is a [`Wishes`] as
+    /// JSON. Returns the facts about the network.
     ///
     /// # Errors
-    /// When there is no file, it is no network that can be computed, or it cannot be shown frames or read as wished.
+    /// Fails if there is no file, if it is no network that can be computed, or if the settings do
+    /// not fit the network.
     pub fn open(&mut self, wishes: &[u8], size: (u32, u32), bits: u32) -> Result<Value, WebError> {
         self.network = None;
         let file = self.file.as_ref().ok_or(WebError::NoNetwork)?;
@@ -113,11 +117,12 @@ impl NetworkDesk {
         Ok(told)
     }
 
-    /// What the network says of a frame and of what the receiver sees of it, which follow each other in `planes`: a byte per pixel up to 8 bits,
-    /// else two, the lower first.
+    /// Runs the network on a frame and on the receiver's screen for it, which follow each other in
+    /// `planes`. Pixels of up to 8 bits have one byte each; deeper pixels have two, the lower
+    /// first.
     ///
     /// # Errors
-    /// When there is no network, or the bytes are not two such frames.
+    /// Fails if there is no network, or if the bytes are not two such frames.
     pub fn look(&self, planes: &[u8]) -> Result<Looked, WebError> {
         self.network.as_ref().ok_or(WebError::NoNetwork)?.look(planes)
     }
@@ -167,7 +172,7 @@ impl LiveNetwork {
         Ok((Self { witness, frames, bits }, told))
     }
 
-    /// What the network says of both.
+    /// Runs the network on both frames and compares the outputs.
     fn look(&self, planes: &[u8]) -> Result<Looked, WebError> {
         let each = if self.bits <= 8 { 1 } else { 2 };
         let length = self.frames.width as usize * self.frames.height as usize * each;
@@ -189,7 +194,8 @@ impl LiveNetwork {
         if [whole, seen].iter().any(|plane| largest_pixel(*plane) > pixel_max) {
             return Err(WebError::PixelBits { bits: self.bits });
         }
-        // Of one executor, which is made for every frame: between frames its tensors take no memory.
+        // One executor runs both frames. It is made for every call, so that its tensors take no
+        // memory between calls.
         let mut looking = self.witness.look_at(self.frames);
         let [whole, seen] = [whole, seen].map(|plane| {
             looking.run(plane);
@@ -227,13 +233,13 @@ fn told((detection, both): (Detection, bool)) -> Seen {
     Seen { class, score, rect: [rect.x0, rect.y0, rect.x1, rect.y1], both }
 }
 
-/// One value, or several behind commas.
+/// Parses one value, or several that are separated by commas.
 fn values(text: &str, parse: fn(&str) -> Result<f32, String>) -> Result<Vec<f32>, String> {
     let value = |word: &str| parse(word.trim()).map_err(|problem| format!("`{word}`: {problem}"));
     text.split(',').map(value).collect()
 }
 
-/// What a network is, and what it may be.
+/// Returns the facts about a network, and the formats that its outputs may have.
 fn facts(network: &Network, usual: &Usual, detector: Option<&Detector>) -> Value {
     let input = network.input();
     let outputs = network.outputs().iter().zip(network.output_names());
@@ -252,7 +258,7 @@ fn facts(network: &Network, usual: &Usual, detector: Option<&Detector>) -> Value
     })
 }
 
-/// The options of `foveate infer` that do the same.
+/// Returns the options of `foveate infer` with the same meaning.
 fn options(framing: &str, mean: &str, scale: &str, detector: Option<&Detector>) -> String {
     let mut options = format!("--framing {framing}");
     for (name, value, default) in [("mean", mean, "0"), ("scale", scale, "1")] {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From 8-bit grey, which is what a browser has, to pixels of P bits and back.
+//! The conversion from 8-bit grey, which a browser has, to pixels of P bits and back.
 
 use foveate_frame::{Plane, convert_depth};
 
-/// What becomes of every 8-bit grey in a camera of P bits.
+/// The pixel value of every 8-bit grey in a camera of P bits.
 #[derive(Clone, Debug)]
 pub(crate) struct Depth {
     bits: u32,
@@ -24,12 +24,12 @@ impl Depth {
         Self { bits, pixels: [(); 256].map(pixel) }
     }
 
-    /// No pixels yet, of the type that the depth needs.
+    /// Returns an empty buffer of the type that the depth needs.
     pub(crate) fn nothing(&self) -> Pixels {
         if self.bits <= 8 { Pixels::Bytes(Vec::new()) } else { Pixels::Words(Vec::new()) }
     }
 
-    /// 8-bit grey as pixels of the camera.
+    /// Converts 8-bit grey to pixels of the camera.
     pub(crate) fn take(&self, grey: &[u8], pixels: &mut Pixels) {
         match pixels {
             Pixels::Bytes(bytes) => {
@@ -47,7 +47,7 @@ impl Depth {
         }
     }
 
-    /// Pixels of the camera as 8-bit grey.
+    /// Converts pixels of the camera to 8-bit grey.
     pub(crate) fn show(&self, pixels: Plane<'_>, grey: &mut Vec<u8>) {
         grey.clear();
         pixels.grey(self.bits, grey);
@@ -63,7 +63,7 @@ impl Pixels {
     }
 }
 
-/// The low byte, where there is no other.
+/// Returns the low byte of a pixel of up to 8 bits.
 fn low(pixel: u16) -> u8 {
     pixel.to_le_bytes()[0]
 }

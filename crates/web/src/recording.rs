@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The events of a camera as `foveate simulate` writes them to `events.csv`, kept until somebody takes them.
+//! The events of a camera as `foveate simulate` writes them to `events.csv`, kept until they are
+//! fetched.
 
 use foveate_engine::{EventTable, Moment};
 use serde::Serialize;
 
-/// Frames that were recorded.
+/// A recording of frames.
 #[derive(Debug)]
 pub(crate) struct Recording {
     table: EventTable,
@@ -12,14 +13,14 @@ pub(crate) struct Recording {
     recorded: Recorded,
 }
 
-/// How far a recording is.
+/// The state of a recording.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Recorded {
-    /// Frames in it.
+    /// The number of frames in it.
     pub frames: u64,
-    /// Bytes of its text.
+    /// The length of its text in bytes.
     pub bytes: usize,
-    /// Whether a frame found no room: neither it nor those after it are in the recording.
+    /// True if a frame found no room. Neither this frame nor any later one is in the recording.
     pub full: bool,
 }
 
@@ -31,12 +32,12 @@ impl Recording {
         Self { table, csv, recorded }
     }
 
-    /// The same, before the first frame.
+    /// Returns an empty recording with the same table.
     pub(crate) fn anew(&self) -> Self {
         Self::new(self.table.clone())
     }
 
-    /// Adds a frame; where it would be more than `most` bytes, none of it.
+    /// Adds a frame. If the text would be longer than `most` bytes, nothing of the frame is added.
     pub(crate) fn push(&mut self, moment: &Moment<'_>, most: usize) {
         if self.recorded.full {
             return;

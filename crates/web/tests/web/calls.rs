@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whatever a page calls, in whatever order and with whatever numbers: an answer or a message, and never a fault.
+//! Tests that any calls of a page, in any order and with any numbers, give an answer or a message,
+//! and never a panic.
 
 use foveate_web::exports::{
     foveate_configure, foveate_describe, foveate_events, foveate_explain, foveate_free,
@@ -9,7 +10,7 @@ use foveate_web::exports::{
     foveate_step_rgba,
 };
 
-/// Numbers without a pattern, the same in every run.
+/// A generator of random numbers, the same in every run.
 struct Random(u64);
 
 impl Random {
@@ -18,7 +19,7 @@ impl Random {
         u32::try_from(self.0 >> 40).unwrap() % end
     }
 
-    /// Mostly a small number, else one that is none of what is there.
+    /// Returns a number below `end` in most cases, and otherwise one that is too large.
     fn number(&mut self, end: u32) -> u32 {
         match self.below(12) {
             0 => u32::MAX - self.below(2),
@@ -34,7 +35,7 @@ fn any_calls_in_any_order_are_answered() {
     let (mut answered, mut refused) = (0, 0);
     for _ in 0..30_000 {
         let (handle, x, y) = (random.number(8), random.number(4), random.number(4));
-        // Nothing is put in but zeros: frames, an empty configuration, a name that no scene has.
+        // The input is only zeros: frames, an empty configuration, or a name that no scene has.
         let bytes = [0, 1, 12 * 12, 4 * 12 * 12, 17 * 9][random.below(5) as usize];
         assert_ne!(foveate_input(bytes), 0);
         let time = [-1.0, 0.0, 40.7, f64::NAN, f64::INFINITY, 1e300][random.below(6) as usize];

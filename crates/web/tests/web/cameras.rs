@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a page computes is what the model computes, and what it is told of a camera is true.
+//! Tests that a page computes what the model computes, and that the facts about a camera are true.
 
 use foveate_design::{Config, PRESETS};
 use foveate_frame::{Frame, convert_depth, luma};
@@ -9,7 +9,8 @@ use foveate_web::Desk;
 pub(crate) const SIZE: (u32, u32) = (61, 43);
 const FOUR: &str = "spatial=[{feature=\"edge\",level=40},{feature=\"corner\",level=10},{feature=\"mad\",min_score=4},{feature=\"variance\"}]";
 
-/// Presets, and what they do not reach: other depths, sides that leave padding, means of the raw pixels.
+/// Returns the presets, and configurations for what they do not reach: other depths, sizes with
+/// padding, means of raw pixels.
 pub(crate) fn configurations() -> Vec<String> {
     let presets = PRESETS.iter().filter(|preset| !preset.toml.contains("[frame]"));
     let more = [
@@ -31,7 +32,7 @@ pub(crate) fn grey(desk: &mut Desk, number: u32) -> Vec<u8> {
     desk.scene(b"street", SIZE, 8, number).unwrap().to_vec()
 }
 
-/// The frame that the model takes.
+/// Returns the frame that the model takes.
 pub(crate) fn frame(grey: &[u8], bits: u32) -> Frame {
     let pixels = grey.iter().map(|&grey| convert_depth(grey.into(), 8, bits)).collect();
     Frame::new(SIZE.0, SIZE.1, bits, pixels).unwrap()
@@ -87,7 +88,7 @@ fn every_camera_is_the_models() {
     }
 }
 
-/// Colours become grey by the rule of images, and cameras that are reset or made anew are the same.
+/// Colours are converted to grey by the rule of images. A camera that was reset equals a new one.
 #[test]
 fn colours_are_the_luma_of_images_and_a_reset_is_a_new_start() {
     let mut desk = Desk::default();
@@ -114,7 +115,7 @@ fn colours_are_the_luma_of_images_and_a_reset_is_a_new_start() {
     assert_ne!(camera.engine().digest(), hashes[0], "the second frame is compared with the first");
 }
 
-/// The TOML of a camera is that camera, and its bounds are of its keys.
+/// The TOML of a camera describes the same camera, and its bounds belong to its keys.
 #[test]
 fn facts_are_those_of_the_camera() {
     let mut desk = Desk::default();

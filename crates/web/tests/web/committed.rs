@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `web/foveate.wasm` is made of the sources that are here.
+//! Tests that `web/foveate.wasm` was compiled from the sources in this tree.
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fmt::Write as _;
@@ -12,7 +12,7 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// The crate `web` and those of this workspace that it is compiled with.
+/// Returns the crate `web` and the crates of this workspace with which it is compiled.
 fn crates() -> BTreeSet<String> {
     let (mut found, mut next) = (BTreeSet::new(), vec!["web".to_owned()]);
     while let Some(name) = next.pop() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An explanation of the last frame through the engine is that of the model which has seen every frame.
+//! Tests that the engine's explanation of the last frame equals that of the model, which has seen
+//! every frame.
 
 use crate::cameras::{SIZE, configurations, frame, grey};
 use foveate_model::FunctionalCamera;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A page's cameras against the model, and what is committed against its sources.
+//! Tests of a page's cameras against the model, and of the committed engine against its sources.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod calls;

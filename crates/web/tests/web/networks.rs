@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network of a page says what a witness says, and what is refused has a message.
+//! Tests of the network of a page: its results, and the messages of refusals.
 
 use crate::cameras::SIZE;
 use foveate_network::onnx::{
@@ -20,7 +20,8 @@ fn value(name: &str, shape: &[i64]) -> ValueInfoProto {
     }
 }
 
-/// A network of one convolution, whose output of `[1, 6, 5, 7]` is that of `FastestDet` with one class.
+/// Returns a network of one convolution, whose output of `[1, 6, 5, 7]` has the form of
+/// `FastestDet` with one class.
 fn file() -> Vec<u8> {
     let tensor = |name: &str, dims: &[i64], values: Vec<f32>| TensorProto {
         name: Some(name.to_owned()),
@@ -95,7 +96,8 @@ fn what_is_guessed_is_told_as_the_command_takes_it() {
     assert_eq!(told["head"], Value::Null);
 }
 
-/// Bright on the left, or only above: half of what is found is kept. The depth changes nothing.
+/// The whole frame is bright on the left, and the screen only in the upper left: half of the
+/// detections are kept. The depth changes nothing.
 #[test]
 fn both_pictures_are_looked_at() {
     for bits in [1, 8, 12] {
@@ -153,7 +155,7 @@ fn what_is_refused_has_a_message() {
     assert!(problem.contains("larger than 5 bits"), "{problem}");
 }
 
-/// What a camera gives is what the network takes.
+/// The network takes the pixels that a camera gives.
 #[test]
 fn planes_of_a_camera_are_those_of_its_depth() {
     for bits in [5, 8, 12] {

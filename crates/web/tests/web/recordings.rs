@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A recording holds whole frames, and has an end.
+//! Tests that a recording holds whole frames, and has a limit.
 
 use foveate_web::{Desk, MAX_RECORDING};
 
 #[test]
 fn a_recording_has_a_row_per_region_and_frame_until_it_is_full() {
     let mut desk = Desk::default();
-    // 24,576 regions of 40 bytes and more.
+    // The frame has 24,576 regions, each with a row of 40 bytes or more.
     let toml = b"[region]\nsize = 2\n[temporal]\nmin_count = 4\n[[spatial]]\nfeature = \"edge\"\nmin_score = 4\n";
     let (handle, _) = desk.configure(toml, (256, 384)).unwrap();
     let camera = desk.camera(handle).unwrap();
@@ -37,7 +37,7 @@ fn a_recording_has_a_row_per_region_and_frame_until_it_is_full() {
     assert_eq!(camera.step_grey(&frame, None).unwrap().recording, None);
 }
 
-/// Times that are left out are those of `simulate` at 30 frames a second.
+/// Times that are left out are those of `simulate` at 30 frames per second.
 #[test]
 fn frames_without_a_time_are_thirty_a_second() {
     let mut desk = Desk::default();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Wrong input gives a message that says what is wrong and what would be right, and changes nothing.
+//! Tests that wrong input gives a message with the fault and with what would be right, and changes
+//! nothing.
 
 use foveate_web::{Desk, MAX_CAMERAS};
 
