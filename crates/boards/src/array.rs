@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An array of RPUs behind a pattern: the top around it, and what its signature is (docs/boards.md).
+//! An array of RPUs behind a pattern: the top around it, and the sums of its signature
+//! (docs/boards.md).
 
 use std::borrow::Cow;
 
@@ -17,7 +18,7 @@ use crate::project::Project;
 use crate::sensor::Level;
 use crate::text::text_of;
 
-/// Bits of a byte.
+/// The number of bits of a byte.
 const BYTE: u32 = 8;
 
 #[derive(Template)]
@@ -49,7 +50,8 @@ struct ArrayTop<'a> {
     blink: u32,
 }
 
-/// A threshold on its way to the array: its name, its range, and which turn it waits for.
+/// A threshold on its way to the array: its name, its range, and the output of `array_turn` that it
+/// waits for.
 struct Threshold {
     name: String,
     range: String,
@@ -69,7 +71,8 @@ impl Score {
     }
 }
 
-/// What each region says beside its decision: the count of changed pixels, then the scores in the order of the design.
+/// Returns the values of each region besides its decision: the count of changed pixels, and then
+/// the scores in the order of the design.
 fn scores(design: &Design) -> Vec<Score> {
     let score = |port: foveate_design::Port| Score {
         name: port.name.trim_end_matches("_o").to_owned(),
@@ -82,7 +85,7 @@ fn scores(design: &Design) -> Vec<Score> {
     array_scores(design).into_iter().map(score).collect()
 }
 
-/// Which turn a threshold waits for.
+/// Returns the output of `array_turn` that a threshold waits for.
 fn turn(role: PortRole) -> &'static str {
     match role {
         PortRole::Level(_) => "level",
@@ -95,7 +98,7 @@ fn range(width: u32) -> String {
     if width == 1 { String::new() } else { format!("[{}:0] ", width - 1) }
 }
 
-/// The top around an array.
+/// Returns the Verilog of the top around an array.
 pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
     let board = &project.board;
     let (scores, timing) = (scores(&array), PipelinedTiming::of(array));
@@ -154,12 +157,12 @@ pub(crate) fn top(project: &Project, array: PipelinedDesign<'_>) -> String {
     })
 }
 
-/// The bit of the number of frames that changes about twice in a second.
+/// Returns the bit of the frame counter that changes about twice per second.
 fn blink(fps: u32) -> u32 {
     fps.max(2).ilog2() - 1
 }
 
-/// The sum behind each of so many frames of the pattern.
+/// Returns the sums behind the first `frames` frames of the pattern.
 pub(crate) fn sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
     let (scores, mut engine) = (scores(&array), Engine::new(&array));
     let mut sum = 0_u32;
@@ -177,7 +180,8 @@ pub(crate) fn sums(array: PipelinedDesign<'_>, frames: u32) -> Vec<u32> {
     (0..frames).map(&mut add).collect()
 }
 
-/// What a region says of the frame that an engine has just taken, byte by byte.
+/// Returns the bytes that the signature of a region covers, for the frame that the engine has just
+/// taken.
 fn said(
     design: &Design,
     scores: &[Score],
@@ -207,12 +211,12 @@ fn said(
         (Action::Forward, Payload::Raw) => values = raw(design, frame, region),
         (Action::Hold | Action::Blank, _) => {}
     }
-    // Pixels have 8 bits.
+    // All pixels have 8 bits.
     bytes.extend(values.iter().map(|value| u8::try_from(*value).unwrap_or(u8::MAX)));
     bytes
 }
 
-/// The pixels of the pattern in a region.
+/// Returns the pixels of the pattern in a region.
 fn raw(design: &Design, frame: u32, region: u32) -> Vec<u16> {
     let side = design.region_size();
     let (left, top) = (region % design.columns() * side, region / design.columns() * side);

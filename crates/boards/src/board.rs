@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Boards: device, clock, pins, sensor, and the design that stands there by default. One file of data each.
+//! Boards: device, clock, pins, sensor, and the default design. Each board is one file of data.
 
 use std::path::{Path, PathBuf};
 
@@ -20,54 +20,54 @@ const BOARDS: &[(&str, &str)] = &[
     ("vcu118", include_str!("../boards/vcu118.toml")),
 ];
 
-/// What takes the place of a sensor.
+/// The name in place of a sensor for a board with a pattern.
 const PATTERN: &str = "pattern";
 
-/// A board as its file says.
+/// A board, as its file describes it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Board {
-    /// What it is called on the command line.
+    /// The name on the command line.
     #[serde(skip)]
     pub name: String,
-    /// What it is, for people.
+    /// The full name, for people.
     pub title: String,
-    /// Where one reads about it.
+    /// The address of a page about the board.
     pub page: String,
-    /// The name of its sensor; `pattern` for none.
+    /// The name of its sensor, or `pattern` for a pattern in place of a sensor.
     sensor: String,
-    /// The command that loads a bitstream, before its file.
+    /// The command that loads a bitstream, without the name of the file.
     pub flash: String,
     /// The device.
     pub device: Device,
-    /// Its clock.
+    /// The clock of the board, and that of the core.
     pub clock: Clock,
     /// The serial line.
     pub serial: Serial,
-    /// Lights.
+    /// The LEDs.
     pub leds: Leds,
-    /// Where the sensor is.
+    /// The pins of the sensor; `None` for a pattern.
     pub pins: Option<SensorPins>,
-    /// What stands there by default.
+    /// The default design.
     design: Default,
-    /// Its file, and the folder from which it names others.
+    /// The text of its file.
     #[serde(skip)]
     pub(crate) text: String,
     #[serde(skip)]
     folder: PathBuf,
 }
 
-/// A device, and the tools that it needs.
+/// A device, as its tools name it.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Device {
-    /// Its family.
+    /// The family of the device.
     pub family: Family,
-    /// The part, as its tool is told.
+    /// The name of the part for its tool.
     pub part: String,
-    /// The package (of Gowin, the die).
+    /// The package; for Gowin, the die.
     pub package: String,
-    /// The speed grade, of ECP5.
+    /// The speed grade, for ECP5 only.
     pub speed: Option<u32>,
 }
 
@@ -79,14 +79,14 @@ pub enum Family {
     Ice40,
     /// Lattice ECP5.
     Ecp5,
-    /// Gowin GW2A and its kin.
+    /// Gowin GW2A and related devices.
     Gowin,
-    /// What only Vivado knows.
+    /// Devices for which only Vivado makes bitstreams.
     Vivado,
 }
 
 impl Family {
-    /// The parts, of a family of which nextpnr has an option for each.
+    /// Returns the part names of a family for which nextpnr has an option per part.
     fn parts(self) -> &'static [&'static str] {
         match self {
             Self::Ice40 => &[
@@ -101,7 +101,7 @@ impl Family {
         }
     }
 
-    /// How the file is called that is loaded into a device.
+    /// Returns the extension of the file that is loaded into a device.
     pub(crate) fn extension(self) -> &'static str {
         match self {
             Self::Ice40 => "bin",
@@ -115,66 +115,67 @@ impl Family {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Clock {
-    /// Its pin, or both of a pair.
+    /// The pin of the clock, or both pins of a differential pair.
     pub pins: Vec<String>,
-    /// The levels there, where the tool needs to know.
+    /// The I/O standard, if the tool needs it.
     pub standard: Option<String>,
-    /// Its frequency.
+    /// The frequency in MHz.
     pub mhz: u32,
-    /// The frequency of the core.
+    /// The frequency of the core in MHz.
     pub core_mhz: u32,
-    /// Whether the PLL takes its clock from that pin (iCE40).
+    /// True if the PLL takes its clock directly from that pin (iCE40).
     #[serde(default)]
     pub pll_pad: bool,
 }
 
-/// The serial line, seen from the device.
+/// The serial line, with directions as the device sees them.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Serial {
-    /// To the host.
+    /// The pin of the line to the host.
     pub tx: String,
-    /// From the host.
+    /// The pin of the line from the host.
     pub rx: String,
-    /// The levels there, where the tool needs to know.
+    /// The I/O standard, if the tool needs it.
     pub standard: Option<String>,
-    /// Bits in a second.
+    /// The rate in bits per second.
     pub baud: u32,
 }
 
-/// Lights: the first blinks with frames, the second says that something is wrong.
+/// The LEDs. The first blinks with the frames, and the second reports an error. With a pattern, a
+/// third one reports that all sums were right.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Leds {
-    /// Their pins.
+    /// The pins of the LEDs.
     pub pins: Vec<String>,
-    /// The levels there, where the tool needs to know.
+    /// The I/O standard, if the tool needs it.
     pub standard: Option<String>,
-    /// What lights them.
+    /// The level that lights an LED.
     pub lit: Level,
 }
 
-/// Pins of a sensor.
+/// The pins of a sensor.
 #[derive(Debug, Clone, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SensorPins {
-    /// The clock that the sensor gets.
+    /// The clock for the sensor.
     pub xclk: String,
-    /// The clock of its pixels.
+    /// The clock of the sensor's pixels.
     pub pclk: String,
-    /// Between frames.
+    /// The signal between frames.
     pub vsync: String,
-    /// Within a line.
+    /// The signal within a line.
     pub href: String,
-    /// Clock of I2C.
+    /// The clock of I2C.
     pub scl: String,
-    /// Data of I2C.
+    /// The data of I2C.
     pub sda: String,
-    /// Its reset, 0 resets.
+    /// The reset of the sensor, active low.
     pub reset_n: Option<String>,
-    /// 1 switches it off.
+    /// The power-down of the sensor, active high.
     pub power_down: Option<String>,
-    /// Data lines, the lowest first.
+    /// The data lines, the lowest first.
     pub data: Vec<String>,
 }
 
@@ -186,17 +187,18 @@ struct Default {
 }
 
 impl Board {
-    /// Every board that comes with the program.
+    /// Returns every board that comes with the program.
     pub fn all() -> impl Iterator<Item = Self> {
         BOARDS.iter().map(|(name, text)| {
             Self::from_toml(name, text).unwrap_or_else(|error| unreachable!("{error}"))
         })
     }
 
-    /// The board of that name, or in that file if the name ends in `.toml`.
+    /// Returns the board with this name, or the board in the file with this path if the name ends
+    /// in `.toml`.
     ///
     /// # Errors
-    /// When there is none, or it is not valid.
+    /// Fails if there is no such board, or if it is not valid.
     pub fn find(name: &str) -> Result<Self, BoardError> {
         let path = Path::new(name);
         if path.extension().is_some_and(|extension| extension == "toml") {
@@ -217,7 +219,7 @@ impl Board {
     /// Reads a board and checks it.
     ///
     /// # Errors
-    /// When it is not valid.
+    /// Fails if the board is not valid.
     pub fn from_toml(name: &str, text: &str) -> Result<Self, BoardError> {
         Self::read(name, text, Path::new(""))
     }
@@ -235,10 +237,10 @@ impl Board {
         Ok(board)
     }
 
-    /// The sensor and its pins; nothing where a pattern takes its place.
+    /// Returns the sensor and its pins; `None` for a pattern.
     ///
     /// # Errors
-    /// When there is no such sensor, or it has no pins.
+    /// Fails if there is no such sensor, or if the board has no pins for it.
     pub fn eye(&self) -> Result<Option<(Sensor, SensorPins)>, BoardError> {
         if self.sensor == PATTERN {
             return Ok(None);
@@ -251,10 +253,10 @@ impl Board {
         Ok(Some((sensor, pins)))
     }
 
-    /// The configuration that stands there by default.
+    /// Returns the default configuration of the board.
     ///
     /// # Errors
-    /// When it is none.
+    /// Fails if the configuration is not valid.
     pub fn config(&self) -> Result<Config, BoardError> {
         let mut set = vec!["hardware.interface='axi'".to_owned()];
         set.extend(self.design.set.iter().cloned());
@@ -262,7 +264,7 @@ impl Board {
         Ok(Config::from_toml_with(preset.toml, &set)?)
     }
 
-    /// Clocks of a bit on the serial line.
+    /// Returns the number of clocks per bit on the serial line.
     pub(crate) fn divisor(&self) -> u32 {
         (self.clock.core_mhz * 1_000_000 + self.serial.baud / 2) / self.serial.baud
     }
@@ -301,7 +303,8 @@ impl Board {
         self.check_baud()
     }
 
-    /// A part is an option of nextpnr where that knows a family by its parts: no other option may take its place.
+    /// Checks the part. It becomes an option of nextpnr if nextpnr has an option per part of the
+    /// family, and must be no other option.
     fn check_part(&self) -> Result<(), String> {
         let (known, part) = (self.device.family.parts(), &self.device.part);
         if known.is_empty() || known.contains(&part.as_str()) {
@@ -310,7 +313,8 @@ impl Board {
         Err(format!("device.part = \"{part}\": this family has {}", known.join(", ")))
     }
 
-    /// Its pins must be those of the sensor, its clock within limits, and the core fast enough.
+    /// Checks that the data pins are as many as those of the sensor, that the sensor may get the
+    /// clock, and that the core is fast enough.
     fn check_sensor(&self, sensor: &Sensor, pins: &SensorPins) -> Result<(), String> {
         let name = &self.sensor;
         let (lines, pins) = (sensor.format.lines(), pins.data.len());
@@ -331,7 +335,8 @@ impl Board {
         Ok(())
     }
 
-    /// The rate must come out of the clock: a receiver takes the middle of ten bits.
+    /// Checks that the rate can be made from the clock within 2 %, because a receiver samples the
+    /// middle of ten bits.
     fn check_baud(&self) -> Result<(), String> {
         let baud = self.serial.baud;
         let clock = self.clock.core_mhz * 1_000_000;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Writes a project, runs its script, and reads what came of it.
+//! The build of a project: writes its files, runs its script, and reads the results.
 
 use std::fs;
 use std::path::Path;
@@ -12,64 +12,65 @@ use serde_json::Value;
 
 use crate::{BoardError, Project};
 
-/// The folder that is written, and the only kind that it replaces.
+/// The kind of folder that is written. Only folders of this kind are replaced.
 pub const PROJECT: FolderKind = FolderKind {
     what: "a project of a board (its board.f and sim/board_clock.v)",
     is: |folder| folder.join("board.f").is_file() && folder.join("sim/board_clock.v").is_file(),
 };
 
-/// What the script writes of the seed that it packs, once that is done for all seeds.
+/// The script's file about the seed that it packs, written after all seeds are done.
 const PACKED: &str = "build/packed";
 /// The folder that the script makes.
 const BUILD: &str = "build";
-/// One seed takes minutes on a large device.
+/// The time limit of the script. One seed takes minutes on a large device.
 const LIMIT: Duration = Duration::from_secs(4 * 3600);
 
-/// A bitstream, and what it takes of the device.
+/// A bitstream, and its use of the device.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 pub struct Built {
-    /// Its file in the folder of the project.
+    /// The path of its file in the folder of the project.
     pub bitstream: String,
-    /// Its size.
+    /// The size in bytes.
     pub bytes: usize,
-    /// What of the device is used: cell of the device as nextpnr calls it, those used, those there.
+    /// The cells of the device that are used.
     pub used: Vec<Used>,
-    /// The clock of the core in MHz: needed, and of each seed, the slowest first.
+    /// The clock that the core needs, in MHz.
     pub core_mhz: u32,
-    /// The clock of each seed, the slowest first.
+    /// The clock of the core that each seed reaches, in MHz, the slowest first.
     pub reached_mhz: Vec<f64>,
-    /// That of the seed that is packed.
+    /// The clock of the core that the packed seed reaches, in MHz.
     pub packed_mhz: f64,
-    /// The clock of the sensor's pixels in MHz: needed.
+    /// The pixel clock that the sensor needs, in MHz.
     pub pclk_mhz: f64,
-    /// What the packed seed reaches of it.
+    /// The pixel clock that the packed seed reaches, in MHz.
     pub pclk_reached_mhz: f64,
 }
 
 impl Built {
-    /// Whether the packed seed reaches both clocks.
+    /// Returns true if the packed seed reaches both clocks.
     #[must_use]
     pub fn is_fast_enough(&self) -> bool {
         self.packed_mhz >= f64::from(self.core_mhz) && self.pclk_reached_mhz >= self.pclk_mhz
     }
 }
 
-/// Cells of a kind.
+/// The cells of one type.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 pub struct Used {
-    /// What nextpnr calls them.
+    /// The name of the type in nextpnr.
     pub cell: String,
-    /// Those that are used.
+    /// The number of used cells.
     pub used: u64,
-    /// Those that are there.
+    /// The number of cells in the device.
     pub available: u64,
 }
 
-/// Writes the files of a project into a folder, which appears when it is complete. Returns their names. What the script of an
-/// earlier project has made is on the list of its folder, so that it makes way, too.
+/// Writes the files of a project into a folder, which appears when it is complete, and returns
+/// their names. The files that the script of an earlier project has made are on the list of its
+/// folder, and so are removed, too.
 ///
 /// # Errors
-/// When the folder cannot be written, or holds something else.
+/// Fails if the folder cannot be written, or if it holds anything else.
 pub fn write_project(
     project: &Project,
     folder: &Path,
@@ -84,10 +85,10 @@ pub fn write_project(
     Ok(files.into_iter().map(|file| file.path).collect())
 }
 
-/// Runs the script of a project that has been written. A bitstream that is too slow is one, too.
+/// Runs the script of a project that has been written. A bitstream that is too slow is no error.
 ///
 /// # Errors
-/// When a tool is missing or fails, and when the design does not fit.
+/// Fails if a tool is missing or fails, or if the design does not fit the device.
 pub fn build(
     project: &Project,
     folder: &Path,
@@ -105,7 +106,7 @@ pub fn build(
         list_made(project, folder)?;
     }
     match ran {
-        // It has packed something, and says that it is too slow.
+        // The script has packed a bitstream, and reports that it is too slow.
         Err(ToolError::Failed { .. }) if folder.join(PACKED).is_file() => {}
         other => drop(other?),
     }
@@ -113,7 +114,8 @@ pub fn build(
         let path = folder.join(name);
         fs::read(&path).map_err(|source| BoardError::Left { path, source })
     };
-    // Clock of the core, that of the pixels, and the seed, on a line each, the slowest first.
+    // Each line has the clock of the core, the pixel clock, and the seed; the slowest seed is
+    // first.
     let sorted = String::from_utf8_lossy(&left("build/sorted")?).into_owned();
     let line = |line: &str| -> Option<(f64, f64)> {
         let mut words = line.split(' ').map(str::parse);
@@ -135,7 +137,8 @@ pub fn build(
     })
 }
 
-/// Lists what the script has made, which cannot do so itself when it is stopped.
+/// Adds the files that the script has made to the list of the folder. The script cannot do so when
+/// it is stopped.
 fn list_made(project: &Project, folder: &Path) -> Result<(), StagingError> {
     let made = fs::read_dir(folder.join(BUILD)).into_iter().flatten().flatten();
     let names = made.filter_map(|entry| entry.file_name().into_string().ok());
@@ -143,7 +146,7 @@ fn list_made(project: &Project, folder: &Path) -> Result<(), StagingError> {
     ContinuedFolder::open(folder)?.note(names)
 }
 
-/// What a report of nextpnr says of the cells, without those of which none is used.
+/// Returns the cells in a report of nextpnr, without types of which no cell is used.
 fn used(report: &[u8]) -> Vec<Used> {
     let report: Value = serde_json::from_slice(report).unwrap_or_default();
     let cells = report["utilization"].as_object().into_iter().flatten();

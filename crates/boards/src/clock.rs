@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clock of a core, made from that of the board by the device's own PLL.
+//! The clock of a core, which the PLL of the device makes from the clock of the board.
 
 use crate::BoardError;
 use crate::board::{Board, Family};
 
-/// How the clock of the core comes about.
+/// The source of the core's clock.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Source {
-    /// It is that of the board.
+    /// The clock of the board.
     Direct,
-    /// `SB_PLL40`: in * (feedback + 1) / (2^output (reference + 1)).
+    /// `SB_PLL40`, with the frequency in * (feedback + 1) / (2^output (reference + 1)).
     Ice40 { pad: bool, reference: u32, feedback: u32, output: u32, filter: u32 },
-    /// `EHXPLLL`: in * feedback / reference; `output` divides the oscillator.
+    /// `EHXPLLL`, with the frequency in * feedback / reference. `output` divides the oscillator.
     Ecp5 { reference: u32, feedback: u32, output: u32 },
 }
 
-/// Finds the settings.
+/// Finds the settings for the clock of the core.
 ///
 /// # Errors
-/// When the PLL of the family cannot make that clock exactly.
+/// Fails if the PLL of the family cannot make that clock exactly.
 pub(crate) fn source(board: &Board) -> Result<Source, BoardError> {
     let (mhz, core) = (board.clock.mhz, board.clock.core_mhz);
     if mhz == core {
@@ -37,7 +37,8 @@ pub(crate) fn source(board: &Board) -> Result<Source, BoardError> {
     })
 }
 
-/// The oscillator runs at 533 to 1066 MHz, its reference at 10 to 133.
+/// Returns the settings of an iCE40. The oscillator runs at 533 to 1066 MHz, its reference at 10 to
+/// 133 MHz.
 fn ice40(mhz: u32, core: u32, pad: bool) -> Option<Source> {
     let setting = |reference: u32, output: u32| {
         let compared = mhz / (reference + 1);
@@ -60,7 +61,8 @@ fn ice40(mhz: u32, core: u32, pad: bool) -> Option<Source> {
     (0..16).find_map(|reference| (1..7).find_map(|output| setting(reference, output)))
 }
 
-/// The oscillator runs at 400 to 800 MHz, best in the middle; its reference at 4 or more.
+/// Returns the settings of an ECP5. The oscillator runs at 400 to 800 MHz, best in the middle of
+/// this range, and its reference at 4 MHz or more.
 fn ecp5(mhz: u32, core: u32) -> Option<Source> {
     let reference = (1..=mhz / 4).find(|reference| (core * reference).is_multiple_of(mhz))?;
     let feedback = core * reference / mhz;

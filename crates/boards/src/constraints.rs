@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pins and clocks of a board, in the format of its tools.
+//! The pins and clocks of a board, in the format of its tools.
 
 use foveate_emit::SourceFile;
 use foveate_toolchain::text::tcl_word;
@@ -8,10 +8,10 @@ use crate::board::Family;
 use crate::project::{Project, Wire};
 use crate::text::file;
 
-/// Levels where a board does not say others.
+/// The I/O standard of pins for which a board names none.
 const USUAL: &str = "LVCMOS33";
 
-/// The name of the file with the pins.
+/// Returns the name of the file with the pins.
 pub(crate) fn name(family: Family) -> &'static str {
     match family {
         Family::Ice40 => "board.pcf",
@@ -21,7 +21,7 @@ pub(crate) fn name(family: Family) -> &'static str {
     }
 }
 
-/// The pins, and the clocks that come from outside where that file has them.
+/// Returns the file with the pins and, if its format has them, the clocks that come from outside.
 pub(crate) fn file_of(project: &Project) -> SourceFile {
     let family = project.board.device.family;
     let comment = if family == Family::Gowin { "//" } else { "#" };
@@ -65,7 +65,7 @@ fn clock(family: Family, port: &str, mhz: f64) -> String {
     match family {
         Family::Ice40 => format!("set_frequency {port} {mhz}\n"),
         Family::Ecp5 => format!("FREQUENCY PORT \"{port}\" {mhz} MHZ;\n"),
-        // What nextpnr is told holds for all clocks.
+        // nextpnr takes one frequency for all clocks, as an option.
         Family::Gowin => String::new(),
         Family::Vivado => {
             let period = 1000.0 / mhz;

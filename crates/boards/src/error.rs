@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with a board, and with what is to stand on it.
+//! The errors of boards, and of designs for them.
 
 use std::path::PathBuf;
 
@@ -8,72 +8,72 @@ use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-/// Why there is no project, or no bitstream.
+/// An error that prevents a project or a bitstream.
 #[derive(Debug, Error)]
 pub enum BoardError {
-    /// No board of that name.
+    /// There is no board of that name.
     #[error("there is no board `{name}`; there are {known}; a file with one ends in .toml")]
     Board {
-        /// The name.
+        /// The given name.
         name: String,
-        /// Those that there are.
+        /// The names of all boards.
         known: String,
     },
-    /// No sensor of that name.
+    /// There is no sensor of that name.
     #[error(
         "there is no sensor `{name}`; there are {known}, and `pattern` for a pattern in place of one"
     )]
     Sensor {
-        /// The name.
+        /// The given name.
         name: String,
-        /// Those that there are.
+        /// The names of all sensors.
         known: String,
     },
-    /// A file of a board cannot be read.
+    /// A file of a board or a sensor cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Read {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
-    /// What the script should have left is not there.
+    /// The script has not left a file that it should make.
     #[error("the build left no `{}`: {source}", path.display())]
     Left {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Why.
+        /// The cause.
         source: std::io::Error,
     },
-    /// A file of a board is none.
+    /// A file of a board or a sensor is not valid.
     #[error("the board `{name}` is not valid: {reason}")]
     Invalid {
-        /// The board.
+        /// The name of the board or sensor.
         name: String,
-        /// What is wrong, and what would be right.
+        /// The fault, and what would be right.
         reason: String,
     },
-    /// A design that does not fit the board or its sensor.
+    /// The design does not fit the board or its sensor.
     #[error("this design does not fit the board `{name}`: {reason}")]
     Design {
-        /// The board.
+        /// The name of the board.
         name: String,
-        /// What is wrong, and what would be right.
+        /// The fault, and what would be right.
         reason: String,
     },
-    /// No open tool makes a bitstream for it.
+    /// No open tool makes a bitstream for the board.
     #[error("no open tool makes a bitstream for `{name}`; its folder has the scripts for Vivado")]
     Closed {
-        /// The board.
+        /// The name of the board.
         name: String,
     },
-    /// The configuration is none.
+    /// The configuration is not valid.
     #[error(transparent)]
     Config(#[from] ConfigError),
     /// The folder cannot be written.
     #[error(transparent)]
     Staging(#[from] StagingError),
-    /// A tool is missing, or failed.
+    /// A tool is missing or has failed.
     #[error(transparent)]
     Tool(#[from] ToolError),
 }

@@ -8,7 +8,7 @@ use crate::text::file;
 use crate::{Project, constraints, readme, script, top};
 
 impl Project {
-    /// Every file of the project.
+    /// Returns all files of the project.
     #[must_use]
     pub fn files(&self) -> Vec<SourceFile> {
         let mut files = top::modules(self);

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether a design may stand on a board, behind a sensor or a pattern.
+//! The check that a design fits a board, behind a sensor or a pattern.
 
 use foveate_design::{Bus, Design, Hardware, Neighborhood, PipelinedDesign, RasterDesign};
 
 use crate::sensor::Sensor;
 
-/// Values of a region that the registers of an array can show: four at each address of their upper half.
+/// The largest number of values of a region that the registers of an array can show: four at each
+/// address of their upper half.
 const MOST_VALUES: u32 = 2048;
 
-/// What hinders a design from standing on a board, behind this sensor or a pattern.
+/// Fails with the reason if a design does not fit a board, behind this sensor or a pattern.
 pub(crate) fn check(design: &Design, sensor: Option<&Sensor>) -> Result<(), String> {
     match (design.bus(), design.hardware(), sensor) {
         (Bus::Axi, Hardware::Raster(own), sensor) => check_raster(design.on(own), sensor),
@@ -55,7 +56,7 @@ fn check_raster(raster: RasterDesign<'_>, sensor: Option<&Sensor>) -> Result<(),
     Ok(())
 }
 
-/// What hinders an array from standing behind a pattern.
+/// Fails with the reason if an array does not fit behind a pattern.
 fn check_array(array: PipelinedDesign<'_>) -> Result<(), String> {
     let side = array.region_size();
     if array.neighborhood() == Neighborhood::Shared {

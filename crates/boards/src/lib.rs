@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera on a board: a sensor, a core on AXI and a serial line, as a project that open tools make a bitstream of; or a
-//! pattern in place of the sensor, before such a core or an array of RPUs, for Vivado.
+//! A camera on a board, as a project. With a sensor, a core on AXI and a serial line, open tools
+//! make a bitstream of it. With a pattern in place of the sensor, before such a core or an array of
+//! RPUs, Vivado makes it.
 //!
-//! A [`Board`] and a [`Sensor`] are files of data. A [`Project`] is a design on a board: Verilog, pins, and the script that
-//! [`build`] runs. What stands around the core is in `docs/boards.md`.
+//! A [`Board`] and a [`Sensor`] are files of data. A [`Project`] is a design on a board: Verilog,
+//! pins, and the script that [`build`] runs. `docs/boards.md` describes the modules around the
+//! core.
 
 mod array;
 mod board;

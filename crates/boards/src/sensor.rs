@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sensors on DVP: how their pixels come, and which registers they are set up with. One file of data each.
+//! Sensors on DVP: the format of their pixels, and the registers of their set-up. Each sensor is
+//! one file of data.
 
 use std::path::Path;
 
@@ -16,16 +17,16 @@ const SENSORS: &[(&str, &str)] = &[
     ("ov7670-vga", include_str!("../sensors/ov7670-vga.toml")),
 ];
 
-/// How a pixel comes over the data lines (docs/boards.md).
+/// The format of a pixel on the data lines (docs/boards.md).
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 pub enum Format {
-    /// A pixel at each edge, 8 lines.
+    /// A pixel at each edge, on 8 lines.
     #[serde(rename = "8")]
     Byte,
-    /// Two bytes, the first is the pixel.
+    /// Two bytes, of which the first is the pixel.
     #[serde(rename = "luma-first")]
     LumaFirst,
-    /// Two bytes, the second is the pixel.
+    /// Two bytes, of which the second is the pixel.
     #[serde(rename = "luma-second")]
     LumaSecond,
     /// Two nibbles on 4 lines, the high one first.
@@ -37,7 +38,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Data lines.
+    /// Returns the number of data lines.
     #[must_use]
     pub fn lines(self) -> usize {
         match self {
@@ -46,7 +47,7 @@ impl Format {
         }
     }
 
-    /// Edges of the pixel clock that a pixel takes.
+    /// Returns the number of edges of the pixel clock per pixel.
     #[must_use]
     pub fn edges(self) -> u32 {
         match self {
@@ -55,7 +56,7 @@ impl Format {
         }
     }
 
-    /// The parameter `FORMAT` of `dvp_capture`.
+    /// Returns the value of the parameter `FORMAT` of `dvp_capture`.
     pub(crate) fn number(self) -> u32 {
         match self {
             Self::Byte => 0,
@@ -67,13 +68,13 @@ impl Format {
     }
 }
 
-/// What a level is.
+/// A logic level.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
-    /// 1.
+    /// The level 1.
     High,
-    /// 0.
+    /// The level 0.
     Low,
 }
 
@@ -81,43 +82,43 @@ pub enum Level {
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Sensor {
-    /// What it is, for people.
+    /// The full name of the sensor, for people.
     pub title: String,
-    /// Pixels of a line.
+    /// The number of pixels per line.
     pub width: u32,
-    /// Lines of a frame.
+    /// The number of lines per frame.
     pub height: u32,
-    /// Pixels of a line before the first that is wanted.
+    /// The number of pixels that are cropped at the left of each line.
     pub left: u32,
-    /// Lines before the first that is wanted.
+    /// The number of lines that are cropped at the top of each frame.
     pub top: u32,
-    /// How a pixel comes.
+    /// The format of a pixel.
     pub format: Format,
-    /// `vsync` between frames.
+    /// The level of `vsync` between frames.
     pub vsync: Level,
-    /// The pixel clock is at most so many times the clock that the sensor gets.
+    /// The largest ratio of the pixel clock to the clock that the sensor gets.
     pub pclk_per_xclk: f64,
-    /// The clock that the sensor may get, least and most, in MHz.
+    /// The lowest and the highest frequency of the clock that the sensor gets, in MHz.
     pub xclk_mhz: [f64; 2],
-    /// Frames in a second for each MHz of that clock.
+    /// The number of frames per second for each MHz of that clock.
     pub frames_per_mhz: f64,
-    /// How it is reached.
+    /// The access to the sensor over I2C.
     pub i2c: I2c,
-    /// What is written to it, in turn.
+    /// The steps of the set-up, in order.
     #[serde(rename = "step")]
     steps: Vec<Step>,
-    /// Its file.
+    /// The text of its file.
     #[serde(skip)]
     pub(crate) text: String,
 }
 
-/// Where a sensor is on I2C.
+/// The address of a sensor on I2C, and the size of its register addresses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct I2c {
-    /// Its address, 7 bits.
+    /// The address of the sensor, with 7 bits.
     pub device: u8,
-    /// Bytes of the address of a register, 1 or 2.
+    /// The number of bytes of the address of a register, 1 or 2.
     pub address_bytes: u32,
 }
 
@@ -128,15 +129,16 @@ enum Step {
     PauseMs(u8),
 }
 
-/// Address and value.
+/// The address of a register, and the value to write.
 #[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
 struct Write(u16, u8);
 
 impl Sensor {
-    /// The sensor of that name, or in that file if the name ends in `.toml`.
+    /// Returns the sensor with this name, or the sensor in the file with this path if the name ends
+    /// in `.toml`. The path is relative to `folder`.
     ///
     /// # Errors
-    /// When there is none, or it is not valid.
+    /// Fails if there is no such sensor, or if it is not valid.
     pub fn find(name: &str, folder: &Path) -> Result<Self, BoardError> {
         if name.ends_with(".toml") {
             let path = folder.join(name);
@@ -191,7 +193,7 @@ impl Sensor {
         Ok(())
     }
 
-    /// Every write, address and value, without the pauses.
+    /// Returns the address and value of every write, without the pauses.
     pub fn writes(&self) -> impl Iterator<Item = (u16, u8)> {
         let pairs = self.steps.iter().flat_map(|step| match step {
             Step::Write(pairs) => pairs.as_slice(),
@@ -200,12 +202,12 @@ impl Sensor {
         pairs.map(|&Write(address, value)| (address, value))
     }
 
-    /// Bits of a word of `i2c_setup`.
+    /// Returns the number of bits of a word of `i2c_setup`.
     pub(crate) fn word_bits(&self) -> u32 {
         8 * self.i2c.address_bytes + 9
     }
 
-    /// Words of `i2c_setup`: pause, address and value of each step.
+    /// Returns the words of `i2c_setup`: pause, address and value of each step.
     pub(crate) fn words(&self) -> Vec<u32> {
         let address_bits = 8 * self.i2c.address_bytes;
         let word = |step: &Step| match step {

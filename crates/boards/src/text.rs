@@ -4,12 +4,12 @@
 use askama::Template;
 use foveate_emit::SourceFile;
 
-/// A file of a project.
+/// Returns a file of a project.
 pub(crate) fn file(path: &str, contents: String) -> SourceFile {
     SourceFile { path: path.to_owned(), contents }
 }
 
-/// A filled template, ending in the newline that askama drops.
+/// Returns a filled template, with the newline at its end that askama drops.
 pub(crate) fn text_of(view: &impl Template) -> String {
     let text = view.render();
     text.map_or_else(|e| unreachable!("a template only fails when writing does: {e}"), |t| t + "\n")

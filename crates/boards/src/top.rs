@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The Verilog around a core: leaves of `rtl/board/`, and the top that connects them.
+//! The Verilog around a core: the leaves of `rtl/board/`, and the top that connects them.
 
 use std::borrow::Cow;
 
@@ -18,15 +18,15 @@ use crate::project::Project;
 use crate::sensor::{Level, Sensor};
 use crate::text::{file, text_of};
 
-/// Bits of I2C in a second, and parts of a bit.
+/// The rate of I2C in bits per second.
 const I2C_HZ: u32 = 100_000;
 const QUARTERS: u32 = 4;
 
-/// What stands before the core, and behind it.
+/// The leaves between a sensor and the core.
 const BEFORE_A_SENSOR: &[&str] = &["clock_crossing", "dvp_capture", "i2c_setup"];
 const BEFORE_A_PATTERN: &[&str] = &["pattern_source", "packet_signature", "packet_sample"];
 const BEHIND: &[&str] = &["packet_bytes", "uart_sender", "uart_receiver", "uart_registers"];
-/// What stands around an array, of a core and of a board.
+/// The leaf of a core that an array needs, too.
 const PART_OF_A_CORE: &str = "packet_crc";
 const AROUND_AN_ARRAY: &[&str] = &[
     "array_pattern",
@@ -53,7 +53,7 @@ struct Top<'a> {
     divisor: u32,
 }
 
-/// Parameters of what stands between a sensor and a core.
+/// The parameters of the modules between a sensor and a core.
 struct Capture {
     lines: usize,
     reset: bool,
@@ -122,7 +122,7 @@ struct Clock {
     body: String,
 }
 
-/// The Verilog of a project, each module after those that it instantiates.
+/// Returns the Verilog of a project, each module after those that it instantiates.
 pub(crate) fn modules(project: &Project) -> Vec<SourceFile> {
     let design = &project.design;
     let (core, leaves, own) = match (design.hardware(), &project.eye) {
@@ -141,7 +141,7 @@ pub(crate) fn modules(project: &Project) -> Vec<SourceFile> {
             let own = [("expected_sums", expected(project)), ("board", top)];
             (on_bus(design).unwrap_or_default(), [BEFORE_A_PATTERN, BEHIND], own)
         }
-        // Refused before.
+        // [`Project::new`] has refused such a design.
         (Hardware::Serial(_), None) => return Vec::new(),
     };
     let stands = |leaf: &&Leaf| leaves.iter().any(|names| names.contains(&leaf.name));
@@ -159,7 +159,7 @@ fn leaf(leaf: &Leaf) -> SourceFile {
     file(&path(leaf.name), leaf.contents.to_owned())
 }
 
-/// An array with its registers, and the part of other cores that stands around it, too.
+/// Returns an array with its registers, and the leaf of other cores that it needs.
 fn array_core(array: PipelinedDesign<'_>) -> Vec<SourceFile> {
     let part = LEAVES.iter().filter(|leaf| leaf.name == PART_OF_A_CORE).map(leaf);
     verilog(&array, CoreTop::Rcm).into_iter().chain(part).chain([array_registers(array)]).collect()
@@ -255,7 +255,8 @@ fn expected(project: &Project) -> String {
     })
 }
 
-/// The clock of the core; for a simulation that of the board takes its place.
+/// Returns the module that makes the core's clock. In a simulation the clock of the board replaces
+/// it.
 pub(crate) fn clock(project: &Project, simulated: bool) -> String {
     let (pair, one) = (project.has_pair(), project.clock_port());
     let (how, body) = match project.clock {
@@ -263,7 +264,7 @@ pub(crate) fn clock(project: &Project, simulated: bool) -> String {
         Source::Direct if pair => (", by the buffers of a Xilinx device", pair_of_wires()),
         Source::Direct => ("", direct(one)),
         Source::Ice40 { pad, reference, feedback, output, filter } => {
-            // A PLL at its own pin takes it whole, and hands its clock on.
+            // A PLL at its own pin takes the pin's clock exclusively, and outputs it as well.
             let (cell, ports, raw) = if pad {
                 ("2_PAD", ".PACKAGEPIN(clk_i), .PLLOUTGLOBALA(raw_o), .PLLOUTGLOBALB(clk_o)", "")
             } else {

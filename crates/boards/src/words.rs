@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which characters the texts of a file may have. They stand in scripts and pages, so that each is a plain word, unless it is
-//! one of the few that need more: a key that is new here is a plain word, too.
+//! The check of the characters in the texts of a file. The texts appear in scripts and pages. So
+//! each text must be a plain word, except the few that need more; the text of a new key must be a
+//! plain word, too.
 
 use foveate_toolchain::text::{is_hidden, shown};
 use toml::{Table, Value};
 
-/// Most characters of a word, of a line for people, and of a change of a design.
+/// The largest number of characters of a word.
 const WORD: usize = 64;
 const LINE: usize = 200;
 const CHANGE: usize = 1000;
@@ -13,15 +14,15 @@ const CHANGE: usize = 1000;
 /// The form that a text must have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Form {
-    /// A name, a pin, a level.
+    /// A name, a pin or a level.
     Word,
     /// A device, as its tool calls it.
     Part,
-    /// A line for people, in any script.
+    /// A line for people, in any script of the world.
     Line,
-    /// An address.
+    /// The address of a page.
     Page,
-    /// A command that people run by themselves: words that a shell takes as they are.
+    /// A command that people run by hand, of words that a shell takes unchanged.
     Command,
     /// The name of a sensor, or the path of its file.
     Sensor,
@@ -29,7 +30,7 @@ enum Form {
     Change,
 }
 
-/// The texts that are no plain words.
+/// The forms of the texts that are no plain words.
 const FORMS: &[(&str, Form)] = &[
     ("title", Form::Line),
     ("page", Form::Page),
@@ -42,22 +43,22 @@ const FORMS: &[(&str, Form)] = &[
 /// Checks every text of a file.
 ///
 /// # Errors
-/// Which text is wrong, and what would be right.
+/// Returns which text is wrong, and what would be right.
 pub(crate) fn check(file: &Table) -> Result<(), String> {
     file.iter().try_for_each(|(key, value)| check_value(key, key, value))
 }
 
-/// Checks the name of a board, which is that of its file and of its bitstream.
+/// Checks the name of a board, which is also the name of its file and of its bitstream.
 ///
 /// # Errors
-/// The fault in a text, and the form that would be right.
+/// Returns the fault in the name, and the form that would be right.
 pub(crate) fn check_name(name: &str) -> Result<(), String> {
     Form::Word.check(name).map_err(|right| {
         format!("its name is that of its bitstream, in scripts: {right}; rename the file")
     })
 }
 
-/// `path` names the value in messages; `key` is the same without places in arrays.
+/// Checks a value. `path` names it in messages; `key` is the same without indices of arrays.
 fn check_value(path: &str, key: &str, value: &Value) -> Result<(), String> {
     match value {
         Value::String(text) => {
@@ -77,8 +78,10 @@ fn check_value(path: &str, key: &str, value: &Value) -> Result<(), String> {
 }
 
 impl Form {
+    /// Checks a text.
+    ///
     /// # Errors
-    /// The form that would be right.
+    /// Returns the form that would be right.
     fn check(self, text: &str) -> Result<(), String> {
         let most = match self {
             Self::Word | Self::Part => WORD,
@@ -115,7 +118,7 @@ impl Form {
     }
 }
 
-/// Letters, digits, and some others; no option, and no folder.
+/// Returns true for letters, digits, and `others`, unless the text is an option or a folder.
 fn is_word(text: &str, others: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c) || others.contains(c);
     let is_name = |part: &str| !part.is_empty() && part != "." && part != "..";
@@ -126,7 +129,8 @@ fn is_line(text: &str) -> bool {
     !text.trim().is_empty() && !text.contains(is_hidden)
 }
 
-/// Brackets would end a link of a page in Markdown, and quotes one in HTML.
+/// Returns true for an address without brackets, which would end a link in Markdown, and without
+/// quotes, which would end one in HTML.
 fn is_page(text: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "-._~:/?#@!$&*+,;=%".contains(c);
     let host = text.strip_prefix("https://").or_else(|| text.strip_prefix("http://"));

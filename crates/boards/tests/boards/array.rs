@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The whole top of an array of RPUs behind a pattern: sums, registers, thresholds and captures are those of the model.
+//! Tests of the whole top of an array of RPUs behind a pattern: sums, registers, thresholds and
+//! captures equal the model's.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -21,23 +22,24 @@ const WRAPPER: &str = include_str!("array_bench.v");
 const VCU118: &str = include_str!("../../boards/vcu118.toml");
 const RIGHT: &str = "4";
 const WRONG: &str = "2";
-/// Where the values of a capture begin.
+/// The address at which the values of a capture begin.
 const VALUES: u16 = 0x800;
 
-/// An array on a VCU118, with a serial line as fast as can be.
+/// Returns an array on a VCU118, with the fastest possible serial line.
 fn fast(keys: &[&str]) -> Project {
     let toml = VCU118.replace("baud = 921_600", "baud = 31_250_000");
     array_on(Board::from_toml("vcu118", &toml).unwrap(), keys).unwrap()
 }
 
-/// 4 x 3 regions of 6 x 6. The gradient is not alike in them, so the first pixel of a region counts, too.
+/// 4 x 3 regions of 6 x 6 pixels. Their gradients differ, so that the first pixel of a region
+/// matters, too.
 const SMALL: &[&str] = &[
     "frame={width=24,height=18}",
     "region.size=6",
     "spatial=[{feature='edge',level=20,min_score=3}]",
     "temporal={level=4,min_count=2,reference='last-sent'}",
 ];
-/// 2 x 2 regions of 8 x 8, all features, raw pixels.
+/// 2 x 2 regions of 8 x 8 pixels, with all features and raw pixels.
 const LARGE: &[&str] = &[
     "frame={width=16,height=16}",
     "spatial=[{feature='edge',level=20,min_score=9},{feature='mad',min_score=5.5},{feature='corner',level=3,min_score=6},\
@@ -46,7 +48,7 @@ const LARGE: &[&str] = &[
     "temporal={level=4,min_count=2,reference='last-sent'}",
     "render.payload='raw'",
 ];
-/// 5 x 2 regions of 4 x 4 that send means, with more registers.
+/// 5 x 2 regions of 4 x 4 pixels that send means, with more pipeline registers.
 const DEEP: &[&str] = &[
     "frame={width=20,height=8}",
     "region.size=4",
@@ -78,7 +80,7 @@ fn frame(camera: &Camera, t: u32) -> Frame {
     Frame::new(width, height, 8, places.map(|(x, y)| pixel(x, y, t)).collect()).unwrap()
 }
 
-/// A board that has been built, and the registers of it.
+/// A compiled board, and its registers.
 #[derive(Clone)]
 struct Bench {
     program: PathBuf,
@@ -86,11 +88,13 @@ struct Bench {
     fault: Option<usize>,
 }
 
-/// A module, where in it, and what stands at `@` and what stands there instead.
+/// A fault that can be switched on: the module, the place in it, the text at `@`, and the text that
+/// replaces it.
 type Switch = (&'static str, &'static str, &'static str, &'static str);
 
 impl Bench {
-    /// With faults that are there, each in its place, only if they are asked for: so one program has all of them.
+    /// Compiles a project with faults that are present, each at its place, but act only when they
+    /// are switched on. So one program has all of them.
     fn new(project: &Project, faults: &[Switch]) -> Self {
         let constants = "#define DIVISOR 4\n#define LIMIT 20000000\n";
         let mut sources = verilog(project, None);
@@ -108,7 +112,7 @@ impl Bench {
         Self { program, table, fault: None }
     }
 
-    /// The same with a fault.
+    /// Returns the bench with one fault switched on.
     fn with(&self, fault: usize) -> Self {
         let (program, table) = (self.program.clone(), self.table.clone());
         Self { program, table, fault: Some(fault) }
@@ -155,7 +159,7 @@ impl Bench {
         }
     }
 
-    /// What a host does to see what a region said of a frame.
+    /// Returns the commands by which a host captures the results of a region in a frame.
     fn capture(&self, (column, row): (u32, u32), frame: u32, camera: &Camera) -> Vec<Said> {
         let wait = Said { until: true, command: Command::read(self.address("capture")) };
         let mut host = vec![
@@ -175,8 +179,8 @@ impl Bench {
     }
 }
 
-/// What a run left: lights, clocks until one was on, the frame at which what was written last was taken over,
-/// answers, and the sum behind each frame.
+/// The results of a run: the lights, the clocks until a light was on, the frame at which the last
+/// write took effect, the answers, and the sum behind each frame.
 struct Run {
     lights: String,
     clocks: u64,
@@ -185,7 +189,7 @@ struct Run {
     sums: Vec<u32>,
 }
 
-/// A command, maybe sent until the answer says that a capture is there.
+/// A command. With `until` it is sent again until the answer reports a capture.
 struct Said {
     until: bool,
     command: Command,
@@ -210,7 +214,7 @@ fn answers(path: &Path) -> Vec<u32> {
     }
 }
 
-/// What a region says of a frame: decision bits, count and scores, values that leave.
+/// The results of a region in a frame: decision bits, count and scores, and the values that leave.
 #[derive(Debug, Clone, PartialEq, Eq)]
 struct Says {
     frame: u32,
@@ -220,7 +224,7 @@ struct Says {
 }
 
 impl Says {
-    /// From the answers to [`Bench::capture`].
+    /// Reads the results from the answers to [`Bench::capture`].
     fn read(answers: &[u32], camera: &Camera) -> Self {
         let [frame, decision, rest @ ..] = &answers[4..] else { panic!("{answers:?}") };
         let mut rest = rest.iter().copied();
@@ -241,7 +245,7 @@ impl Says {
         }
     }
 
-    /// What the model says.
+    /// Returns the model's results.
     fn of(outcome: &FunctionalOutcome, camera: &Camera, frame: u32, place: (u32, u32)) -> Self {
         let at = (place.1 * camera.columns() + place.0) as usize;
         let action = outcome.actions[at];
@@ -263,7 +267,7 @@ impl Says {
     }
 }
 
-/// The pixels of a region of a frame without padding.
+/// Returns the pixels of a region of a frame without padding.
 fn region(frame: &Frame, camera: &Camera, (column, row): (u32, u32)) -> Vec<u16> {
     let side = camera.region_size();
     let places = (0..side * side).map(|at| (column * side + at % side, row * side + at / side));
@@ -271,7 +275,7 @@ fn region(frame: &Frame, camera: &Camera, (column, row): (u32, u32)) -> Vec<u16>
 }
 
 impl Says {
-    /// The CRC of it, as the page has it.
+    /// Returns the CRC of the results, as the page defines it.
     fn crc(&self, region: u32, camera: &Camera) -> u32 {
         let widths = camera.features().iter().map(|feature| feature.score_bits());
         let widths = std::iter::once(camera.count_bits()).chain(widths);
@@ -290,7 +294,7 @@ fn places(camera: &Camera) -> Vec<(u32, u32)> {
     (0..camera.regions()).map(|region| (region % columns, region / columns)).collect()
 }
 
-/// What all regions say of each of so many frames, as the model has it.
+/// Returns the model's results of all regions in each of the first `frames` frames.
 fn model(camera: &Camera, frames: u32) -> Vec<Vec<Says>> {
     let mut functional = FunctionalCamera::new(camera);
     let places = places(camera);
@@ -301,8 +305,8 @@ fn model(camera: &Camera, frames: u32) -> Vec<Vec<Says>> {
     (0..frames).map(all).collect()
 }
 
-/// The same, if another camera takes over before a frame; with references of `[temporal]` as the contract has them. Without
-/// summaries.
+/// Returns the model's results if the second camera replaces the first from frame `at` on. The
+/// temporal reference goes on as the contract defines it. The cameras must have no summaries.
 fn changed(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Says>> {
     let mut functional = cameras.map(FunctionalCamera::new);
     let places = places(cameras[0]);
@@ -348,7 +352,7 @@ fn changed(cameras: [&Camera; 2], at: u32, frames: u32) -> Vec<Vec<Says>> {
     (0..frames).map(&mut all).collect()
 }
 
-/// The sum behind each frame.
+/// Returns the sum behind each frame.
 fn sums(camera: &Camera, frames: &[Vec<Says>]) -> Vec<u32> {
     let mut sum = 0_u32;
     let each = frames.iter().map(|regions| {
@@ -360,7 +364,7 @@ fn sums(camera: &Camera, frames: &[Vec<Says>]) -> Vec<u32> {
     each.collect()
 }
 
-/// Lets a host capture these regions of these frames.
+/// Makes a host capture these regions of these frames.
 fn captures(bench: &Bench, camera: &Camera, wanted: &[((u32, u32), u32)]) -> (Run, Vec<Says>) {
     let each = wanted.iter().map(|(place, frame)| bench.capture(*place, *frame, camera));
     let host: Vec<Vec<Said>> = each.collect();
@@ -379,7 +383,8 @@ fn an_array_on_a_board_says_what_the_model_says() {
         let project = fast(keys);
         let camera = project.design.camera();
         let bench = if keys == SMALL { small().clone() } else { Bench::new(&project, &[]) };
-        // Frames with and without a square. Small regions have far more frames in the same time.
+        // The captured frames have a square and none. Small regions have many more frames in the
+        // same time.
         let (right, low) = (camera.columns() - 1, camera.rows() - 1);
         let mut wanted = vec![((0, 0), 1), ((right, low), 60)];
         if camera.region_size() > 4 {
@@ -405,12 +410,12 @@ fn an_array_on_a_board_says_what_the_model_says() {
     }
 }
 
-/// Lets a host write a threshold, and says what is wrong with the frames around that, if each is to be computed with all
-/// thresholds of one set.
+/// Makes a host write a threshold. Returns the fault, if the frames around the write are not each
+/// computed with all thresholds of one set.
 fn written(bench: &Bench, keys: &[&str], (name, value, key): (&str, u32, &str)) -> Option<String> {
     let (project, other) = (fast(keys), fast(&[keys, &[key]].concat()));
     let cameras = [project.design.camera(), other.design.camera()];
-    // Time passes while others are read.
+    // Reads of another register let time pass.
     let mut host = vec![bench.read("frames"), bench.write(name, value), bench.read(name)];
     host.extend((0..4).map(|_| bench.read("frames")));
     let run = bench.play(&host);
@@ -431,7 +436,7 @@ const LEVEL: (&str, u32, &str) =
     ("edge_level", 0, "spatial=[{feature='edge',level=0,min_score=3}]");
 const LEAST: (&str, u32, &str) = ("edge_min", 0, "spatial=[{feature='edge',level=20,min_score=0}]");
 
-/// Thresholds that a host writes, and the same as keys.
+/// Thresholds that a host writes, and the same values as keys.
 const OF_SMALL: &[(&str, u32, &str)] = &[
     LEVEL,
     LEAST,
@@ -454,9 +459,9 @@ const OF_LARGE: &[(&str, u32, &str)] = &[
     ),
 ];
 
-/// Faults that light the wrong light.
+/// Faults that light the wrong LED.
 const LIT: &[Switch] = &[
-    // Two regions have each other's pixels, and each has its neighbor's on the way out.
+    // Two regions get each other's pixels, and each sends those of its neighbor.
     ("board", ".pixel_i(@),", "pixel", "{pixel[REGIONS*8-1:16], pixel[7:0], pixel[15:8]}"),
     (
         "board",
@@ -467,12 +472,12 @@ const LIT: &[Switch] = &[
     ("array_pattern", "frame_ends ? @ : start_q;", "start_q - 7'd3", "start_q - 7'd2"),
     ("array_signature", "left_q <= @;", "COLUMNS[LEFT_BITS-1:0]", "COLUMNS[LEFT_BITS-1:0] - 1'b1"),
 ];
-/// Those that a capture shows.
+/// Faults that a capture shows.
 const CAPTURED: &[Switch] = &[
     ("array_snapshot", "waits_q && @;", "next_q[6:0] == frame_i", "next_q[5:0] == frame_i[5:0]"),
     ("array_registers", "place_o = @;", "asked[8:0]", "~asked[8:0]"),
 ];
-/// Those by which a threshold changes a clock too early or too late.
+/// Faults by which a threshold changes a clock too early or too late.
 const TURNED: &[Switch] = &[
     ("board", "if (@ || rst) edge_level_q", "level_turn", "minimum_turn"),
     (
@@ -484,7 +489,8 @@ const TURNED: &[Switch] = &[
     ("board", "if (@ || rst) edge_min_q", "minimum_turn", "temporal_turn"),
 ];
 
-/// The array of 4 x 3 regions with all of these faults, each of which is asked for: tests share its program.
+/// Returns the array of 4 x 3 regions with all of these faults, which can be switched on. The tests
+/// share its program.
 fn small() -> &'static Bench {
     static BENCH: OnceLock<Bench> = OnceLock::new();
     BENCH.get_or_init(|| Bench::new(&fast(SMALL), &[LIT, CAPTURED, TURNED].concat()))
@@ -518,7 +524,8 @@ fn an_array_that_is_wrong_is_seen() {
     }
 }
 
-/// The whole array of the paper at the rate of the board, for hand: a compiler takes minutes for its 784 RPUs.
+/// This is the whole array of the paper at the rate of the board. It is run by hand, because a
+/// compiler takes minutes for its 784 RPUs.
 #[test]
 #[ignore = "takes minutes and gigabytes"]
 fn the_array_of_the_paper_says_what_the_model_says() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A small board, compiled for a bench, and a run of it.
+//! A small board, compiled for a bench, and its runs.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,10 +14,10 @@ const BENCH: &str = include_str!("board_bench.v");
 const SENSOR: &str = include_str!("sensor.cpp");
 const SERIAL: &str = include_str!("serial.h");
 pub(crate) const CORE_MHZ: u32 = 24;
-/// Clocks without a byte after which a run ends.
+/// The number of clocks without a byte after which a run ends.
 const QUIET: u32 = 30_000;
 
-/// A board with this sensor, before a core for small frames.
+/// Returns a board with this sensor, before a core for small frames.
 pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
     let lines = if sensor == "hm01b0-4" { 4 } else { 8 };
     let data: Vec<_> = (0..lines).map(|line| format!("\"d{line}\"")).collect();
@@ -37,18 +37,19 @@ pub(crate) fn project(sensor: &str, keys: &[&str]) -> Project {
     Project::new(board, design).unwrap()
 }
 
-/// The array of the paper on a VCU118, with keys of its own.
+/// Returns the array of the paper on a VCU118, with changed keys.
 pub(crate) fn array(keys: &[&str]) -> Result<Project, BoardError> {
     array_on(Board::find("vcu118").unwrap(), keys)
 }
 
-/// The same on a board.
+/// Returns the array of the paper on a board, with changed keys.
 pub(crate) fn array_on(board: Board, keys: &[&str]) -> Result<Project, BoardError> {
     let paper = Preset::find("paper").unwrap().toml;
     Project::new(board, Config::from_toml_with(paper, keys).unwrap().validate().unwrap())
 }
 
-/// Whether there is an interpreter of Tcl; where every tool must be there, it must.
+/// Returns true if there is an interpreter of Tcl. Panics if there is none although all tools are
+/// required.
 pub(crate) fn has_tclsh() -> bool {
     let is_there = Command::new("tclsh").stdin(Stdio::null()).output().is_ok();
     let is_strict = std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1");
@@ -59,10 +60,11 @@ pub(crate) fn has_tclsh() -> bool {
     is_there
 }
 
-/// What stands in a module, and what stands there instead.
+/// A planted fault: the module, a text in it, and the text that replaces it.
 pub(crate) type Fault<'a> = Option<(&'a str, &'a str, &'a str)>;
 
-/// The Verilog of a project, without its PLL, which is none; a fault may be planted in it.
+/// Returns the Verilog of a project with the clock for simulations in place of its PLL. A fault may
+/// be planted in it.
 pub(crate) fn verilog(project: &Project, fault: Fault<'_>) -> Vec<Source> {
     let mut files = project.files();
     if let Some((name, from, to)) = fault {
@@ -79,7 +81,8 @@ pub(crate) fn verilog(project: &Project, fault: Fault<'_>) -> Vec<Source> {
     text("board.f").lines().map(source).collect()
 }
 
-/// A program that plays these modules: constants, the host's end of the serial line, and a main.
+/// Compiles a program that simulates these modules, with constants, the host's end of the serial
+/// line, and a main function.
 pub(crate) fn compiled(sources: Vec<Source>, top: &str, constants: &str, main: &str) -> PathBuf {
     let (top, cpp_main) = (top.to_owned(), format!("{constants}{SERIAL}{main}"));
     let job =
@@ -87,7 +90,7 @@ pub(crate) fn compiled(sources: Vec<Source>, top: &str, constants: &str, main: &
     verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
 }
 
-/// A project before its sensor, in Verilator.
+/// Compiles a project with a sensor for Verilator.
 pub(crate) fn simulated(project: &Project, fault: Fault<'_>) -> PathBuf {
     let mut sources = verilog(project, fault);
     let (sensor, _) = project.board.eye().unwrap().unwrap();
@@ -97,16 +100,17 @@ pub(crate) fn simulated(project: &Project, fault: Fault<'_>) -> PathBuf {
     compiled(sources, "board_bench", &constants, SENSOR)
 }
 
-/// What a run left.
+/// The results of a run.
 pub(crate) struct Heard {
     pub(crate) bytes: Vec<u8>,
-    /// A byte had no stop bit.
+    /// True if a byte had no stop bit.
     pub(crate) has_broken_bytes: bool,
-    /// What was written on I2C, and the lights.
+    /// The writes on I2C, and the LEDs.
     pub(crate) setup: String,
 }
 
-/// Plays a board. `host` are bytes that the host sends, each not before that microsecond.
+/// Runs a board. `host` has the bytes that the host sends, each with its earliest time in
+/// microseconds.
 pub(crate) fn play(
     program: &Path,
     wires: &[u8],

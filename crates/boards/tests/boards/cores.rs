@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A prefix is all that a user names of a core, and plain in every language. Of a configuration no text is taken that the program
-//! does not know (tests of `foveate-design`).
+//! Tests that the prefix of a core is plain in every language. It is the only text that a user
+//! chooses in a core; of a configuration only known texts are taken (tests of `foveate-design`).
 
 use foveate_emit::Prefix;
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a sensor drives for some frames, with damage, and the frames that a core must see of it. Both are written from
-//! `docs/boards.md` and `docs/axi.md`.
+//! The signals of a sensor for some frames, with damage, and the frames that a core must see. Both
+//! are written from `docs/boards.md` and `docs/axi.md`.
 
 use foveate_boards::{Format, Level, Sensor};
 use foveate_frame::Frame;
 
-/// What happens to the second frame.
+/// The damage of the second frame.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Damage {
     None,
     /// `href` and `vsync` are wrong for one edge, in lines and between them.
     Noise,
-    /// A line does not come.
+    /// A line is missing.
     LostLine,
     /// A line ends early.
     ShortLine,
@@ -23,13 +23,13 @@ pub(crate) enum Damage {
     Stopped,
 }
 
-/// Line, and pixel in it, of the damage.
+/// The line of the damage, and the pixel in it.
 const AT: (u32, u32) = (17, 21);
-/// Edges between lines, between frames.
+/// The number of edges between lines.
 const LINE_GAP: usize = 24;
 const VSYNC: usize = 60;
 
-/// Frames in which a block of noise moves before something still.
+/// Returns frames in which a block of noise moves before a still background.
 pub(crate) fn frames(width: u32, height: u32, count: u32) -> Vec<Frame> {
     let mut random = fastrand::Rng::with_seed(11);
     let shot = |number: u32| {
@@ -44,7 +44,7 @@ pub(crate) fn frames(width: u32, height: u32, count: u32) -> Vec<Frame> {
     (0..count).map(shot).collect()
 }
 
-/// What the core sees of these frames.
+/// Returns the frames that the core sees.
 pub(crate) fn seen(frames: &[Frame], damage: Damage) -> Vec<Frame> {
     let mut seen = frames.to_vec();
     let (line, at) = (AT.0 as usize, AT.1 as usize);
@@ -76,7 +76,8 @@ pub(crate) fn seen(frames: &[Frame], damage: Damage) -> Vec<Frame> {
             second.truncate(height);
         }
         Damage::EarlyVsync => {
-            // Lines before it, the last one of them again, and a frame of those behind it.
+            // The core sees the lines before `vsync`, with the last of them repeated, and then a
+            // frame of the lines behind it.
             let behind: Vec<_> = second[line..].to_vec();
             let fill = |mut lines: Vec<Vec<u16>>| {
                 lines.resize(height, lines.last().unwrap().clone());
@@ -91,7 +92,7 @@ pub(crate) fn seen(frames: &[Frame], damage: Damage) -> Vec<Frame> {
     seen
 }
 
-/// Wires of a sensor: two bytes for each edge of its clock.
+/// The wires of a sensor, with two bytes for each edge of its clock.
 pub(crate) struct Wires<'a> {
     sensor: &'a Sensor,
     pub(crate) bytes: Vec<u8>,
@@ -108,7 +109,7 @@ impl<'a> Wires<'a> {
         self.bytes.extend([u8::from(vsync) | u8::from(href) << 1, data]);
     }
 
-    /// Edges without a pixel; data is anything.
+    /// Adds edges without a pixel; their data is random.
     fn pause(&mut self, between_frames: bool, edges: usize) {
         for _ in 0..edges {
             let data = self.random.u8(..);
@@ -130,7 +131,7 @@ impl<'a> Wires<'a> {
         }
     }
 
-    /// A line with what is cropped on both sides.
+    /// Adds a line, with the pixels that are cropped on both sides.
     fn line(&mut self, pixels: &[u16], until: usize) {
         for _ in 0..self.sensor.left {
             self.pixel(0xAA);
@@ -144,7 +145,8 @@ impl<'a> Wires<'a> {
         self.pause(false, LINE_GAP);
     }
 
-    /// A frame with what is cropped above and below, and what is between it and the next.
+    /// Adds a frame, with the lines that are cropped above and below it, and the gap to the next
+    /// frame.
     pub(crate) fn frame(&mut self, frame: &Frame, damage: Damage, gap: usize) {
         let width = frame.width() as usize;
         let (line, at) = (AT.0 as usize, AT.1 as usize);
@@ -160,7 +162,7 @@ impl<'a> Wires<'a> {
                 Damage::ShortLine if number == line => self.line(pixels, at),
                 Damage::SplitLine if number == line => {
                     self.line(pixels, at);
-                    // Only two edges are between them.
+                    // Only two edges are between the parts.
                     self.bytes.truncate(self.bytes.len() - 2 * (LINE_GAP - 2));
                     self.split(&pixels[at..]);
                 }
@@ -179,7 +181,7 @@ impl<'a> Wires<'a> {
                 _ => self.line(pixels, width),
             }
         }
-        // Lines that are missing would be made up for by those below, which are cropped otherwise.
+        // The cropped lines below the frame would replace missing lines, and so are left out.
         if !matches!(damage, Damage::LostLine | Damage::EarlyVsync) {
             self.line(&vec![0x77; width], width);
         }
@@ -189,9 +191,10 @@ impl<'a> Wires<'a> {
         }
     }
 
-    /// What is left of a line that was cut.
+    /// Adds the rest of a line that was cut.
     fn split(&mut self, rest: &[u16]) {
-        // The second part is a line of its own: what is cropped at its left is lost of it.
+        // The second part is a line of its own, which loses the pixels that are cropped at its
+        // left.
         for _ in 0..self.sensor.left {
             self.pixel(0xAA);
         }
@@ -201,12 +204,13 @@ impl<'a> Wires<'a> {
         self.pause(false, LINE_GAP);
     }
 
-    /// Single wrong edges of `href` and `vsync`, far apart.
+    /// Makes single edges of `href` and `vsync` wrong, far apart from each other.
     fn noise(&mut self, start: usize) {
         let mut at = start + 2 * (VSYNC + 40);
         while at + 2 < self.bytes.len() {
             let bit = if self.random.bool() { 1 } else { 2 };
-            // Not beside a change, where a wrong value moves it.
+            // An edge next to a change is left alone, because a wrong value there would move the
+            // change.
             let around = [at - 4, at - 2, at, at + 2, at + 4];
             let same = around.iter().all(|&at| {
                 self.bytes.get(at).is_some_and(|wires| wires & 3 == self.bytes[around[2]] & 3)

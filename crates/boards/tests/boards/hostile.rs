@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Data files with hostile texts: one per text that a file may hold, found from what its reader accepts, not from a list.
+//! Data files with hostile texts, one for each text that a file may hold. The places are found by
+//! what the reader accepts, not from a list.
 
 use std::collections::BTreeSet;
 
@@ -8,14 +9,15 @@ use toml::{Table, Value};
 /// The file that a command in one of the texts makes.
 pub(crate) const CANARY: &str = "canary";
 
-/// A key, or a place in an array.
+/// A key, or an index in an array.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Step {
     Key(String),
     Place(usize),
 }
 
-/// Texts that would mean something in a shell, Tcl, Verilog, TOML, YAML, HTML, Markdown, a terminal or a file system.
+/// Returns texts with a meaning in a shell, Tcl, Verilog, TOML, YAML, HTML, Markdown, a terminal or
+/// a file system.
 pub(crate) fn texts() -> Vec<String> {
     let touch = format!("touch {CANARY}");
     let mut texts: Vec<String> = [
@@ -86,21 +88,23 @@ pub(crate) fn texts() -> Vec<String> {
     texts
 }
 
-/// Where a file may hold a text, each with the file in which it holds that of `text`. `complaint` is what the reader says of a file.
+/// The places at which a file may hold a text. `base` is a valid file, and `complaint` returns the
+/// reader's error for a file.
 pub(crate) struct Schema<'a> {
     pub(crate) base: Table,
     pub(crate) complaint: &'a dyn Fn(&Table) -> Option<String>,
 }
 
 impl Schema<'_> {
-    /// Every place at which a text stands in the base, and every one at which the reader would accept one.
+    /// Returns every place at which the base has a text, and every place at which the reader would
+    /// accept one.
     pub(crate) fn places(&self) -> BTreeSet<Vec<Step>> {
         let mut places = BTreeSet::new();
         self.search(&Value::Table(self.base.clone()), &mut Vec::new(), &mut places);
         places
     }
 
-    /// Every key that the base has, and every one that the reader accepts, without those above it.
+    /// Returns every key that the base has or that the reader accepts, without the keys above it.
     pub(crate) fn keys(&self) -> BTreeSet<String> {
         let mut keys = BTreeSet::new();
         let mut open = vec![(Vec::new(), Value::Table(self.base.clone()))];
@@ -117,7 +121,7 @@ impl Schema<'_> {
         keys
     }
 
-    /// The base with a value at a place.
+    /// Returns the base with a value at a place.
     pub(crate) fn with(&self, place: &[Step], value: Value) -> Table {
         let mut root = Value::Table(self.base.clone());
         put(&mut root, place, value);
@@ -150,7 +154,7 @@ impl Schema<'_> {
         }
     }
 
-    /// Keys that the reader names when it finds one that it does not know.
+    /// Returns the keys that the reader names when it finds an unknown one.
     fn accepted(&self, table: &[Step]) -> Vec<String> {
         let mut place = table.to_vec();
         place.push(Step::Key("zzz".to_owned()));
@@ -159,7 +163,8 @@ impl Schema<'_> {
         expected.split('`').skip(1).step_by(2).map(str::to_owned).collect()
     }
 
-    /// A key that the base does not have: may it be a text, a list of them, or a table that holds some?
+    /// Adds the places below a key that the base does not have, if the reader accepts a text, a
+    /// list of texts, or a table with texts there.
     fn unused(&self, key: &[Step], places: &mut BTreeSet<Vec<Step>>) {
         for inner in self.accepted(key) {
             let mut inside = key.to_vec();
@@ -202,7 +207,7 @@ fn put(value: &mut Value, place: &[Step], new: Value) {
     }
 }
 
-/// The name of the key at a place, as a message should have it.
+/// Returns the name of the key at a place, as a message should have it.
 pub(crate) fn key(place: &[Step]) -> &str {
     let name = |step: &Step| matches!(step, Step::Key(_));
     match place.iter().rfind(|step| name(step)) {

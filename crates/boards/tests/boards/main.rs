@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Boards in simulation: a sensor's wires in, a serial line out.
+//! Tests of boards in simulation, from the wires of a sensor to the serial line.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod array;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The whole top of the VCU118: what its core makes of the pattern adds up to what the model says, and registers are read over the
-//! serial line.
+//! Tests of the whole top of the VCU118. The sums over its core's packets for the pattern equal the
+//! model's, and registers are read over the serial line.
 
 use std::fs;
 use std::process::Command as Process;
@@ -13,7 +13,7 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::require_tools;
 
 const BENCH: &str = include_str!("pattern.cpp");
-/// Clocks with the serial line, and most until a light is on.
+/// The number of clocks with the serial line, after an LED is on.
 const AFTER: u32 = 400_000;
 const LIMIT: u64 = 60_000_000;
 const RIGHT: &str = "4";
@@ -26,7 +26,7 @@ fn vcu118(keys: &[&str]) -> Project {
     Project::new(board, design).unwrap()
 }
 
-/// Lights of a run, and what was heard after that.
+/// Returns the LEDs of a run, and the bytes that came after that.
 fn play(project: &Project, fault: Fault<'_>, host: &[u8]) -> (String, Vec<u8>) {
     let constants = format!("#define DIVISOR 136\n#define AFTER {AFTER}\n#define LIMIT {LIMIT}\n");
     let program = compiled(verilog(project, fault), "board", &constants, BENCH);
@@ -58,7 +58,7 @@ fn sums_on_the_board_are_those_of_the_model() {
         loop {
             match splitter.next(Some(&layout)) {
                 Found::Nothing => break,
-                // Of the first packet only the end was heard.
+                // Only the end of the first packet was received.
                 Found::Skipped { bytes, .. } => assert!(others == 0 && bytes < 200, "{bytes}"),
                 Found::Packet { packet: Packet::Register(answer), .. } => {
                     answers.push(answer.value);
@@ -77,7 +77,8 @@ fn sums_on_the_board_are_those_of_the_model() {
     }
 }
 
-/// At the size and rate of the board, for hand: 33 million clocks.
+/// The frames have the size and rate of the board. The test is run by hand, because it takes 33
+/// million clocks.
 #[test]
 #[ignore = "takes a minute"]
 fn sums_at_full_size_are_those_of_the_model() {
@@ -92,7 +93,7 @@ fn a_core_that_is_wrong_lights_the_other_light() {
     }
     let project = vcu118(SMALL);
     for fault in [
-        // A pixel that is rare, a sum that is compared too early, a line that is missing.
+        // The faults are a rare pixel value, a sum that is compared too early, and a missing line.
         ("board", "_tdata(pixel)", "_tdata(pixel ^ {7'd0, pixel == 8'd231})"),
         ("packet_signature", "done_q <= add_end_q;", "done_q <= tail_q && end_q;"),
         ("board", ".LINES(76)", ".LINES(75)"),

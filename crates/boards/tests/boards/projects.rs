@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Projects: no tool warns of their Verilog, scripts make bitstreams of them, and what is wrong is said.
+//! Tests of projects: no tool warns about their Verilog, scripts make bitstreams of them, and
+//! faults are reported.
 
 use std::collections::BTreeSet;
 use std::fs::{self, Permissions};
@@ -13,14 +14,15 @@ use foveate_design::Config;
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain, verilator};
 
-/// A board with some keys of its design changed.
+/// Returns a board with changed keys of its design.
 fn project(name: &str, keys: &[&str]) -> Result<Project, BoardError> {
     let board = Board::find(name).unwrap();
     let toml = board.config().unwrap().to_toml();
     Project::new(board, Config::from_toml_with(&toml, keys).unwrap().validate().unwrap())
 }
 
-/// Pins are used once, every port has one, and every module around a core stands in some project.
+/// Each pin is used once, every port has a pin, and every module around a core occurs in some
+/// project.
 #[test]
 fn projects_are_whole() {
     let mut used = BTreeSet::new();
@@ -85,7 +87,8 @@ fn no_tool_warns_of_a_board() {
     }
 }
 
-/// The bitstream of a small device, from nothing, within the room and the clock that it needs.
+/// The bitstream is made for a small device from scratch, and must fit the device and reach the
+/// needed clock.
 #[test]
 fn a_bitstream_is_made() {
     if !require_tools(&[Tool::Yosys, Tool::NextpnrIce40]) {
@@ -98,13 +101,13 @@ fn a_bitstream_is_made() {
     let built = build(&project, &folder, 1, &Toolchain::system()).unwrap();
     let bytes = fs::read(folder.join(&built.bitstream)).unwrap();
     assert_eq!(bytes.len(), built.bytes);
-    // What a bitstream of this family begins with, behind its comment.
+    // A bitstream of this family begins with these bytes, behind its comment.
     assert!(bytes.windows(4).any(|four| four == [0x7E, 0xAA, 0x99, 0x7E]));
     let cells = built.used.iter().find(|cell| cell.cell == "ICESTORM_LC").unwrap();
     assert!(cells.used * 100 <= cells.available * 85, "{cells:?}");
     assert!(built.reached_mhz[0] >= f64::from(built.core_mhz), "{:?}", built.reached_mhz);
     assert!(built.pclk_reached_mhz >= built.pclk_mhz, "{}", built.pclk_reached_mhz);
-    // It may be replaced, though there is more in it than was written.
+    // The folder may be replaced although it holds more files than were written.
     assert!(write_project(&project, &folder, false).is_err());
     write_project(&project, &folder, true).unwrap();
     for name in ["mine.txt", "build/mine.txt", "board.f"] {
@@ -119,7 +122,7 @@ fn a_bitstream_is_made() {
     }
 }
 
-/// What a tool says when it fails is passed on, and which one is missing.
+/// The message of a tool that fails is passed on, and a missing tool is named.
 #[test]
 fn a_script_whose_tools_fail_says_so() {
     let dir = tempfile::tempdir().unwrap();
@@ -151,7 +154,7 @@ fn a_script_whose_tools_fail_says_so() {
         code == 1 && said.contains("core: 20.00 MHz (seed") && said.contains("too slow"),
         "{code}: {said}"
     );
-    // Of seed 2 the core is faster, and the sensor's clock too slow.
+    // Seed 2 gives a faster core, but a pixel clock that is too slow.
     let other = slow.with_file_name("other");
     let clocks = "case \"$*\" in *'--seed 2'*) c=40.00 p=5.00 ;; *) c=30.00 p=60.00 ;; esac\n\
                   echo \"Info: Max frequency for clock 'clk': $c MHz (PASS at 24.00 MHz)\"\n\
@@ -160,7 +163,7 @@ fn a_script_whose_tools_fail_says_so() {
     tool("other", clocks);
     let (code, said) = run(&other, &fine, "3");
     assert!(code == 0 && said.contains("core: 30.00 MHz (seed 3, packed)"), "{code}: {said}");
-    // A script lists the files that it makes, whatever its end, and removes no file of others.
+    // A script lists the files that it makes, even when it fails, and removes no file of others.
     fs::write(folder.join("build/mine.txt"), "mine").unwrap();
     let (code, _) = run(&full, &fine, "1");
     assert_eq!(code, 1);
@@ -171,7 +174,7 @@ fn a_script_whose_tools_fail_says_so() {
     write_project(&icebreaker, &folder, true).unwrap();
     let (code, said) = run(&slow, &fine, "no");
     assert!(code == 2 && said.contains("use a number from 1 on"), "{code}: {said}");
-    // A machine without any of them.
+    // The machine has none of the tools.
     let bare = dir.path().join("bare");
     fs::create_dir(&bare).unwrap();
     std::os::unix::fs::symlink("/usr/bin/dirname", bare.join("dirname")).unwrap();
@@ -222,7 +225,7 @@ fn designs_that_fit_no_board_are_refused() {
     assert!(error.contains("vcu118") && error.contains("hardware.interface='axi'"), "{error}");
 }
 
-/// Commands of Vivado that its scripts may use; each checks the files that it names.
+/// Stubs of the commands of Vivado that the scripts may use. Each checks the files that it names.
 pub(crate) const STUBS: &str = r#"
 set called {}
 foreach name {create_project synth_design opt_design place_design phys_opt_design route_design report_utilization
@@ -256,7 +259,8 @@ fn scripts_for_vivado_execute() {
     }
 }
 
-/// The scripts of a project execute, with stubs in place of what Vivado does; one of its modules is this.
+/// Executes the scripts of a project with stubs in place of Vivado's commands. `module` is one of
+/// the project's Verilog files.
 fn executes(project: &Project, module: &str) {
     let dir = tempfile::tempdir().unwrap();
     let folder = dir.path().join("out");
@@ -276,7 +280,7 @@ fn executes(project: &Project, module: &str) {
         assert!(called.contains(word), "{word} is not in {called}");
     }
     assert!(run("program.tcl").unwrap().contains("program_hw_devices"));
-    // A file that is missing is seen.
+    // A missing file is an error.
     fs::remove_file(folder.join(module)).unwrap();
     assert!(run("build.tcl").unwrap_err().contains(&format!("no {module}")));
     let error = build(project, &folder, 1, &Toolchain::system()).unwrap_err().to_string();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What comes over the serial line of a board is what the model says of the frames before its sensor.
+//! Tests that the serial line of a board sends what the model computes from the frames before its
+//! sensor.
 
 use crate::common::{CORE_MHZ, Heard, play, project, simulated};
 use crate::film::{Damage, Wires, frames, seen};
@@ -13,12 +14,12 @@ use foveate_toolchain::Tool;
 use foveate_toolchain::testing::{every, require_tools};
 use std::path::Path;
 
-/// All regions of a frame can leave at this rate of pixels.
+/// The period of the pixel clock in picoseconds at which all regions of a frame can leave.
 const SLOW_PS: u32 = 3_000_003;
-/// Faster than the core's clock.
+/// A period in picoseconds that is shorter than that of the core's clock.
 const FAST_PS: u32 = 33_337;
 
-/// Frames of a stream: what was drawn, and the rows of regions that came.
+/// The received frames: the screens, and the rows of regions.
 struct Received {
     screens: Vec<Vec<u16>>,
     rows: Vec<Vec<Row>>,
@@ -61,7 +62,7 @@ fn receive(design: &Design, bytes: &[u8]) -> Result<Received, String> {
     }
 }
 
-/// Draws pixels or means of a region, as packets.md has them.
+/// Draws the pixels or means of a region, as packets.md defines them.
 fn paint(design: &Design, screen: &mut [u16], region: &Region) {
     let (side, width) = (design.region_size(), design.width());
     let blocks = if region.flags.summary { design.periphery().unwrap().blocks } else { side };
@@ -76,7 +77,7 @@ fn paint(design: &Design, screen: &mut [u16], region: &Region) {
     }
 }
 
-/// What the sensor of a project drives for these frames.
+/// Returns the wires of a project's sensor for these frames.
 fn wires(sensor: &Sensor, film: &[Frame], damage: Damage, gap: usize) -> Vec<u8> {
     let mut wires = Wires::new(sensor);
     for (number, frame) in film.iter().enumerate() {
@@ -114,7 +115,7 @@ fn check(project: &Project, program: &Path, damage: Damage) -> Result<Heard, Str
     let sensor = project.board.eye().unwrap().unwrap().0;
     let wires = wires(&sensor, &film, damage, 600);
     let place = address(project, "frame");
-    // Answers stand between packets, whenever they are asked for.
+    // Answers come between packets, whenever a command is sent.
     let host =
         said(&(1..=30).map(|turn| (700 * turn, Command::read(place).bytes())).collect::<Vec<_>>());
     let heard = play(program, &wires, &host, SLOW_PS, 0);
@@ -123,7 +124,7 @@ fn check(project: &Project, program: &Path, damage: Damage) -> Result<Heard, Str
     if heard.has_broken_bytes || received.answers != [answer; 30] {
         return Err(format!("{} answers came", received.answers.len()));
     }
-    // Lines that are made up come at the clock of the core, too fast for the serial line.
+    // Lines that the core adds come at its own clock, which is too fast for the serial line.
     if received.dropped != 0 && damage != Damage::EarlyVsync {
         return Err(format!("{} rows and regions were dropped", received.dropped));
     }
@@ -148,7 +149,7 @@ fn what_leaves_a_board_is_what_the_model_says_of_what_its_sensor_saw() {
     for sensor in ["hm01b0-4", "hm01b0-8", "ov7670-qvga"] {
         let project = project(sensor, &[]);
         let program = simulated(&project, None);
-        // Every kind of damage with one of them.
+        // One of the sensors is tested with every kind of damage.
         let all = if sensor == "ov7670-qvga" { &ALL[..] } else { &ALL[..1] };
         for &damage in all {
             let heard = check(&project, &program, damage);
@@ -177,7 +178,7 @@ fn a_sensor_that_is_faster_than_its_serial_line_costs_whole_regions_and_no_decis
     compare(&project.design, &received, &film).unwrap();
 }
 
-/// Bytes of commands, each with its time in microseconds.
+/// Returns the bytes of commands, each with its time in microseconds.
 fn said(commands: &[(u32, Vec<u8>)]) -> Vec<(u32, u8)> {
     let timed =
         |(at, bytes): &(u32, Vec<u8>)| bytes.iter().map(|&byte| (*at, byte)).collect::<Vec<_>>();
@@ -190,8 +191,8 @@ fn address(project: &Project, name: &str) -> u16 {
     u16::try_from(found.unwrap_or_else(|| panic!("no register {name}")).address).unwrap()
 }
 
-/// Registers are read and written between packets, thresholds hold from the next frame on, and a command that is not whole is
-/// forgotten.
+/// Registers are read and written between packets, thresholds take effect with the next frame, and
+/// an incomplete command is ignored.
 #[test]
 fn a_host_reads_and_writes_registers_over_the_same_line() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
@@ -202,7 +203,7 @@ fn a_host_reads_and_writes_registers_over_the_same_line() {
     let film = frames(64, 48, 4);
     let sensor = project.board.eye().unwrap().unwrap().0;
     let wires = wires(&sensor, &film, Damage::None, 60_000);
-    // Between the second frame and the third; a frame takes so long.
+    // The write comes between the second and the third frame.
     let frame_us =
         u32::try_from(wires.len() as u64 / 2 / 4 * u64::from(SLOW_PS) / 1_000_000).unwrap();
     let change = 2 * frame_us - frame_us / 8;
@@ -246,7 +247,8 @@ fn a_host_reads_and_writes_registers_over_the_same_line() {
     assert_eq!((changes(2), changes(3)), (0, 0), "no pixel changes by more than 250");
 }
 
-/// What is written to a sensor is what its file says; what it does not acknowledge is tried again, and then given up.
+/// The writes to a sensor are those of its file. A write without an acknowledge is tried again, and
+/// then given up.
 #[test]
 fn a_sensor_is_set_up() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
@@ -270,7 +272,7 @@ fn a_sensor_is_set_up() {
             let mut lines: Vec<_> = heard.setup.lines().collect();
             let lights = if failed { "lights 2" } else { "lights 0" };
             assert_eq!(lines.pop(), Some(lights));
-            // The first write of all is given up.
+            // The first write is given up.
             let expected = if failed { &expected[1..] } else { &expected[..] };
             assert_eq!(lines, expected, "{nacks} bytes were not acknowledged");
             let received = receive(&project.design, &heard.bytes).unwrap();
@@ -280,14 +282,15 @@ fn a_sensor_is_set_up() {
     }
 }
 
-/// What is wired wrongly is seen.
+/// Faults in the wiring must be found.
 #[test]
 fn faults_between_sensor_and_line_are_found() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
         return;
     }
     let project = project("hm01b0-4", &[]);
-    // Each is a program of its own: all are planted by scripts/release.sh, a third in every run.
+    // Each fault needs a program of its own. All are planted by scripts/release.sh, and a third of
+    // them in every run.
     let faults = [
         ("board", ".LEFT(2)", ".LEFT(1)"),
         ("board", ".TOP(2)", ".TOP(3)"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A file of a board or a sensor is data: whatever texts it holds, no generated script runs them, and no page shows them as more
-//! than text. Places come from what the readers accept, and interpreters judge what is generated.
+//! Tests that a file of a board or a sensor is only data: no generated script runs its texts, and
+//! every page shows them as plain text. The places come from what the readers accept, and
+//! interpreters judge the generated files.
 
 use std::collections::BTreeMap;
 use std::fs::{self, Permissions};
@@ -19,13 +20,13 @@ use crate::projects::STUBS;
 
 const SHIPPED: &str = env!("CARGO_MANIFEST_DIR");
 
-/// A shipped file.
+/// Returns a shipped file.
 fn shipped(kind: &str, name: &str) -> Table {
     let path = Path::new(SHIPPED).join(kind).join(format!("{name}.toml"));
     fs::read_to_string(path).unwrap().parse().unwrap()
 }
 
-/// A board of each family of devices, for small frames.
+/// Returns a board of each family of devices, for small frames.
 fn boards() -> [(&'static str, Table); 4] {
     ["icebreaker", "ulx3s", "tang-nano-20k", "vcu118"].map(|name| {
         let mut board = shipped("boards", name);
@@ -45,19 +46,19 @@ fn files(project: &Project) -> BTreeMap<String, String> {
     project.files().into_iter().map(|file| (file.path, file.contents)).collect()
 }
 
-/// A text that is one plain word in each of the languages.
+/// Returns true if a text is one plain word in each of the languages.
 fn is_plain(text: &str) -> bool {
     let is_plain = |c: char| c.is_ascii_alphanumeric() || "._/-".contains(c);
     !text.is_empty() && !text.starts_with('-') && text.len() <= 64 && text.chars().all(is_plain)
 }
 
-/// Verilog without its comments; none of the templates has a string that looks like one.
+/// Returns Verilog without its comments. No template has a string that looks like a comment.
 fn code(verilog: &str) -> String {
     let lines = verilog.lines().map(|line| line.split("//").next().unwrap_or_default().trim_end());
     lines.map(|line| format!("{line}\n")).collect()
 }
 
-/// Comments that are orders to a tool.
+/// Returns the comments that are commands to a tool.
 fn orders(verilog: &str) -> Vec<&str> {
     let words = ["synopsys", "synthesis", "verilator", "pragma"];
     let comments = verilog.lines().filter_map(|line| Some((line, line.split_once("//")?.1)));
@@ -66,12 +67,12 @@ fn orders(verilog: &str) -> Vec<&str> {
     orders.map(|(line, _)| line).collect()
 }
 
-/// A script without the lines that are comments.
+/// Returns a script without the lines that are comments.
 fn commands(script: &str) -> Vec<&str> {
     script.lines().filter(|line| !line.trim_start().starts_with('#')).collect()
 }
 
-/// Folders of projects whose texts are hostile, with that of the benign one first.
+/// The folders of projects with hostile texts. The first is that of the benign project.
 struct Written {
     root: tempfile::TempDir,
     folders: Vec<PathBuf>,
@@ -96,7 +97,8 @@ impl Written {
         })
     }
 
-    /// Runs the script of each, or of the first and of every so many; all of them call the same commands.
+    /// Runs the script of every `every`th folder, beginning with the first. All of them must call
+    /// the same commands.
     fn run(&self, every: usize, with: impl Fn(&Path) -> Command, called: &str) {
         let mut benign = None;
         for folder in self.folders.iter().step_by(every) {
@@ -113,7 +115,7 @@ impl Written {
         assert!(!Self::has_canary(self.root.path()), "a text was run");
     }
 
-    /// Each top is read as the module that it is.
+    /// Checks that Yosys reads each top as the module that it is.
     fn read_by_yosys(&self) {
         if !require_tools(&[Tool::Yosys]) {
             return;
@@ -137,7 +139,8 @@ impl Written {
     }
 }
 
-/// A project and one whose file has a hostile text differ only in comments and in the page of the project.
+/// Checks that a project and one whose file has a hostile text differ only in comments and in the
+/// page of the project.
 fn differs_in_words_alone(project: &Project, benign: &BTreeMap<String, String>, data: &str) {
     let files = files(project);
     assert!(files.keys().eq(benign.keys()));
@@ -177,7 +180,7 @@ fn differs_in_words_alone(project: &Project, benign: &BTreeMap<String, String>, 
 /// A text at a place of a file.
 type Tried = (Vec<Step>, String);
 
-/// Every text at every place of a file.
+/// Returns every text at every place of a file.
 fn all_of(schema: &Schema<'_>) -> Vec<Tried> {
     let places = schema.places();
     places
@@ -186,7 +189,8 @@ fn all_of(schema: &Schema<'_>) -> Vec<Tried> {
         .collect()
 }
 
-/// Tries texts in a file. Those that are taken though they are no plain words are written as projects, and returned.
+/// Tries texts in a file. Texts that are accepted although they are no plain words are written as
+/// projects, and returned.
 fn try_all(
     schema: &Schema<'_>,
     tried: Vec<Tried>,
@@ -217,7 +221,7 @@ fn try_all(
     taken
 }
 
-/// Programs in place of Yosys, nextpnr and packers; they write down how they are called.
+/// Writes programs in place of Yosys, nextpnr and packers that record their arguments.
 fn stubs(folder: &Path) -> PathBuf {
     let stub = folder.join("stub");
     let script = "#!/bin/sh\nprintf '<%s> ' \"$@\" >>called; echo >>called\n\
@@ -239,7 +243,7 @@ fn built_by_shell(written: &Written) {
         }
         command
     };
-    // A script starts some thirty programs.
+    // Only a fifth of the folders is run, because a script starts some thirty programs.
     written.run(5, shell, "called");
 }
 
@@ -256,7 +260,8 @@ fn read_by_tcl(written: &Written) {
     }
 }
 
-/// All boards have one reader, which one of them shows whole. Each family has scripts of its own.
+/// All boards have one reader, which is tested completely with one board. Each family has scripts
+/// of its own.
 #[test]
 fn no_text_of_a_board_is_run() {
     let mut taken = None;
@@ -284,7 +289,7 @@ fn no_text_of_a_board_is_run() {
     }
 }
 
-/// The page has a row for every key of a file.
+/// Checks that the page has a row for every key of a file.
 fn is_on_the_page(schema: &Schema<'_>) {
     let page = include_str!("../../../../docs/boards.md");
     let (_, rows) = page.split_once("## Files of boards and sensors").unwrap();
@@ -297,7 +302,7 @@ fn is_on_the_page(schema: &Schema<'_>) {
     }
 }
 
-/// A part is an option of nextpnr, and must be no other one.
+/// A part is an option of nextpnr, and must be no other option.
 #[test]
 fn an_option_is_no_part() {
     for (name, mut board) in boards() {
@@ -332,7 +337,7 @@ fn no_text_of_a_sensor_is_run() {
     built_by_shell(&written);
 }
 
-/// The name of a file becomes that of a bitstream, in scripts.
+/// The name of a file becomes the name of a bitstream in scripts.
 #[test]
 fn names_of_files_are_plain() {
     let dir = tempfile::tempdir().unwrap();
