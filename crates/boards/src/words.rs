@@ -18,7 +18,7 @@ enum Form {
     Word,
     /// A device, as its tool calls it.
     Part,
-    /// A line for people, in any script of the world.
+    /// A line for people, in any writing system.
     Line,
     /// The address of a page.
     Page,

@@ -6,7 +6,8 @@
 //!   tools at once.
 //! * After that, the first signal only makes a request. The command then keeps what is done, and
 //!   ends by itself.
-//! * A further signal ends the command at once, unless it repeats the first one for another sender.
+//! * A further signal ends the command at once, unless it is a repetition of the first one by
+//!   another sender.
 
 use std::io;
 use std::sync::atomic::{AtomicBool, Ordering};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The test of the page `docs/commands.md`, which shows the command line as clap sees it, in
-//! Markdown. It fails if the page is not current; `FOVEATE_WRITE_PAGES=1 cargo test -p foveate
-//! commands_page` writes the page.
+//! Markdown. It fails if the page is not current.
+//! `FOVEATE_WRITE_PAGES=1 cargo test -p foveate commands_page` writes the page.
 
 use super::Cli;
 use clap::{Arg, Command, CommandFactory};

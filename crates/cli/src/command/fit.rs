@@ -59,8 +59,8 @@ pub(crate) fn run(args: &FitArgs) -> Result<(), CliError> {
     verdict(&found)
 }
 
-/// Returns an error, which sets the exit code, if the design is not confirmed or the input
-/// incomplete.
+/// Fails, with exit code 1, if the input was not read completely, if no design meets all limits, or
+/// if the second half of the clips does not confirm the design.
 fn verdict(found: &Fit) -> Result<(), CliError> {
     if !found.problems.is_empty() {
         return Err(CliError::Failed(format!(

@@ -142,7 +142,7 @@ fn the_instance_of_the_readme_fits_the_core() {
     }
 }
 
-/// No picture makes a region of this design active. `generate` warns about that, and the benches do
+/// No frame makes a region of this design active. `generate` warns about that, and the benches do
 /// not pass.
 #[test]
 fn a_core_whose_vectors_show_too_little_never_passes() {

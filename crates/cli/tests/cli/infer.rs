@@ -109,8 +109,8 @@ fn quantized_networks_keep_bytes() {
     let needed = |mode| {
         let found = run(dir.path(), QUANTIZED, "5", &["--mode", mode, "--reference"]);
         assert_eq!(found["error"]["different_frames"], 0);
-        // The kept tensors are the input picture, its quantized form, four layers of 8 bits, and
-        // two floating-point tensors.
+        // The kept tensors are the input frame, its quantized form, four layers of 8 bits, and two
+        // floating-point tensors.
         assert_eq!(found["kept_bytes"], 224 * 224 * (4 + 1 + 3 * 12 + 1 + 4 + 4));
         found["macs"]["needed"].as_f64().unwrap()
     };

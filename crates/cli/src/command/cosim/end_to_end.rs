@@ -124,9 +124,9 @@ fn simulation(args: &CosimArgs, config: &Config) -> Result<Simulation, CliError>
     Ok(Simulation::new(config, open(&args.inputs, &config.camera, &input)?)?)
 }
 
-/// Returns the number of the receiver's arrays and pictures, and the names of those that differ
-/// from the model's. A picture that only the model has counts and differs, too. Scores are in the
-/// model's folder alone, because packets have none, and are not compared.
+/// Returns the number of compared arrays and pictures, and the names of those that differ from the
+/// model's. A picture that only one of the two has counts and differs, too. Only the receiver's
+/// arrays are compared: the model also has scores, which packets do not carry.
 fn differences(received: &Path, simulated: &Path) -> Result<(usize, Vec<String>), CliError> {
     let arrays = names(received)?.into_iter().filter(|name| name.ends_with(".npy"));
     let pictures = [received, simulated].map(|folder| names(&folder.join("rendered")));
