@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Milliseconds per frame: `cargo run --release -p foveate-ideal --example ideal_speed`.
+//! Prints the time per frame of the ideal camera in milliseconds:
+//! `cargo run --release -p foveate-ideal --example ideal_speed`.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a measurement at a terminal")]
 
 use std::time::Instant;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ideal camera: one whole frame at a time.
+//! The ideal camera, which takes one whole frame at a time.
 
 use foveate_camera::Action;
 use foveate_camera::{Camera, Filter, Payload};
@@ -14,10 +14,10 @@ use crate::plane::Plane;
 use crate::rules::Rules;
 use crate::{IdealError, IdealOutcome};
 
-/// A camera that computes what the contract says in real numbers.
+/// A camera that computes the contract in real numbers.
 ///
-/// It ignores neighborhood (windows always see the whole frame, `shared`) and fraction bits of the mean
-/// (it is the real mean).
+/// It ignores the neighborhood of the configuration (every window sees the whole frame, as with
+/// `shared`) and the fraction bits of the mean (it uses the real mean).
 #[derive(Clone, Debug)]
 pub struct IdealCamera {
     camera: Camera,
@@ -33,7 +33,7 @@ pub struct IdealCamera {
 }
 
 impl IdealCamera {
-    /// A camera that has seen nothing yet.
+    /// Creates a camera before its first frame.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let grid = Grid::of(camera);
@@ -52,19 +52,20 @@ impl IdealCamera {
         }
     }
 
-    /// The camera, as it was given.
+    /// Returns the camera's configuration as it was given.
     #[must_use]
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    /// What the last frame has led to; after none or a reset what is left of it says nothing.
+    /// Returns the outcome of the last frame. It has no meaning before the first frame and after a
+    /// reset.
     #[must_use]
     pub fn outcome(&self) -> &IdealOutcome {
         &self.outcome
     }
 
-    /// Forgets every frame; the screen is black again.
+    /// Forgets every frame and makes the screen black.
     pub fn reset(&mut self) {
         self.memory.forget();
         if let Some(periphery) = &mut self.periphery {
@@ -73,10 +74,10 @@ impl IdealCamera {
         self.outcome.rendered.fill(0.0);
     }
 
-    /// Takes the next frame.
+    /// Processes the next frame.
     ///
     /// # Errors
-    /// When the frame is not of the camera's size and depth; nothing has changed then.
+    /// Fails if the frame does not have the camera's size and depth; nothing has changed then.
     pub fn step(&mut self, frame: &Raster) -> Result<&IdealOutcome, IdealError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         self.raw.pad(frame.plane(), &self.grid);
@@ -131,7 +132,7 @@ impl IdealCamera {
         }
     }
 
-    /// Renders one region; the rest of the screen stays.
+    /// Renders one region and leaves the rest of the screen as it is.
     fn show(&mut self, region: usize) {
         let Self { camera, grid, raw, denoised, periphery, outcome, .. } = self;
         let payload = payload(camera, raw, denoised);
@@ -153,7 +154,7 @@ impl IdealCamera {
     }
 }
 
-/// The frame whose pixels leave.
+/// Returns the frame whose pixels are sent: denoised or raw.
 fn payload<'a>(camera: &Camera, raw: &'a Plane, denoised: &'a Plane) -> &'a Plane {
     match camera.payload() {
         Payload::Denoised => denoised,

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the ideal camera refuses.
+//! The errors of the ideal camera.
 
 use thiserror::Error;
 
-/// A frame that does not belong to the camera.
+/// An error of the ideal camera: a frame that does not fit it.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum IdealError {
-    /// A frame of another size or depth than the camera's.
+    /// The frame has another size or depth than the camera.
     #[error("the frame has {given}, but the camera takes {expected}; give it frames of that kind")]
     FrameKind {
-        /// Size and depth of the frame.
+        /// The size and depth of the frame.
         given: String,
-        /// Size and depth of the camera.
+        /// The size and depth of the camera.
         expected: String,
     },
 }

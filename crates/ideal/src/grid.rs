@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a frame is cut into regions.
+//! The division of a frame into regions.
 
 use std::ops::Range;
 
 use foveate_camera::Camera;
 
-/// Sizes in pixels and numbers of regions.
+/// The size of a frame in pixels and in regions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Grid {
-    /// Frame width without padding.
+    /// The width of the frame without padding, in pixels.
     pub(crate) width: usize,
-    /// Frame height without padding.
+    /// The height of the frame without padding, in pixels.
     pub(crate) height: usize,
-    /// Side of a region.
+    /// The side of a region in pixels.
     pub(crate) side: usize,
-    /// Regions side by side.
+    /// The number of columns of regions.
     pub(crate) columns: usize,
-    /// Regions one below the other.
+    /// The number of rows of regions.
     pub(crate) rows: usize,
 }
 
@@ -31,36 +31,38 @@ impl Grid {
         }
     }
 
-    /// Regions of a frame.
+    /// Returns the number of regions of a frame.
     pub(crate) fn regions(&self) -> usize {
         self.columns * self.rows
     }
 
-    /// Width and height of a whole number of regions.
+    /// Returns the width and height of the padded frame in pixels.
     pub(crate) fn padded(&self) -> (usize, usize) {
         (self.columns * self.side, self.rows * self.side)
     }
 
-    /// Numbers of the regions that row `y` of the padded frame goes through, from left to right.
+    /// Returns the numbers of the regions that row `y` of the padded frame crosses, from left to
+    /// right.
     pub(crate) fn across(&self, y: usize) -> Range<usize> {
         let first = y / self.side * self.columns;
         first..first + self.columns
     }
 
-    /// Columns and rows of one region in the padded frame.
+    /// Returns the columns and rows of a region in the padded frame.
     pub(crate) fn area(&self, region: usize) -> (Range<usize>, Range<usize>) {
         let (left, top) = (region % self.columns * self.side, region / self.columns * self.side);
         (left..left + self.side, top..top + self.side)
     }
 
-    /// The part of an area that is not padding.
+    /// Returns the columns and rows of a region without padding.
     pub(crate) fn seen(&self, region: usize) -> (Range<usize>, Range<usize>) {
         let (columns, rows) = self.area(region);
         (columns.start..columns.end.min(self.width), rows.start..rows.end.min(self.height))
     }
 }
 
-/// A size as an index. Lossless: `usize` has 32 bits or more on every platform that can hold a frame.
+/// Converts a size to an index. It loses nothing, because `usize` has at least 32 bits on every
+/// platform that can hold a frame.
 pub(crate) const fn index(value: u32) -> usize {
     value as usize
 }

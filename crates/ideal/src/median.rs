@@ -3,7 +3,7 @@
 
 use crate::plane::Plane;
 
-/// One line of columns, each of its three values sorted.
+/// The three values of every column of the windows of one row, sorted.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Columns {
     low: Vec<f64>,
@@ -11,8 +11,8 @@ pub(crate) struct Columns {
     high: Vec<f64>,
 }
 
-/// Filters a plane into another of the same size. Sorted columns are shared by the three windows that
-/// they lie in.
+/// Filters a plane into another plane of the same size. The three windows that contain a column
+/// share its sorted values.
 pub(crate) fn median(from: &Plane, to: &mut Plane, columns: &mut Columns) {
     for y in 0..from.height() {
         columns.sort(from.around(y));
@@ -34,8 +34,9 @@ impl Columns {
         }
     }
 
-    /// With every column sorted, four values are known to be no larger than the fifth and four no
-    /// smaller: what is left are the largest low, the middle of the middle ones and the smallest high.
+    /// Writes the medians of one row. With sorted columns, the median of nine is the median of
+    /// three values: the largest low value, the median of the middle values and the smallest high
+    /// value.
     fn medians(&self, out: &mut [f64]) {
         let len = out.len();
         let three = |list: &[f64], x: usize| (list[x], list[x + 1], list[x + 2]);
@@ -58,7 +59,7 @@ fn sorted(a: f64, b: f64, c: f64) -> (f64, f64, f64) {
     (smaller(low, c), larger(low, smaller(high, c)), larger(high, c))
 }
 
-// `f64::min` and `max` do more, for values that are no numbers; pixels always are.
+// `f64::min` and `f64::max` also handle NaN, which costs time; pixels are never NaN.
 fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
@@ -71,7 +72,7 @@ fn larger(a: f64, b: f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Minima and maxima commute with thresholds, so zeros and ones are enough.
+    /// Zeros and ones are enough, because minima and maxima commute with thresholds.
     #[test]
     fn it_is_the_fifth_of_nine() {
         for bits in 0..512_u16 {

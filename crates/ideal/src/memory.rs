@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a frame is compared with: the denoised pixels of every region as they once were.
+//! The references that a frame is compared with: the denoised pixels of every region in an earlier
+//! frame.
 
 use foveate_camera::Action;
 use foveate_camera::{Camera, Reference};
@@ -8,7 +9,7 @@ use crate::grid::Grid;
 use crate::plane::Plane;
 use crate::view::{FrameView, References};
 
-/// Keeps the reference of every region.
+/// The memory of the references of all regions.
 #[derive(Clone, Debug)]
 pub(crate) struct Memory {
     kind: Reference,
@@ -16,7 +17,7 @@ pub(crate) struct Memory {
 }
 
 impl Memory {
-    /// Of a camera that has seen nothing.
+    /// Creates the memory of a camera before its first frame: no reference is valid.
     pub(crate) fn new(camera: &Camera, grid: &Grid) -> Self {
         Self {
             kind: camera.temporal().reference,
@@ -31,12 +32,12 @@ impl Memory {
         self.references.valid.fill(false);
     }
 
-    /// A frame beside what its regions are compared with.
+    /// Pairs a frame with the references of its regions.
     pub(crate) fn before<'a>(&'a self, now: &'a Plane, grid: &'a Grid) -> FrameView<'a> {
         FrameView { grid, now, before: &self.references }
     }
 
-    /// Takes what the next frame will be compared with.
+    /// Updates the reference of a region for the next frame.
     pub(crate) fn keep(&mut self, now: &Plane, grid: &Grid, region: usize, action: Action) {
         let References { plane, valid } = &mut self.references;
         match (self.kind, action) {
@@ -48,7 +49,7 @@ impl Memory {
                 valid[region] = true;
             }
             (Reference::LastSent, Action::Hold) => {}
-            // What was sent is no longer on the screen.
+            // The screen no longer shows the pixels that were sent.
             (Reference::LastSent, Action::Blank | Action::Summarize) => valid[region] = false,
         }
     }

@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What one frame leads to.
+//! The outcome of one frame.
 
 use foveate_camera::Action;
 
 use crate::grid::Grid;
 
-/// Scores and decisions of every region, numbered row by row, and two whole frames. In the natural unit
-/// each: no score is scaled to become an integer.
+/// The scores and decisions of every region, numbered row by row, and two whole frames. Every value
+/// has its natural unit: no score is scaled to become an integer.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IdealOutcome {
-    /// Spatial relevance of every region.
+    /// The spatial relevance (SRS) of every region.
     pub srs: Vec<bool>,
-    /// Temporal relevance of every region.
+    /// The temporal relevance (TRS) of every region.
     pub trs: Vec<bool>,
-    /// Both: new pixels of the region are forwarded.
+    /// The active regions, which have both SRS and TRS; their new pixels are sent.
     pub active: Vec<bool>,
-    /// What becomes of every region on the screen.
+    /// The action that the receiver's screen takes for every region.
     pub actions: Vec<Action>,
-    /// Scores, by feature in the order of the camera and then by region: hits 0..=n for `edge` and
-    /// `corner`, grey levels for `mad`, squared grey levels for `variance`.
+    /// The scores by feature, in the order of the camera, and then by region: 0..=n hits for `edge`
+    /// and `corner`, grey levels for `mad`, squared grey levels for `variance`.
     pub scores: Vec<Vec<f64>>,
-    /// Changed pixels of every region, 0..=n; all of them where there was no valid reference.
+    /// The number of changed pixels of every region, 0..=n; n without a valid reference.
     pub changed: Vec<f64>,
-    /// The denoised frame without padding, row by row, `width * height` whole grey levels, 0..=2^P - 1.
+    /// The denoised frame without padding: `width * height` whole grey levels, 0..=2^P - 1, in
+    /// row-major order.
     pub denoised: Vec<f64>,
-    /// What is on the screen after this frame, in the same form.
+    /// The screen after this frame, in the same form as `denoised`.
     pub rendered: Vec<f64>,
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of irrelevant regions: the real means of their blocks, each as the nearest grey level. What leaves a camera
-//! are pixels of P bits here, too, so no summary is sent or left out by rounding.
+//! The summaries of irrelevant regions: the real means of their blocks, each rounded to the nearest
+//! grey level. An ideal camera also sends values of P bits, so its decision to send a summary does
+//! not depend on rounding in hardware.
 
 use std::ops::Range;
 
@@ -9,18 +10,19 @@ use foveate_camera::{Action, Camera};
 use crate::grid::{Grid, index};
 use crate::plane::Plane;
 
-/// How summaries are formed, and what every region has sent of itself last.
+/// The blocks of a periphery, and the summary that the screen shows of every region.
 #[derive(Clone, Debug)]
 pub(crate) struct Periphery {
     blocks: usize,
     side: usize,
     level: f64,
-    /// By region, while the screen shows it: the means of its blocks, row by row.
+    /// The means of the blocks of every region, row by row; `None` while the screen shows no
+    /// summary of the region.
     shown: Vec<Option<Vec<f64>>>,
 }
 
 impl Periphery {
-    /// That of a camera, if it has one.
+    /// Creates the periphery of a camera; `None` if the camera has no periphery.
     pub(crate) fn of(camera: &Camera, grid: &Grid) -> Option<Self> {
         camera.periphery().map(|own| Self {
             blocks: index(own.blocks),
@@ -34,7 +36,7 @@ impl Periphery {
         self.shown.fill(None);
     }
 
-    /// The means of a region's blocks.
+    /// Returns the means of a region's blocks.
     pub(crate) fn means(&self, payload: &Plane, grid: &Grid, region: usize) -> Vec<f64> {
         let (columns, rows) = grid.area(region);
         let starts = |along: Range<usize>| along.step_by(self.side);
@@ -50,14 +52,14 @@ impl Periphery {
         (sum / count + 0.5_f64).floor()
     }
 
-    /// Whether these means are to be sent.
+    /// Returns whether these means differ so much from the shown ones that they must be sent.
     pub(crate) fn is_due(&self, region: usize, means: &[f64]) -> bool {
         self.shown[region].as_ref().is_none_or(|shown| {
             shown.iter().zip(means).any(|(shown, mean)| (shown - mean).abs() > self.level)
         })
     }
 
-    /// What the screen shows of a region behind an action.
+    /// Updates the summary that the screen shows of a region after an action.
     pub(crate) fn follow(&mut self, region: usize, action: Action, means: Vec<f64>) {
         match action {
             Action::Forward => self.shown[region] = None,
@@ -66,7 +68,7 @@ impl Periphery {
         }
     }
 
-    /// The value that the screen shows at a place of a region whose summary it shows.
+    /// Returns the value that the screen shows at a pixel of a region whose summary it shows.
     pub(crate) fn value(&self, grid: &Grid, region: usize, (x, y): (usize, usize)) -> f64 {
         let (columns, rows) = grid.area(region);
         let block = (y - rows.start) / self.side * self.blocks + (x - columns.start) / self.side;

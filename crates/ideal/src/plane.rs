@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A padded frame of real numbers with a border of one pixel around it that repeats its last pixels,
-//! so that a 3x3 window is nine plain reads everywhere.
+//! A padded frame of real numbers with a border of one pixel that repeats the outermost pixels, so
+//! that every 3x3 window is nine plain reads.
 
 use foveate_frame::Plane as Pixels;
 
 use crate::grid::Grid;
 
-/// Values of a padded frame, in grey levels.
+/// The values of a padded frame, in grey levels.
 #[derive(Clone, Debug)]
 pub(crate) struct Plane {
     width: usize,
     height: usize,
-    /// Lines of `width + 2` values, `height + 2` of them.
+    /// The values with the border: `height + 2` lines of `width + 2` values.
     values: Vec<f64>,
 }
 
 impl Plane {
-    /// All zero.
+    /// Creates a plane of zeros.
     pub(crate) fn black(grid: &Grid) -> Self {
         let (width, height) = grid.padded();
         Self { width, height, values: vec![0.0; (width + 2) * (height + 2)] }
@@ -30,24 +30,26 @@ impl Plane {
         self.height
     }
 
-    /// A row without the border.
+    /// Returns a row without the border.
     pub(crate) fn row(&self, y: usize) -> &[f64] {
         &self.values[(y + 1) * (self.width + 2) + 1..][..self.width]
     }
 
-    /// A row without the border, to be written; [`Plane::repeat_border`] comes after the last.
+    /// Returns a row without the border for writing. Call [`Plane::repeat_border`] after the last
+    /// row.
     pub(crate) fn row_mut(&mut self, y: usize) -> &mut [f64] {
         &mut self.values[(y + 1) * (self.width + 2) + 1..][..self.width]
     }
 
-    /// The lines above, at and below row `y`, each with one value more at both ends: the window around
-    /// column `x` is at `x..x + 3`.
+    /// Returns the lines above, at and below row `y`, each with one border value at both ends. The
+    /// window around column `x` is at `x..x + 3`.
     pub(crate) fn around(&self, y: usize) -> [&[f64]; 3] {
         let stride = self.width + 2;
         [y, y + 1, y + 2].map(|line| &self.values[line * stride..][..stride])
     }
 
-    /// Takes a frame and repeats its last column and row until it is a whole number of regions.
+    /// Reads a frame, and repeats its last column and row until the frame has a whole number of
+    /// regions.
     pub(crate) fn pad(&mut self, pixels: Pixels<'_>, grid: &Grid) {
         match pixels {
             Pixels::Bytes(pixels) => self.pad_from(pixels, grid),
@@ -79,12 +81,12 @@ impl Plane {
         self.values.copy_within(last..last + stride, last + stride);
     }
 
-    /// Takes the values of a plane of the same size.
+    /// Copies the values of a plane of the same size.
     pub(crate) fn copy(&mut self, from: &Self) {
         self.values.copy_from_slice(&from.values);
     }
 
-    /// Copies the frame without its padding.
+    /// Copies the frame without its padding to `out`.
     pub(crate) fn crop_into(&self, grid: &Grid, out: &mut [f64]) {
         for (y, row) in out.chunks_exact_mut(grid.width).enumerate() {
             row.copy_from_slice(&self.row(y)[..grid.width]);

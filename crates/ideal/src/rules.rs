@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds and decisions, as the configuration writes them.
+//! The thresholds and decisions, with the decimal numbers of the configuration.
 
 use foveate_camera::Action;
 use foveate_camera::{Camera, Combine, Decimal, FeatureKind, Irrelevant};
 
-/// One feature.
+/// A spatial feature and its thresholds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Feature {
     pub(crate) kind: FeatureKind,
-    /// Per pixel, in grey levels; 0 where the feature has none.
+    /// The level of a pixel in grey levels; 0 for a feature without a level.
     pub(crate) level: f64,
-    /// Per region, in the unit of the score.
+    /// The minimum score of a region, in the unit of the score.
     min_score: f64,
 }
 
-/// When a region is relevant, and what becomes of it.
+/// The rules that decide the relevance of a region and its action on the screen.
 #[derive(Clone, Debug)]
 pub(crate) struct Rules {
     pub(crate) features: Vec<Feature>,
     combine: Combine,
-    /// A pixel has changed when it differs by more grey levels than this.
+    /// The temporal level: a pixel has changed if it differs by more grey levels than this.
     pub(crate) level: f64,
     min_count: f64,
     irrelevant: Irrelevant,
@@ -29,7 +29,7 @@ impl Rules {
     pub(crate) fn of(camera: &Camera) -> Self {
         let feature = |entry: &foveate_camera::SpatialConfig| Feature {
             kind: entry.feature,
-            // A feature that counts no hits does not ask for it.
+            // A feature that counts no hits does not use its level.
             level: f64::from(entry.level.unwrap_or(0)),
             min_score: real(entry.min_score.expect("a camera has every key filled in")),
         };
@@ -42,7 +42,7 @@ impl Rules {
         }
     }
 
-    /// SRS of a region from its scores by feature.
+    /// Returns the SRS of a region from its scores of all features.
     pub(crate) fn spatial(&self, scores: &[Vec<f64>], region: usize) -> bool {
         let mut votes =
             self.features.iter().zip(scores).map(|(rule, all)| all[region] >= rule.min_score);
@@ -52,12 +52,13 @@ impl Rules {
         }
     }
 
-    /// TRS of a region from its changed pixels.
+    /// Returns the TRS of a region from its number of changed pixels.
     pub(crate) fn temporal(&self, changed: f64) -> bool {
         changed >= self.min_count
     }
 
-    /// What becomes of a region on the screen; `is_summary_due` is asked only where irrelevant regions send their means.
+    /// Returns the action for a region. It calls `is_summary_due` only where irrelevant regions
+    /// send their means.
     pub(crate) fn action(
         &self,
         srs: bool,
@@ -74,7 +75,7 @@ impl Rules {
     }
 }
 
-/// The nearest `f64`; a decimal prints as digits that are one.
+/// Returns the nearest `f64`. Every decimal is printed with digits that parse as a number.
 fn real(decimal: Decimal) -> f64 {
     decimal.to_string().parse().expect("a decimal is written as a number")
 }

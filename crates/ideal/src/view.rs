@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What there is to see of a frame: what stands in its regions now, and what stood there before. Every score takes
-//! this, so that a new one can look at all of it.
+//! The view of a frame that every score gets: the denoised pixels, and the references of the
+//! regions. A new score can use all of it.
 
 use crate::grid::Grid;
 use crate::plane::Plane;
 
-/// What there is to see of a frame.
+/// A denoised frame and the references that it is compared with.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct FrameView<'a> {
     pub(crate) grid: &'a Grid,
     /// The denoised frame.
     pub(crate) now: &'a Plane,
-    /// What its regions are compared with.
+    /// The references of its regions.
     pub(crate) before: &'a References,
 }
 
 /// The reference of every region.
 #[derive(Clone, Debug)]
 pub(crate) struct References {
-    /// Their pixels, in their places; nothing is repeated around them.
+    /// The pixels of the references at the positions of their regions; the border is not filled.
     pub(crate) plane: Plane,
-    /// Which regions have a valid one.
+    /// Whether each region has a valid reference.
     pub(crate) valid: Vec<bool>,
 }

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The temporal score: how many pixels differ from the reference of their region by more than a level.
+//! The temporal score: the number of pixels of a region that differ from its reference by more than
+//! a level.
 
 use super::{Scratch, add_up, pixels_of};
 use crate::view::FrameView;
 
-/// Changed pixels of every region; all of them where there is no valid reference.
+/// Counts the changed pixels of every region. A region without a valid reference counts all its
+/// pixels.
 pub(crate) fn changed(level: f64, view: &FrameView, scratch: &mut Scratch, changed: &mut [f64]) {
     let FrameView { grid, now, before } = *view;
     let [hits, ..] = &mut scratch.lines;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `corner`: FAST 5/8, how many pixels have five contiguous neighbors on the ring of eight that are all
-//! brighter than `p + level`, or all darker than `p - level`.
+//! `corner` (FAST 5/8): the number of pixels that have at least five contiguous neighbors on the
+//! ring of eight that are all brighter than `p + level`, or all darker than `p - level`.
 
 use super::{Scratch, add_up};
 use crate::view::FrameView;
@@ -19,7 +19,8 @@ pub(super) fn score(level: f64, view: &FrameView, scratch: &mut Scratch, scores:
     }
 }
 
-/// Clockwise from the upper left, a bit per neighbor.
+/// Returns whether the pixel at column `x` is a corner. The ring starts at the upper left and goes
+/// clockwise, with one bit per neighbor.
 #[inline(always)]
 fn is_corner([above, own, below]: [&[f64]; 3], x: usize, level: f64) -> bool {
     let ring = [
@@ -41,7 +42,7 @@ fn is_corner([above, own, below]: [&[f64]; 3], x: usize, level: f64) -> bool {
     has_arc(brighter) || has_arc(darker)
 }
 
-/// Whether five bits in a row are set, around the end too.
+/// Returns whether at least five contiguous bits are set; bit 0 and bit 7 are neighbors.
 fn has_arc(ring: u8) -> bool {
     let two = ring & ring.rotate_left(1);
     let four = two & two.rotate_left(2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `edge`: how many pixels have a 3x3 Sobel magnitude |Gx| + |Gy| above a level.
+//! `edge`: the number of pixels with a 3x3 Sobel magnitude |Gx| + |Gy| above a level.
 //!
 //! ```text
 //!      -1  0 +1          -1 -2 -1
@@ -10,8 +10,8 @@
 use super::{Scratch, add_up};
 use crate::view::FrameView;
 
-/// Both filters are a smoothing along one axis and a difference along the other; the vertical part is
-/// done once per column.
+/// Counts the hits of every region. Each filter is a smoothing along one axis and a difference
+/// along the other, so the vertical part is computed once per column.
 pub(super) fn score(level: f64, view: &FrameView, scratch: &mut Scratch, scores: &mut [f64]) {
     let FrameView { grid, now: plane, .. } = *view;
     let [smooth, slope, hits] = &mut scratch.lines;

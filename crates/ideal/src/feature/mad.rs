@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! `mad`: the mean absolute deviation from the region's real mean, in grey levels.
 //!
-//! With S the sum of the n pixels it is `sum |x - S/n| / n = sum |n x - S| / n^2`. Everything in front of
-//! the division is a whole number below 2^53, so the one rounding is that of the division.
+//! With the sum S of the n pixels it is `sum |x - S/n| / n = sum |n x - S| / n^2`. Every value
+//! before the division is a whole number below 2^53, so only the division rounds.
 
 use super::{Scratch, pixel_sums, pixels_of};
 use crate::view::FrameView;

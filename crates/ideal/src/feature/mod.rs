@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The scores: one per region of a denoised frame for each spatial feature, in natural units, and the temporal one.
+//! The scores of a frame: one per region and spatial feature, in natural units, and the temporal
+//! score.
 
 mod change;
 mod corner;
@@ -15,15 +16,15 @@ use crate::view::FrameView;
 
 pub(crate) use change::changed;
 
-/// Lines and regions of numbers that are used again.
+/// Reused buffers for lines of values and for values per region.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Scratch {
     lines: [Vec<f64>; 3],
     regions: [Vec<f64>; 2],
 }
 
-/// Scores every region: hits for `edge` and `corner`, grey levels for `mad`, their squares for
-/// `variance`. `level` is for those that count hits.
+/// Scores every region: a number of hits for `edge` and `corner`, grey levels for `mad`, squared
+/// grey levels for `variance`. Only features that count hits use `level`.
 pub(crate) fn score(
     (kind, level): (FeatureKind, f64),
     view: &FrameView,
@@ -38,14 +39,14 @@ pub(crate) fn score(
     }
 }
 
-/// Adds the values of one row to the sums of the regions that it goes through.
+/// Adds the values of one row to the sums of the regions that the row crosses.
 fn add_up(values: &[f64], side: usize, sums: &mut [f64]) {
     for (part, sum) in values.chunks_exact(side).zip(sums) {
         *sum += part.iter().sum::<f64>();
     }
 }
 
-/// Sum of the pixels of every region.
+/// Sums the pixels of every region.
 fn pixel_sums(plane: &Plane, grid: &Grid, sums: &mut Vec<f64>) {
     sums.clear();
     sums.resize(grid.regions(), 0.0);
@@ -54,7 +55,7 @@ fn pixel_sums(plane: &Plane, grid: &Grid, sums: &mut Vec<f64>) {
     }
 }
 
-/// Pixels of a region, n.
+/// Returns n, the number of pixels of a region.
 fn pixels_of(grid: &Grid) -> f64 {
     let side = f64::from(u32::try_from(grid.side).expect("a region is at most 64 pixels wide"));
     side * side

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scores that a person can check.
+//! Scores that a person can check by hand.
 
 use foveate_camera::Action;
 use foveate_camera::{
@@ -8,7 +8,8 @@ use foveate_camera::{
 use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealError, IdealOutcome};
 
-/// All four features without a filter, in the order of the list of features.
+/// Returns a configuration with all four features, in the order of `FeatureKind::ALL`, and without
+/// a filter.
 fn config(width: u32, height: u32, side: u32) -> CameraConfig {
     let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
@@ -39,7 +40,8 @@ fn a_constant_frame_scores_nothing() {
     assert_eq!((outcome.denoised, outcome.rendered), (vec![77.0; 260], vec![0.0; 260]));
 }
 
-/// Left half 0, right half 30: at the two columns beside the step |Gx| = 4 * 30 > 100.
+/// The left half is 0 and the right half 30, so |Gx| = 4 * 30 > 100 at the two columns next to the
+/// step.
 #[test]
 fn a_step_is_an_edge_two_pixels_wide() {
     let outcome = seen(&config(16, 8, 8), |x, _| if x < 8 { 0 } else { 30 });
@@ -49,13 +51,13 @@ fn a_step_is_an_edge_two_pixels_wide() {
         (&outcome.scores[2][..], &outcome.scores[3][..]),
         (&[0.0, 0.0][..], &[0.0, 0.0][..])
     );
-    // Inside of one region: half of the pixels 15 above the mean, half below.
+    // The step lies inside one region: half of the pixels are 15 above the mean, half 15 below.
     let outcome = seen(&config(8, 8, 8), |x, _| if x < 4 { 0 } else { 30 });
     let scores: Vec<f64> = outcome.scores.iter().map(|scores| scores[0]).collect();
     assert_eq!(scores, [16.0, 0.0, 15.0, 225.0]);
 }
 
-/// Whatever the neighborhood and the fraction bits of the camera say.
+/// The ideal camera ignores the neighborhood and the fraction bits of the configuration.
 #[test]
 fn hardware_does_not_matter() {
     let mut isolated = config(24, 16, 8);
@@ -67,15 +69,17 @@ fn hardware_does_not_matter() {
     assert_eq!(seen(&isolated, pixel), seen(&shared, pixel));
 }
 
-/// A checkerboard of 0 and 200: mean 100, every pixel 100 from it, variance 10 000.
+/// The checkerboard of 0 and 200 has mean 100; every pixel is 100 away from it, and the variance is
+/// 10,000.
 #[test]
 fn a_checkerboard_has_the_variance_of_its_swing() {
     let pixel = |x: u32, y: u32| if (x + y).is_multiple_of(2) { 0 } else { 200 };
     let outcome = seen(&config(8, 8, 8), pixel);
     assert_eq!((outcome.scores[2][0], outcome.scores[3][0]), (100.0, 10_000.0));
-    // Inside, Gx and Gy are 0. At the border the window repeats a line: |G| = 0 along a side, too.
+    // Inside the region Gx and Gy are 0. At the border the window repeats a line, so |G| is 0 along
+    // a side, too.
     assert_eq!(outcome.scores[1][0], 0.0, "neighbors alternate");
-    // 3x3 pixels, five of them 0: the mean is 800/9, no binary fraction.
+    // Of these 3x3 pixels five are 0: the mean is 800/9, which is no binary fraction.
     let outcome = seen(&config(3, 3, 3), pixel);
     let (mean, n) = (800.0 / 9.0, 9.0);
     let mad = (5.0 * mean + 4.0 * (200.0 - mean)) / n;
@@ -95,7 +99,7 @@ fn a_bright_pixel_is_five_of_eight_for_itself_only() {
     assert_eq!((outcome.scores[1][0], outcome.denoised), (0.0, vec![0.0; 81]));
 }
 
-/// A decimal minimum is taken as it is written, at the score and just above it.
+/// A decimal minimum is compared exactly: the first equals the score, the second is just above it.
 #[test]
 fn thresholds_are_those_of_the_configuration() {
     for (minimum, srs) in [(1.5, true), (1.6, false)] {

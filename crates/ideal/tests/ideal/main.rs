@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ideal camera, by hand and against the functional model.
+//! Tests of the ideal camera, by hand and against the functional model.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod by_hand;

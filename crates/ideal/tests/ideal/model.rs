@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ideal camera against the functional model: the same wherever the model does not round.
+//! The ideal camera against the functional model: they agree wherever the model does not round.
 #![allow(clippy::cast_precision_loss, reason = "scores are below 2^53, or compared within 1e-12")]
 
 use crate::recipe;
@@ -11,7 +11,7 @@ use foveate_ideal::{IdealCamera, IdealOutcome};
 use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use proptest::prelude::*;
 
-/// A score of the model in the unit of the ideal camera.
+/// Converts a score of the model to the unit of the ideal camera.
 fn natural(camera: &Camera, feature: usize, score: u64) -> f64 {
     let n = f64::from(camera.region_pixels());
     let feature = &camera.features()[feature];
@@ -58,13 +58,13 @@ fn check_exact(camera: &Camera, frames: &[Frame]) {
             for (feature, (own, other)) in ideal.scores.iter().zip(&model.scores).enumerate() {
                 for (&own, &score) in own.iter().zip(other) {
                     let expected = natural(camera, feature, score);
-                    // Above 2^53 the yardstick itself has to round.
+                    // Above 2^53 the ideal camera itself has to round.
                     let near = score >= 1 << 53 && (own - expected).abs() <= expected * 1e-12;
                     assert!(own == expected || near, "{own} for {expected}, {context}");
                 }
             }
         }
-        // A reset forgets everything.
+        // A reset forgets every frame.
         ideal.reset();
         model.reset();
     }
@@ -73,8 +73,8 @@ fn check_exact(camera: &Camera, frames: &[Frame]) {
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(300))]
 
-    /// Shared windows, sides that are powers of two and a mean of log2 n fraction bits: nothing rounds.
-    /// Without `mad` any side does.
+    /// Nothing rounds with shared windows, sides that are powers of two, and a mean of log2 n
+    /// fraction bits. Without `mad` nothing rounds for any side.
     #[test]
     fn it_equals_the_model_where_nothing_is_rounded(
         (camera, seed, script) in cameras(false).prop_flat_map(with_script),
@@ -82,9 +82,9 @@ proptest! {
         check_exact(&camera, &film(&camera, seed, &script));
     }
 
-    /// The model's mean is `floor(v + h)` quanta of 2^-f for the real mean v, a multiple of 1/n, and
-    /// h = floor(n/2)/n; so it is off by at most h of them. A mean that is off by e moves every |x - mean|
-    /// and with that their mean by at most e.
+    /// The model's mean is `floor(v + h)` quanta of 2^-f for the real mean v, a multiple of 1/n,
+    /// with h = floor(n/2)/n. So it is off by at most h quanta. A mean that is off by e moves every
+    /// |x - mean|, and with them their mean, by at most e.
     #[test]
     fn mad_is_off_by_no_more_than_its_mean(
         (camera, seed, script) in cameras(true).prop_flat_map(with_script),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random cameras and films.
+//! Random cameras and clips.
 
 use foveate_camera::{
     Camera, CameraConfig, Combine, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
@@ -9,7 +9,7 @@ use foveate_frame::Frame;
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// How every frame comes from the one before.
+/// The changes that make each frame of a clip from the one before.
 pub(crate) type Script = Vec<Change>;
 
 #[derive(Clone, Copy, Debug)]
@@ -19,7 +19,7 @@ pub(crate) enum Change {
     Flat,
     Binary,
     Fade,
-    /// A square anew, with its corner at this pixel, modulo the size.
+    /// A square of new noise, with its corner at this pixel modulo the size of the frame.
     Patch(u32, u32),
 }
 
@@ -35,8 +35,9 @@ pub(crate) fn scripts() -> impl Strategy<Value = Script> {
     proptest::collection::vec(change, 2..7)
 }
 
-/// Designs with shared windows. Rounded ones have `mad` with any fraction bits and odd sides too; of the
-/// others, those with `mad` have sides that are powers of two and a mean that is exact.
+/// Returns cameras with shared windows. With `rounded` they may have `mad` with any fraction bits,
+/// and odd sides. Without it, cameras with `mad` have a side that is a power of two and an exact
+/// mean.
 pub(crate) fn cameras(rounded: bool) -> impl Strategy<Value = Camera> {
     let sides =
         if rounded { vec![2, 3, 4, 5, 7, 8, 9] } else { vec![2, 3, 4, 6, 7, 8, 16, 32, 64] };
@@ -96,7 +97,7 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrat
     };
     let log2 = (0_u32..).find(|bits| 1 << bits >= n).unwrap();
     let fraction = if rounded { 0..=log2 } else { log2..=log2 };
-    // Grey levels with two digits after the point.
+    // Minima in grey levels have two digits after the decimal point.
     let decimal = move |whole: u32, part: u32| {
         let value = f64::from(whole) + f64::from(part % unit) / 100.0;
         Decimal::from_f64((value * 100.0).round() / 100.0)
@@ -111,7 +112,7 @@ fn feature(kind: FeatureKind, side: u32, bits: u32, rounded: bool) -> BoxedStrat
         .boxed()
 }
 
-/// The frames of a script; the first is noise.
+/// Makes the clip of a script; its first frame is noise.
 pub(crate) fn film(camera: &Camera, seed: u64, script: &[Change]) -> Vec<Frame> {
     let mut state = seed | 1;
     let max = u16::try_from(camera.pixel_max()).unwrap();
