@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames of a run in memory, because tuning sees them many times.
+//! The frames of a run in memory, because tuning runs the network on them many times.
 
 use crate::InferenceError;
 use crate::camera::{Kept, Seen};
 use crate::clips::Audience;
 
-/// Bytes of pictures that are kept.
+/// The most bytes of frames that are kept in memory.
 const MAX_BYTES: usize = 4 << 30;
 
 #[derive(Debug, Default)]
@@ -15,13 +15,13 @@ pub(crate) struct Album {
     frames: usize,
 }
 
-/// A clip or set.
+/// A clip or data set whose frames are kept.
 #[derive(Debug)]
 struct Filmed {
     name: String,
     black: Option<Vec<f32>>,
     frames: Vec<Kept>,
-    /// Why frames are missing, if some are.
+    /// The reason for missing frames, if some are missing.
     problem: Option<String>,
 }
 
@@ -31,17 +31,19 @@ impl Filmed {
     }
 }
 
-/// Frames of one clip that follow each other, or some of a set.
+/// Consecutive frames of one clip, or some frames of a data set.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Part<'a> {
     pub(crate) clip: &'a str,
-    /// The picture before every image of a set.
+    /// The network's input for a black screen, from which every frame of a data set starts; `None`
+    /// for a clip.
     pub(crate) black: Option<&'a [f32]>,
     pub(crate) frames: &'a [Kept],
 }
 
 impl Part<'_> {
-    /// Frames that count: all of a set, of a clip all but the first.
+    /// Returns the number of counted frames: all frames of a data set, and all frames of a clip but
+    /// the first.
     fn counted(&self) -> usize {
         if self.black.is_some() { self.frames.len() } else { self.frames.len().saturating_sub(1) }
     }
@@ -73,14 +75,15 @@ impl Album {
         self.frames as u64
     }
 
-    /// Why frames of clips are missing, where some are.
+    /// Returns the names of clips with missing frames, each with the reason.
     pub(crate) fn problems(&self) -> Vec<(String, String)> {
         let of = |clip: &Filmed| Some((clip.name.clone(), clip.problem.clone()?));
         self.clips.iter().filter_map(of).collect()
     }
 
-    /// What a run of so many clips is tuned on: every clip that is here. Of the only clip it is the first half of the frames, and the second
-    /// half is what is left.
+    /// Returns the frames that a run over `clips` clips is tuned on: all clips that are kept. A
+    /// single clip is split: its first half is tuned on, and its second half is returned to be
+    /// reported.
     pub(crate) fn parts(
         &self,
         clips: usize,
@@ -96,10 +99,10 @@ impl Album {
         Ok((parts, None))
     }
 
-    /// Both halves of the only clip, each with at least one frame that counts.
+    /// Returns both halves of the only clip, each with at least one counted frame.
     fn halves(&self) -> Result<[Part<'_>; 2], InferenceError> {
         let clip = self.clips.first().expect("a clip has begun");
-        // The first frame of each half of a clip does not count.
+        // The first frame of each half of a clip is not counted.
         let least = if clip.black.is_some() { 2 } else { 4 };
         if self.frames < least {
             return Err(InferenceError::TooShort { frames: self.frames, least });

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network on arrays of files instead of frames, so that it can be compared with other programs without a camera.
+//! A network that runs on arrays from files in place of frames, so that it can be compared with
+//! other programs without a camera.
 
 use crate::InferenceError;
 use crate::inference::INFERENCE;
@@ -11,38 +12,39 @@ use foveate_staging::{StagedFolder, StagingError};
 use serde::Serialize;
 use std::path::{Path, PathBuf};
 
-/// A network that ran on arrays.
+/// The result of a network that ran on arrays.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArraySummary {
-    /// The file of the network.
+    /// The network's file.
     pub network: PathBuf,
-    /// The arrays for the inputs, in the order of the model.
+    /// The arrays of the inputs, in the order of the model.
     pub inputs: Vec<ArrayFile>,
     /// The arrays of the outputs, in the order of the model.
     pub outputs: Vec<ArrayFile>,
-    /// Multiplications and additions.
+    /// The number of multiplications and additions.
     pub macs: u64,
-    /// Bytes of all weights.
+    /// The size of all weights in bytes.
     pub weight_bytes: u64,
-    /// Seconds of the computation, without those of reading.
+    /// The time of the computation in seconds, without the time of reading.
     pub seconds: f64,
 }
 
 /// An array and its file.
 #[derive(Clone, Debug, Serialize)]
 pub struct ArrayFile {
-    /// The name of an output in the model; none for an input.
+    /// The name of an output in the model; `None` for an input.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
-    /// Type of a value, as NumPy calls it.
+    /// The type of a value, with NumPy's name.
     pub dtype: &'static str,
     /// The length of every axis.
     pub shape: Vec<usize>,
-    /// The file; of an output in the folder that is written.
+    /// The path of the file; for an output, relative to the folder that is written.
     pub file: String,
 }
 
-/// Types that an array and a tensor of ONNX have: NumPy's in a file, its name, and that of ONNX.
+/// The types that both arrays and ONNX tensors have: NumPy's code in a file, NumPy's name, and
+/// ONNX's number.
 const TYPES: [(&str, &str, i32); 8] = [
     ("<f4", "float32", data_type::FLOAT),
     ("<f2", "float16", data_type::FLOAT16),
@@ -54,17 +56,19 @@ const TYPES: [(&str, &str, i32); 8] = [
     ("|b1", "bool", data_type::BOOL),
 ];
 
-/// Whether an input is an array by the end of its name.
+/// Returns whether a path names a NumPy array, by its extension.
 #[must_use]
 pub fn is_array(path: &Path) -> bool {
     path.extension().is_some_and(|extension| extension.eq_ignore_ascii_case("npy"))
 }
 
-/// Runs a network once on arrays, one for each of its inputs in their order, and writes its outputs as arrays into the folder `output`, which
-/// appears when everything is written. Nothing is subtracted or scaled. Floating-point outputs are of 32 bits.
+/// Runs a network once on arrays, one for each of its inputs in their order, and writes its outputs
+/// as arrays to the folder `output`, which appears when everything is written. Nothing is
+/// subtracted or scaled. Floating-point outputs have 32 bits.
 ///
 /// # Errors
-/// When an array or the network cannot be read, an array has another type or shape than its input, or the folder cannot be written.
+/// Fails if an array or the network cannot be read, an array has another type or shape than its
+/// input, or the folder cannot be written.
 pub fn infer_arrays(
     network: &Path,
     arrays: &[PathBuf],
@@ -91,7 +95,7 @@ pub fn infer_arrays(
     Ok(summary)
 }
 
-/// The type of an array, if ONNX has it.
+/// Returns the entry of `TYPES` for an array.
 fn type_of(
     path: &Path,
     array: &NpyArray,
@@ -119,7 +123,7 @@ fn tensor(array: NpyArray, kind: i32) -> TensorProto {
     }
 }
 
-/// Writes all outputs.
+/// Writes all outputs to files.
 fn write(
     staging: &StagedFolder,
     outputs: Vec<(String, TensorProto)>,

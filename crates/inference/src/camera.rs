@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the network sees: the rendered frames of a design, and where each differs from the one before.
+//! The camera in front of the network: it renders the frames of a design and marks where each
+//! differs from the one before.
 
 use crate::InferenceError;
 use foveate_design::Design;
@@ -9,66 +10,70 @@ use foveate_frame::Rect;
 use foveate_network::Mask;
 use foveate_network::sight::{Frames, Picture, Witness};
 
-/// A design with a receiver behind it.
+/// A design's engine and the receiver's screen behind it.
 pub(crate) struct Camera {
     engine: Engine,
     picture: Picture,
-    /// From which every image of a set begins.
+    /// The black screen from which every frame of a data set starts; `None` for a clip.
     black: Option<Picture>,
-    /// Whether the network is to see the frames as they were before the camera, too.
+    /// Whether the network also runs on the frames before the camera.
     with_originals: bool,
-    /// The last of these.
+    /// The last frame before the camera, with its objects.
     original: Option<KeptOriginal>,
-    /// Frames so far.
+    /// The number of frames so far.
     frames: u64,
-    /// The outcome of the frames that the network has not seen, up to the next one that it sees.
+    /// The outcome since the last frame that the network saw, including the next frame that it
+    /// sees.
     passed: CameraTally,
 }
 
-/// Frames of a camera, and the values of P bits that it sends for them: pixels and means.
+/// A number of camera frames, and of the values of P bits (pixels and means) that the camera sent
+/// for them.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct SentCount {
     pub(crate) frames: u64,
     pub(crate) values: u64,
 }
 
-/// The outcome of a frame in the camera.
+/// The outcome of some frames in the camera.
 #[derive(Clone, Copy, Debug, Default)]
 struct CameraTally {
     sent: SentCount,
     active_regions: u64,
 }
 
-/// What a network is shown.
+/// The camera and the network of a run.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Shown<'a> {
     pub(crate) design: &'a Design,
     pub(crate) witness: &'a Witness,
-    /// Whether it is to see the frames as they were before the camera, too.
+    /// Whether the network also runs on the frames before the camera.
     pub(crate) with_originals: bool,
 }
 
 /// A frame as the network sees it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seen<'a> {
-    /// From 0.
+    /// The frame's number in its clip, from 0.
     pub(crate) number: u64,
     pub(crate) name: &'a str,
     pub(crate) time_us: u64,
     pub(crate) values: &'a [f32],
     pub(crate) changed: &'a Mask,
-    /// Since the frame before that the network saw, over all frames of the camera.
+    /// The number of active regions, summed over all camera frames since the last frame that the
+    /// network saw.
     pub(crate) active_regions: u64,
-    /// Beside that frame.
+    /// The number of regions whose rendered pixels differ from those of the last frame that the
+    /// network saw.
     pub(crate) changed_regions: u64,
-    /// Since that frame.
+    /// The frames and values that the camera sent since the last frame that the network saw.
     pub(crate) sent: SentCount,
-    /// What is on the receiver's screen.
+    /// The receiver's screen, one word per pixel.
     pub(crate) screen: &'a [u16],
     pub(crate) original: Option<Original<'a>>,
 }
 
-/// A frame as it was before the camera.
+/// A frame before the camera, and its ground-truth objects if they are known.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Original<'a> {
     pub(crate) frame: &'a [u16],
@@ -76,14 +81,14 @@ pub(crate) struct Original<'a> {
 }
 
 impl Seen<'_> {
-    /// Bytes of its pictures.
+    /// Returns the size of the frame's pixels and inputs in bytes.
     pub(crate) fn bytes(&self) -> usize {
         let original = self.original.map_or(0, |original| size_of_val(original.frame));
         size_of_val(self.values) + size_of_val(self.screen) + original
     }
 }
 
-/// The frames of a camera, as a network is shown them.
+/// Returns the size, depth and regions of a camera's frames, as a network needs them.
 #[must_use]
 pub fn frames_of(camera: &foveate_design::Camera) -> Frames {
     Frames {
@@ -111,7 +116,7 @@ impl Camera {
         }
     }
 
-    /// The picture before the first frame.
+    /// Returns the network's input for a black screen, if the frames are those of a data set.
     pub(crate) fn black(&self) -> Option<&[f32]> {
         self.black.as_ref().map(|picture| &picture.values[..])
     }
@@ -131,7 +136,8 @@ impl Camera {
         Ok(())
     }
 
-    /// Shows the design another frame, in which there may be known objects.
+    /// Shows the design another frame, and returns it as the network sees it, with its ground-truth
+    /// objects if they are known.
     pub(crate) fn see<'a>(
         &'a mut self,
         frame: &'a SourceFrame,
@@ -160,7 +166,7 @@ impl Camera {
     }
 }
 
-/// A frame that is kept.
+/// A frame as the network saw it, kept in memory.
 #[derive(Clone, Debug)]
 pub(crate) struct Kept {
     number: u64,
@@ -175,7 +181,7 @@ pub(crate) struct Kept {
     original: Option<KeptOriginal>,
 }
 
-/// A frame that is kept as it was before the camera.
+/// A frame before the camera, kept in memory.
 #[derive(Clone, Debug)]
 struct KeptOriginal {
     frame: Vec<u16>,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The charts of a run: what is needed along the network's depth and over the frames, what frames save, and what tuning could choose between.
+//! The charts of a run: the needed share over the network's depth and over the frames, the savings
+//! of each frame, and the trials of tuning.
 
 use crate::Layer;
 use crate::facts::Attempt;
@@ -7,38 +8,38 @@ use crate::frame::Frame;
 use crate::summary::{Summary, Tuning};
 use foveate_pictures::chart::{Chart, Line, Look, Shape};
 
-/// A chart, and what each point of each line belongs to.
+/// A chart, and the id of every point of its lines.
 pub(crate) struct Drawn {
     pub(crate) chart: Chart,
     pub(crate) ids: Vec<Vec<String>>,
 }
 
-/// A line whose points belong to something.
+/// A line of a chart with an id per point.
 struct Series {
     name: String,
     look: Look,
     points: Vec<(String, (f64, f64))>,
 }
 
-/// Clips that a chart shows apart.
+/// The largest number of clips that a chart tells apart by colour.
 const COLOURS: usize = 7;
 
-/// What a layer is called among the points.
+/// Returns the id of the points of a layer.
 pub(crate) fn layer_id(layer: usize) -> String {
     format!("l{layer}")
 }
 
-/// What a frame is called among the points, by its place.
+/// Returns the id of the points of a frame, from its place among all frames.
 pub(crate) fn frame_id(place: u64) -> String {
     format!("f{place}")
 }
 
-/// Everything that tuning tried in the order of its table, with its name among the points.
+/// Returns all trials of tuning in the order of their table, each with the id of its point.
 pub(crate) fn tried(tuning: &Tuning) -> Vec<(String, Attempt)> {
     tuning.tried().enumerate().map(|(at, attempt)| (format!("t{at}"), attempt)).collect()
 }
 
-/// All charts of counted frames: those in the files, and those on the page.
+/// Draws all charts of the counted frames, for the files and for the page.
 pub(crate) fn charts(summary: &Summary, frames: &[&Frame]) -> Vec<Drawn> {
     let caption = format!(
         "foveate {}, {}, mode {}, inputs {}",
@@ -55,7 +56,8 @@ pub(crate) fn charts(summary: &Summary, frames: &[&Frame]) -> Vec<Drawn> {
     charts
 }
 
-/// Where the halo of the windows eats what is saved.
+/// Draws the share of needed positions over the network's depth; it grows with the halo of the
+/// windows.
 fn depth(summary: &Summary) -> Drawn {
     let layers = || summary.layers.iter().enumerate().filter(|(_, layer)| layer.macs > 0);
     let line = |name: &str, look, share: fn(&Layer) -> f64| {
@@ -71,7 +73,8 @@ fn depth(summary: &Summary) -> Drawn {
         "share of the layer's positions [%]",
         vec![
             line("needed", Look::Plain, |layer| layer.needed_share),
-            // Most layers pass on all that they compute.
+            // Most layers pass on everything that they compute, so this line often covers the
+            // other.
             line("passed on", Look::Open, |layer| layer.changed_share),
         ],
     )
@@ -92,13 +95,14 @@ fn over_frames(summary: &Summary, frames: &[&Frame]) -> Drawn {
         vec![
             line("MACs needed", Look::Plain, |frame| frame.macs.needed_share()),
             line("regions changed", Look::Plain, |frame| frame.changed),
-            // Mostly the same regions.
+            // The active regions are mostly the changed regions, so this line often covers the
+            // other.
             line("regions active", Look::Open, |frame| frame.active),
         ],
     )
 }
 
-/// What each frame saves against what the camera sends of it.
+/// Draws the MACs that each frame saves against its share of active regions.
 fn saved(summary: &Summary, frames: &[&Frame]) -> Drawn {
     let of = |name: &str, is_shown: &dyn Fn(&Frame) -> bool| {
         let shown = frames.iter().filter(|frame| is_shown(frame) && frame.macs.dense > 0.0);
@@ -108,7 +112,7 @@ fn saved(summary: &Summary, frames: &[&Frame]) -> Drawn {
         });
         series(name, Look::Plain, points)
     };
-    // Colours tell so many clips apart.
+    // There are enough colours to tell this many clips apart.
     let series = if (2..=COLOURS).contains(&summary.clips.len()) {
         let clips = summary.clips.iter().map(|clip| &clip.name);
         clips.map(|clip| of(clip, &|frame| frame.clip == *clip)).collect()
@@ -128,7 +132,8 @@ fn saved(summary: &Summary, frames: &[&Frame]) -> Drawn {
     drawn
 }
 
-/// The error of what was tried against what it needs, up to the error of outputs that never change.
+/// Draws the error of each trial against the MACs that it needs, up to the error of outputs that
+/// never change.
 fn tuning(tuning: &Tuning) -> Drawn {
     let all = tried(tuning);
     let line = |name: &str, look, kinds: &[&str]| {

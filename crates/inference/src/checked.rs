@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether a network can be run, said of all its nodes at once.
+//! A check of whether a network can be run, which reports all its nodes at once.
 
 use crate::InferenceError;
 use foveate_network::{FrameSize, Network, NetworkCheck};
@@ -7,43 +7,46 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::path::Path;
 
-/// Width and height of the frames for which a network is looked at that takes any size.
+/// The width and height of frames in pixels for the check of a network that takes any size.
 pub const OPEN_SIZE: (u32, u32) = (224, 224);
 
-/// A network that was looked at.
+/// The result of checking a network.
 #[derive(Clone, Debug, Serialize)]
 pub struct NetworkReport {
-    /// Nodes of the model.
+    /// The number of nodes of the model.
     pub nodes: usize,
-    /// A sentence for every node that cannot be run; none if the network can.
+    /// A sentence for every node that cannot be run; empty if the network can be run.
     pub problems: Vec<String>,
-    /// Facts about the network, if it can be run.
+    /// The facts about the network, if it can be run.
     pub network: Option<NetworkFacts>,
 }
 
-/// A network that can be run.
+/// The facts about a network that can be run.
 #[derive(Clone, Debug, Serialize)]
 pub struct NetworkFacts {
-    /// Shape of the input with channels first, for the size that was looked at.
+    /// The shape of the input with channels first, for the size of the check.
     pub input: Vec<usize>,
-    /// The order in which the model takes the axes of the input: nchw or nhwc.
+    /// The order of the axes in which the model takes its input: `nchw` or `nhwc`.
     pub layout: &'static str,
-    /// Names and shapes of the outputs.
+    /// The names and shapes of the outputs.
     pub outputs: Vec<(String, Vec<usize>)>,
-    /// Nodes of each operator, after operators that do the work of several nodes have taken it over.
+    /// The number of nodes of each operator, after nodes have been merged into operators that do
+    /// their work.
     pub operators: BTreeMap<String, usize>,
-    /// Multiplications and additions for a frame.
+    /// The number of multiplications and additions for a frame.
     pub macs: u64,
-    /// Bytes of all weights.
+    /// The size of all weights in bytes.
     pub weight_bytes: u64,
-    /// Bytes of the tensors that are kept from frame to frame.
+    /// The size in bytes of the tensors that are kept from frame to frame.
     pub kept_bytes: u64,
 }
 
-/// Looks at all nodes of a network, for frames of a size where it takes any.
+/// Checks all nodes of a network. A network that takes frames of any size is checked for the size
+/// `open`, width and height in pixels.
 ///
 /// # Errors
-/// When the file cannot be read, is not a valid ONNX model, or its inputs are not one that takes frames.
+/// Fails if the file cannot be read or is not a valid ONNX model, or if the network does not have
+/// exactly one input that takes frames.
 pub fn check_network(path: &Path, open: (u32, u32)) -> Result<NetworkReport, InferenceError> {
     let open = FrameSize { width: open.0 as usize, height: open.1 as usize };
     let NetworkCheck { nodes, network } = Network::check(path, open)?;

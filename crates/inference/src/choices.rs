@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is chosen for a run, as people write it.
+//! The options of a run as text on the command line.
 
 use std::path::Path;
 
@@ -8,10 +8,10 @@ use foveate_network::Mode;
 
 use crate::{Goal, InferenceError};
 
-/// A mode as people write it: `dense`, `exact`, `compare`, `truncate=0.25` or `fixed`.
+/// Parses a mode: `dense`, `exact`, `compare`, `truncate=0.25` or `fixed`.
 ///
 /// # Errors
-/// When the text is none; the error says what would be right.
+/// Fails if the text is not a mode; the message says what is expected.
 pub fn parse_mode(text: &str) -> Result<Mode, String> {
     let wrong =
         || "expected dense, exact, compare, truncate=T with T of at least 0, or fixed".to_owned();
@@ -31,10 +31,11 @@ pub fn parse_mode(text: &str) -> Result<Mode, String> {
     })
 }
 
-/// Standard deviations of noise as people write them, separated by commas; 0 is none.
+/// Parses standard deviations of noise in grey levels of 8 bits, separated by commas. Zeros are
+/// left out.
 ///
 /// # Errors
-/// When the text is none; the error says what would be right.
+/// Fails if a part is not a number from 0 to 255; the message says what is expected.
 pub fn parse_noise(text: &str) -> Result<Vec<f64>, String> {
     let level = |text: &str| text.parse().ok().filter(|level| (0.0..=255.0).contains(level));
     let levels: Option<Vec<f64>> = text.split(',').map(level).collect();
@@ -44,10 +45,10 @@ pub fn parse_noise(text: &str) -> Result<Vec<f64>, String> {
     Ok(levels.into_iter().filter(|&level| level > 0.0).collect())
 }
 
-/// A goal as people write it: `agreement=99%`, `cosine=0.999`, `psnr=40` or `variation=10%`.
+/// Parses a goal: `agreement=99%`, `cosine=0.999`, `psnr=40` or `variation=10%`.
 ///
 /// # Errors
-/// When the text is none; the error says what would be right.
+/// Fails if the text is not a goal; the message says what is expected.
 pub fn parse_goal(text: &str) -> Result<Goal, String> {
     let number = |text: &str| text.parse().ok().filter(|number: &f64| number.is_finite());
     let goal = match text.split_once('=') {
@@ -72,10 +73,12 @@ pub fn parse_goal(text: &str) -> Result<Goal, String> {
     })
 }
 
-/// The accelerator of that name, with the name: what ends in .toml is a file.
+/// Reads an accelerator and returns it with its name. A name that ends in `.toml` is a file; any
+/// other name is a preset.
 ///
 /// # Errors
-/// When the file cannot be read or describes none, and when there is no accelerator of that name.
+/// Fails if the file cannot be read or does not describe an accelerator, or if there is no preset
+/// of that name.
 pub fn read_accelerator(name: &str) -> Result<(String, Accelerator), InferenceError> {
     let path = Path::new(name);
     let accelerator = if path.extension().is_some_and(|extension| extension == "toml") {

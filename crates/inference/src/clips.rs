@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clips of a run: all of one size, shown to a camera of their own one after the other.
+//! The clips of a run: all have one size, and each is shown to its own camera, one after the other.
 
 use crate::InferenceError;
 use crate::camera::{Camera, Seen, Shown};
@@ -13,56 +13,58 @@ use std::num::NonZeroU32;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Clips and sets.
+/// The clips and data sets of a run.
 pub(crate) struct Clips {
     subjects: Vec<Subject>,
     config: Config,
     input: InputOptions,
-    /// The only clip, open already: it may be one that cannot be opened twice.
+    /// The source of a single clip, already open, because some sources cannot be opened twice.
     only: Option<Box<dyn Source>>,
-    /// Width and height.
+    /// The width and height of all frames in pixels.
     pub(crate) size: (u32, u32),
-    /// Frames of all, if that is known.
+    /// The number of frames of all clips, if it is known.
     frames: Option<u64>,
-    /// Ground-truth boxes of every clip, or none.
+    /// The ground-truth boxes of every clip; empty without ground truth.
     boxes: Vec<Arc<Boxes>>,
 }
 
-/// Who looks at the frames of clips.
+/// A consumer of the frames of clips.
 pub(crate) trait Audience {
-    /// A clip or set begins, a set with the picture before each of its images.
+    /// Starts a clip or a data set. A data set comes with the network's input for a black screen,
+    /// from which each of its frames starts.
     fn begin(&mut self, clip: &str, black: Option<&[f32]>);
 
-    /// The next frame of it.
+    /// Takes the next frame of the clip.
     fn look(&mut self, seen: Seen<'_>) -> Result<(), InferenceError>;
 
-    /// It is over, and this is why frames are missing, if some are.
+    /// Ends the clip, with the reason for missing frames if some are missing.
     fn end(&mut self, problem: Option<String>);
 }
 
-/// A camera for every clip, and how far they are.
+/// The state of showing clips, each to its own camera.
 pub(crate) struct Showing<'a> {
     pub(crate) shown: Shown<'a>,
     pub(crate) clips: &'a mut Clips,
-    /// The network sees one of so many frames of a clip.
+    /// The interval of the frames that the network sees: one of so many frames of a clip.
     pub(crate) every: NonZeroU32,
-    /// Frames that are done.
+    /// The number of frames that are done.
     pub(crate) done: u64,
 }
 
-/// Why there are no more frames of a clip.
+/// The reason for missing frames after an interruption.
 const INTERRUPTED: &str = "it was interrupted";
 
 impl Clips {
-    /// Looks at all of them: image files together are one clip, every other input is one of its own. Ground-truth boxes are of one file or folder
-    /// for all clips, or of one for each.
+    /// Opens all inputs and checks that they have one size. Image files together are one clip;
+    /// every other input is a clip or data set of its own. Ground-truth boxes come from one file or
+    /// folder for all clips, or from one for each clip.
     pub(crate) fn new(
         inputs: &[PathBuf],
         boxes: &[PathBuf],
         config: &Config,
         input: &InputOptions,
     ) -> Result<Self, InferenceError> {
-        // Boxes go by the numbers of frames in their inputs.
+        // Boxes belong to frame numbers, so the inputs must number their frames.
         let input = &InputOptions { numbered: !boxes.is_empty(), ..input.clone() };
         let subjects = subjects(inputs, input)?;
         let several = subjects.len() > 1;
@@ -94,14 +96,14 @@ impl Clips {
                 }
             }
             found.frames = found.frames.zip(source.frames()).map(|(all, own)| all + own);
-            // A decoder is a process: those of many clips are not kept.
+            // A decoder is a process, so the decoders of many clips are not kept open.
             found.only = (!several).then_some(source);
             found.subjects.push(subject);
         }
         found.with_boxes(boxes)
     }
 
-    /// One clip that is open already.
+    /// Creates the clips of a run from one clip that is already open.
     pub(crate) fn of(
         source: Box<dyn Source>,
         boxes: &[PathBuf],
@@ -121,7 +123,7 @@ impl Clips {
         .with_boxes(boxes)
     }
 
-    /// Reads ground-truth boxes.
+    /// Reads the ground-truth boxes of all clips.
     fn with_boxes(mut self, files: &[PathBuf]) -> Result<Self, InferenceError> {
         if !files.is_empty() {
             let clips = self.subjects.iter();
@@ -132,7 +134,7 @@ impl Clips {
         Ok(self)
     }
 
-    /// Whether there are ground-truth objects.
+    /// Returns whether there are ground-truth objects.
     pub(crate) fn have_boxes(&self) -> bool {
         !self.boxes.is_empty()
     }
@@ -141,7 +143,7 @@ impl Clips {
         self.subjects.len()
     }
 
-    /// The inputs of every clip as they were named.
+    /// Returns the inputs of every clip as the user named them.
     pub(crate) fn inputs(&self) -> Vec<String> {
         let all = self.subjects.iter().flat_map(|subject| &subject.inputs);
         all.map(|input| shown_input(input)).collect()
@@ -157,10 +159,12 @@ impl Clips {
 }
 
 impl Showing<'_> {
-    /// Shows some of the clips, until the end or `hooks` cancels. Returns whether all were shown.
+    /// Shows some of the clips, until they end or `hooks` cancels. Returns whether all of them were
+    /// shown.
     ///
     /// # Errors
-    /// When a frame cannot be read, a clip has none, and when `hooks` cancels before the first frame of all.
+    /// Fails if a frame cannot be read or a clip has no frames, or if `hooks` cancels before the
+    /// first frame.
     pub(crate) fn show(
         &mut self,
         clips: std::ops::Range<usize>,
@@ -180,7 +184,7 @@ impl Showing<'_> {
             audience.begin(&self.clips.subjects[clip].name, camera.black());
             let before = self.done;
             let ended = match self.watch(clip, source.as_mut(), &mut camera, hooks, audience) {
-                // The wait for a frame was given up.
+                // The wait for a frame was cancelled.
                 Err(InferenceError::Cancelled) => false,
                 ended => ended?,
             };
@@ -200,7 +204,9 @@ impl Showing<'_> {
         Ok(true)
     }
 
-    /// Shows the camera every frame, and the audience what the network sees, with the objects of the frames whose places in the input are known. Returns whether that was all of them.
+    /// Shows every frame to the camera, and to the audience every frame that the network sees, with
+    /// its objects if its place in the input is known. Returns whether the clip was shown to its
+    /// end.
     fn watch(
         &mut self,
         clip: usize,

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How close values are to those of a whole computation, and how close they have to be.
+//! The closeness of outputs to those of a whole computation, and the goal for it.
 
 use foveate_network::sight::{Distance, largest};
 use foveate_network::{Executor, Network};
 use std::borrow::Cow;
 
-/// How much the outputs of a whole computation vary from frame to frame of a clip. That clips differ from each other is no variation.
+/// The variation of the outputs of a whole computation over the frames of a clip. Differences
+/// between clips are not part of it.
 #[derive(Clone, Debug, Default)]
 struct Variation {
-    /// Sums of every output over the frames of this clip.
+    /// The sum of every output over the frames of this clip.
     sums: Vec<f64>,
-    /// Sum of all squares of this clip.
+    /// The sum of the squares of all outputs of this clip.
     squares: f64,
-    /// Frames of this clip.
+    /// The number of frames of this clip.
     frames: u64,
-    /// Of the clips before.
+    /// The variation of the clips before this one.
     before: f64,
 }
 
 impl Variation {
-    /// Of a frame, from its outputs and the sum of their squares.
+    /// Returns the variation of a single frame, from its outputs and the sum of their squares.
     fn of(sums: Vec<f64>, squares: f64) -> Self {
         Self { sums, squares, frames: 1, before: 0.0 }
     }
@@ -33,12 +34,13 @@ impl Variation {
         self.frames += other.frames;
     }
 
-    /// Says that the next frame is the first of another clip.
+    /// Starts the next clip.
     fn next_clip(&mut self) {
         *self = Self { before: self.around_means(), ..Self::default() };
     }
 
-    /// Sum of the squared distances of every output from its mean over the frames of its clip.
+    /// Returns the sum of the squared distances of every output from its mean over the frames of
+    /// its clip.
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
     fn around_means(&self) -> f64 {
         if self.frames == 0 {
@@ -49,18 +51,19 @@ impl Variation {
     }
 }
 
-/// The outputs of frames beside those of a whole computation.
+/// The closeness of outputs to those of a whole computation, summed over frames.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Closeness {
     pub(crate) distance: Distance,
     variation: Variation,
-    /// Frames in which every output has its largest value at the same place.
+    /// The number of frames in which every output has its largest value at the same position.
     agreeing: u64,
     pub(crate) frames: u64,
 }
 
 impl Closeness {
-    /// Of a frame. `right` gives a value of the network as a whole computation has it.
+    /// Compares the outputs of one frame. `right` returns a value of the network from a whole
+    /// computation.
     pub(crate) fn of<'r>(
         network: &Network,
         right: impl Fn(usize) -> Cow<'r, [f32]>,
@@ -85,13 +88,14 @@ impl Closeness {
         self.frames += other.frames;
     }
 
-    /// Says that the next frame is the first of another clip.
+    /// Starts the next clip.
     pub(crate) fn next_clip(&mut self) {
         self.variation.next_clip();
     }
 
-    /// Root of the mean squared difference, as a share of the standard deviation of the outputs over the frames of their clip; 0 if there
-    /// is no difference. A network that is never run again has about 1.
+    /// Returns the root mean squared difference as a share of the standard deviation of the outputs
+    /// over the frames of their clip; 0 without a difference. A network that is never run again has
+    /// about 1.
     pub(crate) fn of_variation(&self) -> f64 {
         let varies = self.variation.around_means();
         if self.distance.difference() == 0.0 {
@@ -101,28 +105,32 @@ impl Closeness {
         }
     }
 
-    /// Share of frames in which every output has its largest value at the same place.
+    /// Returns the share of frames in which every output has its largest value at the same
+    /// position.
     #[allow(clippy::cast_precision_loss, reason = "a share")]
     pub(crate) fn agreement(&self) -> f64 {
         if self.frames == 0 { 0.0 } else { self.agreeing as f64 / self.frames as f64 }
     }
 }
 
-/// How close outputs have to be.
+/// The goal for the closeness of outputs to those of a whole computation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Goal {
-    /// In at least this share of frames every output has its largest value where a whole computation has it.
+    /// The least share of frames in which every output has its largest value at the position of a
+    /// whole computation.
     Agreement(f64),
-    /// The cosine of the angle between all outputs and those of a whole computation is at least this.
+    /// The least cosine of the angle between all outputs and those of a whole computation.
     Cosine(f64),
-    /// The peak signal-to-noise ratio of all outputs is at least this many decibels, with the range of the outputs as the peak.
+    /// The least peak signal-to-noise ratio of all outputs in decibels, with the range of the
+    /// outputs as the peak.
     Psnr(f64),
-    /// The error of all outputs is at most this share of their standard deviation over the frames of their clip.
+    /// The largest error of all outputs, as a share of their standard deviation over the frames of
+    /// their clip.
     Variation(f64),
 }
 
 impl Goal {
-    /// Whether it is reached; NaN never does.
+    /// Returns whether the goal is reached. NaN never reaches it.
     pub(crate) fn holds(self, found: &Closeness) -> bool {
         match self {
             Self::Agreement(least) => found.agreement() >= least,
@@ -156,7 +164,7 @@ mod tests {
             variation.next_clip();
             clip.iter().for_each(|&value| variation.add(&frame(value)));
         }
-        // Each clip is 1 away from its mean, twice.
+        // Each clip has two frames, both 1 away from its mean.
         assert_eq!(variation.around_means(), 4.0);
         variation.next_clip();
         assert_eq!(variation.around_means(), 4.0);
@@ -173,7 +181,7 @@ mod tests {
         }
     }
 
-    /// Two frames with two outputs, of which the second varies from 1 to 5.
+    /// The clip has two frames with two outputs; the second output varies from 1 to 5.
     #[test]
     fn the_error_of_an_output_that_stays_is_its_variation() {
         let frame = |right: [f32; 2], found: [f32; 2]| {

@@ -1,51 +1,53 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the frames of a run would cost on an accelerator, whole and where the masks say.
+//! The cost of a run's frames on an accelerator, computed whole and computed where the masks say.
 
 use foveate_accelerator::{Accelerator, AcceleratorError, Cost, Layer, Plan, Shape, Window};
 use foveate_network::{Executor, Form, Network, Products, Window as Taps};
 use serde::Serialize;
 
-/// The nodes of a network, mapped onto an accelerator.
+/// The costs of a network's nodes on an accelerator.
 pub(crate) struct Costs<'a> {
     accelerator: &'a Accelerator,
-    /// By node; nothing for one that only renames values.
+    /// The plan of every node; `None` for a node that only renames values.
     plans: Vec<Option<Plan<'a>>>,
-    /// By node: of a frame that is computed whole.
+    /// The cost of every node for a frame that is computed whole.
     whole: Vec<Cost>,
-    /// By node: of all counted frames so far, where they were needed.
+    /// The cost of every node for all counted frames so far, where they were needed.
     masked: Vec<Cost>,
     frames: u64,
 }
 
-/// What a frame, or a layer of it, costs, as a mean over the counted frames.
+/// The cost of a frame or of one of its layers, as a mean over the counted frames.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct FrameCost {
-    /// Cycles, layer after layer.
+    /// The number of cycles, with the layers one after the other.
     pub cycles: f64,
-    /// The same in seconds.
+    /// The time of these cycles in seconds.
     pub seconds: f64,
-    /// Accesses to the memory off the chip, each to one value.
+    /// The number of accesses to the memory off the chip, one value each.
     pub dram_accesses: f64,
-    /// Of them those to weights.
+    /// The number of these accesses that read weights.
     pub dram_weights: f64,
-    /// Energy of chip and memory in millijoules.
+    /// The energy of chip and memory in millijoules.
     pub energy_mj: f64,
 }
 
-/// What a run would cost on an accelerator.
+/// The cost of a run on an accelerator.
 #[derive(Clone, Debug, Serialize)]
 pub struct Accelerated {
-    /// The accelerator as it was named.
+    /// The accelerator's name, as the user gave it.
     pub name: String,
-    /// Frames computed whole.
+    /// The cost of a frame that is computed whole.
     pub whole: FrameCost,
-    /// Frames computed where the masks say.
+    /// The cost of a frame that is computed where the masks say.
     pub masked: FrameCost,
 }
 
 impl<'a> Costs<'a> {
+    /// Maps the nodes of a network onto an accelerator.
+    ///
     /// # Errors
-    /// When a layer cannot be mapped onto the accelerator; with the name of the node.
+    /// Fails if a layer cannot be mapped onto the accelerator. The error has the name of the node.
     pub(crate) fn new(
         accelerator: &'a Accelerator,
         network: &Network,
@@ -63,13 +65,13 @@ impl<'a> Costs<'a> {
         Ok(Self { accelerator, plans, whole, masked, frames: 0 })
     }
 
-    /// The cost of a node for the last frame, where it was needed.
+    /// Returns the cost of a node for the last frame, where it was needed.
     pub(crate) fn of_frame(&self, executor: &Executor<'_>, node: usize) -> Cost {
         let Some(plan) = &self.plans[node] else { return Cost::default() };
         let wanted = executor.wanted(node);
         let shape = plan.layer().outputs();
         let fits = (shape.height, shape.width) == (wanted.height() as u64, wanted.width() as u64);
-        // Rows of a product that are no positions are all needed, or none.
+        // A product whose rows are not positions needs all its rows or none.
         if fits {
             plan.masked(|x, y| wanted.contains(x, y))
         } else {
@@ -77,23 +79,23 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// Counts a frame by the costs of its nodes.
+    /// Counts a frame, given the costs of its nodes.
     pub(crate) fn add(&mut self, nodes: impl Iterator<Item = Cost>) {
         self.frames += 1;
         self.masked.iter_mut().zip(nodes).for_each(|(sum, cost)| *sum += cost);
     }
 
-    /// Whole and masked cost of a node.
+    /// Returns the whole and the masked cost of a node.
     pub(crate) fn of_node(&self, node: usize) -> (FrameCost, FrameCost) {
         (self.mean(self.whole[node], 1), self.mean(self.masked[node], self.frames))
     }
 
-    /// The cost of a frame that is computed whole.
+    /// Returns the cost of a frame that is computed whole.
     pub(crate) fn whole(&self) -> FrameCost {
         self.mean(self.whole.iter().copied().sum(), 1)
     }
 
-    /// The sums over all nodes.
+    /// Returns the sums over all nodes.
     pub(crate) fn summary(&self, name: &str) -> Accelerated {
         let masked = self.masked.iter().copied().sum();
         Accelerated {
@@ -103,7 +105,7 @@ impl<'a> Costs<'a> {
         }
     }
 
-    /// The mean of so many frames that cost this together.
+    /// Returns the mean over `frames` frames whose costs add up to `sum`.
     #[allow(clippy::cast_precision_loss, reason = "means")]
     pub(crate) fn mean(&self, sum: Cost, frames: u64) -> FrameCost {
         let frames = frames.max(1) as f64;
@@ -117,7 +119,7 @@ impl<'a> Costs<'a> {
     }
 }
 
-/// A node as accelerators see it; nothing if it only renames values.
+/// Returns a node as a layer of an accelerator; `None` if it only renames values.
 fn layer(network: &Network, node: usize) -> Result<Option<Layer>, AcceleratorError> {
     let place = &network.nodes()[node];
     let (output, inputs) = (network.form(node + 1), place.inputs());
@@ -129,7 +131,7 @@ fn layer(network: &Network, node: usize) -> Result<Option<Layer>, AcceleratorErr
             [window(rows), window(columns)],
             groups as u64,
         )?,
-        // Each position as a product with what reaches it.
+        // Each output position is a product with the inputs that reach it.
         Products::Transposed { inputs } => {
             let of = Shape { channels: inputs as u64, ..shape(output) };
             Layer::convolution(of, shape(output), [Window::SAME; 2], 1)?
@@ -144,7 +146,7 @@ fn layer(network: &Network, node: usize) -> Result<Option<Layer>, AcceleratorErr
                 Layer::product(rows, inputs as u64, columns)?
             }
         }
-        // Every output takes its share of all inputs, wherever it is.
+        // Every output takes an equal share of all inputs, wherever it is.
         Products::None => {
             let values: usize = inputs.iter().map(|&input| network.form(input).elements()).sum();
             let channels = values.div_ceil(output.places()) as u64;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table of every layer of every frame. It is long, so it grows as a Parquet file and is none in memory.
+//! The table of every layer of every frame. It is long, so it is written to a Parquet file as it
+//! grows and is not kept in memory.
 
 use std::fs::File;
 use std::path::{Path, PathBuf};
@@ -15,12 +16,12 @@ use foveate_files::tables::{Column, Kind, ParquetWriter, Value};
 use foveate_network::Network;
 use foveate_staging::{StagedFolder, StagingError};
 
-/// The file.
+/// The name of the file.
 pub(crate) const NAME: &str = "layers_frames.parquet";
-/// Rows of a group: a few megabytes of memory.
+/// The number of rows of a group, which takes a few megabytes of memory.
 const GROUP: usize = 1 << 16;
 
-/// A layer of a frame.
+/// A row of the table: one layer of one frame.
 struct Row<'a> {
     frame: &'a Frame,
     node: usize,
@@ -31,7 +32,8 @@ struct Row<'a> {
     cost: Option<FrameCost>,
 }
 
-/// A column with its value, and whether that may be missing: those of an accelerator may.
+/// A column: its name, its type, whether its value may be missing (only without an accelerator),
+/// and its value.
 type Of = (&'static str, Kind, bool, for<'a> fn(&Row<'a>) -> Value<'a>);
 
 const COLUMNS: [Of; 16] = [
@@ -53,15 +55,17 @@ const COLUMNS: [Of; 16] = [
     ("energy_mj", Real, true, |row| real(row.cost.map(|cost| cost.energy_mj))),
 ];
 
-/// The table, open.
+/// The open table.
 pub(crate) struct Details {
     file: ParquetWriter<File>,
     path: PathBuf,
 }
 
 impl Details {
+    /// Creates the file of the table.
+    ///
     /// # Errors
-    /// When it cannot be written.
+    /// Fails if it cannot be written.
     pub(crate) fn new(staging: &StagedFolder) -> Result<Self, InferenceError> {
         let path = staging.folder().join(NAME);
         let file = File::create(&path).map_err(failed(&path))?;
@@ -74,10 +78,10 @@ impl Details {
         Ok(Self { file: file.map_err(failed(&path))?, path })
     }
 
-    /// Takes the layers of a frame.
+    /// Adds the layers of a frame.
     ///
     /// # Errors
-    /// When they cannot be written.
+    /// Fails if they cannot be written.
     pub(crate) fn push(
         &mut self,
         frame: &Frame,
@@ -103,7 +107,7 @@ impl Details {
     /// Completes the file.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// Fails if it cannot be written.
     pub(crate) fn finish(self) -> Result<(), InferenceError> {
         self.file.finish().map(drop).map_err(failed(&self.path))
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong. Every message names the thing and says what to do.
+//! The errors of runs. Every message names its subject and says what to do.
 
 use std::io;
 use std::path::PathBuf;
@@ -17,11 +17,11 @@ use foveate_pictures::page::PageError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
-/// A run that cannot be started or finished.
+/// An error that keeps a run from starting or finishing.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum InferenceError {
-    /// The network cannot be read, or cannot be shown the frames.
+    /// The network cannot be read, or cannot be run on the frames.
     #[error(transparent)]
     Sight(#[from] SightError),
     /// The network cannot be read for arrays.
@@ -30,24 +30,24 @@ pub enum InferenceError {
     /// An array cannot be read.
     #[error(transparent)]
     Array(#[from] NpyError),
-    /// A file that was named cannot be read.
+    /// A file that the user named cannot be read.
     #[error("cannot read `{}`: {source}", path.display())]
     Read {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: io::Error,
     },
-    /// What was chosen does not exist.
+    /// An option names something that does not exist or cannot be used.
     #[error("{problem}")]
     Choice {
-        /// What was chosen, and what there is.
+        /// The message: the chosen value, and the values that exist.
         problem: String,
     },
     /// An input cannot be read.
     #[error(transparent)]
     Footage(FootageError),
-    /// Ground-truth boxes that cannot be read, or that do not fit the clips.
+    /// The ground-truth boxes cannot be read, or do not fit the clips.
     #[error(transparent)]
     Boxes(#[from] BoxError),
     /// The configuration is not a valid design.
@@ -65,7 +65,7 @@ pub enum InferenceError {
     /// The page cannot be written.
     #[error(transparent)]
     Page(#[from] PageError),
-    /// Pictures are wanted of outputs that are none.
+    /// Pictures of outputs are wanted, but no output can be shown as one.
     #[error(
         "no output is a picture, which has 1 or 3 channels and the height and width of the input: {outputs}; leave out png"
     )]
@@ -76,17 +76,17 @@ pub enum InferenceError {
     /// A table cannot be written.
     #[error("cannot write the table `{name}`: {source}")]
     Table {
-        /// The file.
+        /// The name of the file.
         name: String,
-        /// Why.
+        /// The reason.
         source: io::Error,
     },
     /// A layer cannot be mapped onto the accelerator.
     #[error("node `{node}` on the accelerator: {source}")]
     Accelerator {
-        /// The node.
+        /// The name of the node.
         node: String,
-        /// Why.
+        /// The reason.
         source: AcceleratorError,
     },
     /// The frames do not fit into memory together.
@@ -94,7 +94,7 @@ pub enum InferenceError {
         "the pictures of the first {frames} frames take more than 4 GiB, and tuning keeps all in memory; cut the clip with --max-frames"
     )]
     TooLong {
-        /// Frames that fit.
+        /// The number of frames that fit.
         frames: usize,
     },
     /// There are too few frames for two halves.
@@ -103,43 +103,43 @@ pub enum InferenceError {
         if *frames == 1 { "is" } else { "are" }
     )]
     TooShort {
-        /// Frames that there are.
+        /// The number of frames that there are.
         frames: usize,
-        /// Frames that would do.
+        /// The least number of frames that is enough.
         least: usize,
     },
-    /// Clips without a frame that counts.
+    /// The clips have no counted frame.
     #[error(
         "no frame of the {clips} counts, because a clip's first frame is computed whole; give clips of at least 2 frames"
     )]
     NothingCounts {
-        /// Which clips.
+        /// The clips in words.
         clips: &'static str,
     },
-    /// Clips of different sizes.
+    /// The clips have different sizes.
     #[error(
         "all clips of a run must have one size, but `{first}` has {}x{} pixels and `{other}` has {}x{}; give --resize, or --crop",
         first_size.0, first_size.1, other_size.0, other_size.1
     )]
     Sizes {
-        /// The first clip.
+        /// The name of the first clip.
         first: String,
-        /// Its width and height.
+        /// The width and height of the first clip in pixels.
         first_size: (u32, u32),
-        /// The first clip that differs.
+        /// The name of the first clip that differs.
         other: String,
-        /// Its width and height.
+        /// The width and height of that clip in pixels.
         other_size: (u32, u32),
     },
-    /// An input of several that cannot be opened a second time.
+    /// One of several inputs cannot be opened a second time.
     #[error(
         "`{input}` can be read only once, so it must be the only input; record it to a file, or give it on its own"
     )]
     ReadOnce {
-        /// The input.
+        /// The input as the user named it.
         input: String,
     },
-    /// The user stopped it before there was a result.
+    /// The user stopped the run before there was a result.
     #[error("interrupted; nothing was written")]
     Cancelled,
 }

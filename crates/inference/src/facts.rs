@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the tables say of a clip, a layer, a frame and what tuning tried: every column once, for the files and for the page.
+//! The columns of the tables of clips, layers, frames and tuning trials. Each column is defined
+//! once, for the files and for the page.
 
 use crate::Found;
 use crate::Layer;
@@ -9,7 +10,8 @@ use crate::summary::{Clip, Tried};
 use Value::{Count, Error, Flag, Holds, Limit, Milliseconds, Psnr, Real, Shape, Share, Words};
 use foveate_files::tables::{Cell, Cells, Table};
 
-/// A value, and what kind of value it is: each view writes the kinds in its own way.
+/// A value of a column with its kind. The files and the page each format the kinds in their own
+/// way.
 pub(crate) enum Value {
     Words(String),
     Shape(Vec<usize>),
@@ -17,41 +19,42 @@ pub(crate) enum Value {
     /// Whether a goal is reached.
     Holds(bool),
     Count(u64),
-    /// A part of 1.
+    /// A share from 0 to 1.
     Share(f64),
-    /// With the digits that a reader needs.
+    /// A real number, and the number of digits that the page shows.
     Real(Option<f64>, usize),
-    /// Seconds, which a reader gets as milliseconds with so many digits.
+    /// A time in seconds, and the number of digits with which the page shows it in milliseconds.
     Milliseconds(f64, usize),
     Error(Option<f64>),
-    /// Changes up to this are not passed on.
+    /// A limit; changes up to it are not passed on.
     Limit(Option<f64>),
-    /// Nothing is the best: equal outputs have none.
+    /// A peak signal-to-noise ratio in decibels; `None` for equal outputs, which are the best.
     Psnr(Option<f64>),
 }
 
-/// A column of a table whose rows are of a `T`.
+/// A column of a table with one `T` per row.
 pub(crate) struct Column<T> {
     pub(crate) heading: Heading,
     pub(crate) value: fn(&T) -> Value,
-    /// Whether it holds numbers.
+    /// Whether the column holds numbers.
     pub(crate) numbers: bool,
-    /// Whether it is over the counted frames: of none it says nothing.
+    /// Whether the column is a mean over the counted frames; it stays empty without a counted
+    /// frame.
     pub(crate) is_mean: bool,
     is_filed: bool,
 }
 
-/// How a column is called.
+/// The names of a column, its unit and its meaning.
 pub(crate) struct Heading {
-    /// In the files.
+    /// The name in the files.
     pub(crate) key: &'static str,
-    /// On the page.
+    /// The name on the page.
     pub(crate) name: &'static str,
     pub(crate) unit: &'static str,
     pub(crate) meaning: &'static str,
 }
 
-/// A heading: its name in the files; its name on the page, its unit and its meaning.
+/// Creates a heading from its name in the files, its name on the page, its unit and its meaning.
 const fn heading(
     key: &'static str,
     name: &'static str,
@@ -61,7 +64,7 @@ const fn heading(
     Heading { key, name, unit, meaning }
 }
 
-/// A column of the files alone.
+/// Creates a column that only the files have.
 const fn filed<T>(key: &'static str, value: fn(&T) -> Value) -> Column<T> {
     heading(key, "", "", "").number(value)
 }
@@ -79,22 +82,22 @@ impl Heading {
         Column { numbers: false, ..self.number(value) }
     }
 
-    /// A number of the page alone.
+    /// Creates a column of numbers that only the page has.
     const fn unfiled<T>(self, value: fn(&T) -> Value) -> Column<T> {
         Column { is_filed: false, ..self.number(value) }
     }
 }
 
-/// What some columns mean, whatever they are of.
+/// The meanings of columns that several tables share.
 const ACTIVE: &str = "regions that were active";
 const CHANGED: &str = "regions whose rendered pixels changed";
 const NEEDED: &str = "MACs whose windows hold a change";
 const COMPUTED: &str = "MACs that were computed, in whole blocks";
-/// Their units.
+/// The units of these columns.
 const REGIONS: &str = "% of regions";
 const MACS: &str = "% of MACs";
 
-/// What others mean: too long for a line of a list.
+/// Other meanings, which are too long for a line of a list.
 const OPERATOR: &str = "what it computes; + stands before an activation of the same node";
 const OUTPUT: &str = "bytes of the output, which stays from frame to frame";
 const CYCLES: &str = "cycles per frame on the accelerator, where the masks say";
@@ -110,7 +113,7 @@ const PICTURE: &str = "PSNR of what the receiver sees against the whole frame";
 const AGREES: &str = "what the network says of the whole frame that it says behind the camera, too";
 const VARIATION: &str = "RMS error of the outputs, as a share of their standard deviation over the frames of their clip";
 
-/// Of a clip, for the page.
+/// The columns of the table of clips, for the page.
 pub(crate) const CLIPS: &[Column<Clip>] = &[
     heading("clip", "clip", "", "the clip or set").words(|it| Words(it.name.clone())),
     heading("frames", "frames", "", "frames that were seen").number(|it| Count(it.frames)),
@@ -124,7 +127,7 @@ pub(crate) const CLIPS: &[Column<Clip>] = &[
         .words(|it| Words(it.problem.clone().unwrap_or_default())),
 ];
 
-/// Of a layer.
+/// The columns of the table of layers.
 pub(crate) const LAYERS: &[Column<Layer>] = &[
     heading("name", "name", "", "name of the node in the model").words(|it| Words(it.name.clone())),
     heading("operator", "operator", "", OPERATOR).words(|it| Words(it.operator.clone())),
@@ -160,7 +163,7 @@ pub(crate) const LAYERS: &[Column<Layer>] = &[
         .mean(|it| Error(it.relative_rms)),
 ];
 
-/// Of a frame. What was added to the files later stands at the end.
+/// The columns of the table of frames. Columns that were added to the files later are at the end.
 pub(crate) const FRAMES: &[Column<Frame>] = &[
     heading("name", "name", "", "the frame in its input").words(|it| Words(it.name.clone())),
     filed("t_us", |it| Count(it.time_us)),
@@ -198,13 +201,13 @@ pub(crate) const FRAMES: &[Column<Frame>] = &[
         .number(|it| found(it, |found| found.added)),
 ];
 
-/// Detections of a frame, if they are read.
+/// Returns a number of detections of a frame, if detections are read.
 fn found(frame: &Frame, of: fn(&Found) -> u64) -> Value {
     let found = frame.sight.and_then(|sight| sight.found);
     found.map_or(Real(None, 0), |found| Count(of(&found)))
 }
 
-/// Of a detection, for the files.
+/// The columns of the table of detections, for the files.
 pub(crate) const DETECTIONS: &[Column<DetectionRow>] = &[
     filed("clip", |it| Words(it.clip.clone())),
     filed("frame", |it| Count(it.frame)),
@@ -219,10 +222,10 @@ pub(crate) const DETECTIONS: &[Column<DetectionRow>] = &[
     filed("y1", |it| real(it.detection.rect.y1)),
 ];
 
-/// What tuning tried, with what its limits are called.
+/// A trial of tuning, with the name of its kind of limits.
 pub(crate) type Attempt = (&'static str, Tried);
 
-/// Of what tuning tried.
+/// The columns of the table of tuning trials.
 pub(crate) const TRIED: &[Column<Attempt>] = &[
     heading("limits", "limits", "", LIMITS).words(|it| Words(it.0.to_owned())),
     heading("relative_limit", "relative limit", "", RELATIVE)
@@ -246,13 +249,13 @@ fn real(value: f64) -> Value {
     Real(Some(value), 0)
 }
 
-/// Numbers with a word between them.
+/// Joins the lengths of a shape with `between`.
 pub(crate) fn shape(lengths: &[usize], between: &str) -> String {
     lengths.iter().map(ToString::to_string).collect::<Vec<_>>().join(between)
 }
 
 impl Value {
-    /// As files have it.
+    /// Converts the value for a file.
     fn filed(self) -> Cell {
         match self {
             Words(words) => Cell::Text(words),
@@ -265,7 +268,7 @@ impl Value {
     }
 }
 
-/// The table of a file: rows with their numbers, which it has if they have a name.
+/// Creates the table of a file. With a name for it, the first column holds the number of each row.
 pub(crate) fn table<'a, T: 'a>(
     number: Option<&str>,
     columns: &[Column<T>],

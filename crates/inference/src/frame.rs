@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a frame did: each of its layers, and all of them together.
+//! The figures of a frame: of each of its layers, and of all of them together.
 
 use crate::cost::{Costs, FrameCost};
 use crate::macs::{Macs, macs};
@@ -10,45 +10,46 @@ use crate::traffic::{FrameTraffic, Traffic};
 use foveate_accelerator::Cost;
 use foveate_network::{Executor, Network, Work};
 
-/// What a layer did for a frame.
+/// The figures of a layer for a frame.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct LayerFrame {
     pub(crate) positions: Positions,
     pub(crate) traffic: Traffic,
-    /// What it costs on the accelerator where it is needed, if one is named.
+    /// The cost on the accelerator where the layer is needed, if an accelerator is named.
     pub(crate) cost: Option<Cost>,
 }
 
-/// A frame in numbers: what its table, the page and the charts say of it.
+/// The figures of a frame for its table, the page and the charts.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Frame {
-    /// Its number among the frames of all clips, one after the other.
+    /// The number of the frame among the frames of all clips, one after the other.
     pub(crate) place: u64,
     pub(crate) clip: String,
-    /// Its number in its clip.
+    /// The number of the frame in its clip.
     pub(crate) number: u64,
     pub(crate) name: String,
     pub(crate) time_us: u64,
-    /// Whether it is in the means.
+    /// Whether the frame is part of the means.
     pub(crate) is_counted: bool,
-    /// Share of regions that were active.
+    /// The share of regions that were active.
     pub(crate) active: f64,
     pub(crate) changed: f64,
     pub(crate) macs: Macs,
     pub(crate) traffic: FrameTraffic,
     pub(crate) seconds: f64,
-    /// Of it the time beside operators.
+    /// The time outside of operators in seconds; it is part of `seconds`.
     pub(crate) overhead: f64,
     pub(crate) relative_rms: Option<f64>,
-    /// Beside the network on the whole frame, if that ran.
+    /// The comparison with the network on the whole frame, if that ran.
     pub(crate) sight: Option<SightFrame>,
-    /// What a frame costs on the accelerator, if one is named, and what this one costs where it is needed.
+    /// The cost of a whole frame on the accelerator, if one is named; `masked_cost` is the cost of
+    /// this frame where it is needed.
     pub(crate) whole_cost: Option<FrameCost>,
     pub(crate) masked_cost: Option<FrameCost>,
 }
 
 impl LayerFrame {
-    /// What every node did for the last frame.
+    /// Returns the figures of every node for the last frame.
     pub(crate) fn all(
         network: &Network,
         executor: &Executor<'_>,
@@ -65,7 +66,7 @@ impl LayerFrame {
 }
 
 impl Frame {
-    /// The same with what all its layers did together.
+    /// Adds the sums over all layers to the frame.
     pub(crate) fn of_layers(
         self,
         network: &Network,
@@ -85,12 +86,12 @@ impl Frame {
     }
 }
 
-/// Those that are in the means.
+/// Returns the frames that are part of the means.
 pub(crate) fn counted(frames: &[Frame]) -> Vec<&Frame> {
     frames.iter().filter(|frame| frame.is_counted).collect()
 }
 
-/// The mean of some counted frames; 0 of none.
+/// Returns the mean of a figure over some frames; 0 without frames.
 #[allow(clippy::cast_precision_loss, reason = "a mean")]
 pub(crate) fn mean(frames: &[&Frame], of: fn(&Frame) -> f64) -> f64 {
     sum(frames.iter().map(|frame| of(frame))) / frames.len().max(1) as f64

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One run: every frame of some clips through a camera and a network, into one folder.
+//! A run: every frame of some clips goes through a camera and a network, and the results go to one
+//! folder.
 
 use crate::album::Album;
 use crate::camera::Shown;
@@ -25,40 +26,43 @@ use foveate_staging::{FolderKind, StagedFolder};
 use std::num::NonZeroU32;
 use std::path::{Path, PathBuf};
 
-/// What is computed, and how.
+/// The options of a run.
 #[derive(Clone, Debug)]
 pub struct Options {
-    /// What is computed for a frame.
+    /// The computation for each frame.
     pub computed: Computed,
     /// The accelerator whose cost is counted, with its name.
     pub accelerator: Option<(String, Accelerator)>,
-    /// Whether a whole computation runs beside, to be compared with.
+    /// Whether a whole computation also runs, for comparison.
     pub reference: bool,
-    /// Whether the network runs on the whole frames, too, to compare what it says there.
+    /// Whether the network also runs on whole frames, to compare its outputs there.
     pub sight: bool,
-    /// Then under noise of these standard deviations, in grey levels of 8 bits, each above 0, too.
+    /// Standard deviations of noise in grey levels of 8 bits, each above 0. With `sight`, the
+    /// network also runs on whole frames with this noise.
     pub noise: Vec<f64>,
-    /// The network sees one of so many frames of a clip, the first one first; the camera sees all.
+    /// The interval of the frames that the network sees: one of so many frames of a clip, from the
+    /// first one. The camera sees all frames.
     pub every: NonZeroU32,
-    /// What is written of the outputs.
+    /// The files of the outputs that are written.
     pub record: Record,
-    /// The words of the command line, which the page shows; none if there was no command.
+    /// The words of the command line, which the page shows; empty if there was no command.
     pub command: Vec<String>,
-    /// Whether a folder of an earlier run is replaced.
+    /// Whether the folder of an earlier run is replaced.
     pub overwrite: bool,
 }
 
-/// What is computed for a frame after the first.
+/// The computation for each frame after the first.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Computed {
-    /// What a mode says.
+    /// The computation of a mode.
     Mode(Mode),
-    /// What differs by more than a limit, of each layer, that is chosen on the first half of the clips, rounded up, or of the frames of the only
-    /// clip. The second half is reported.
+    /// A computation of the changes above a limit for each layer. The limits are chosen on the
+    /// first half of the clips, rounded up, or on the first half of the frames of a single clip.
+    /// The second half is reported.
     Tuned(Goal),
 }
 
-/// A camera, a network, and the clips to show them.
+/// A camera, a network and the clips of a run.
 pub struct Inference {
     design: Design,
     witness: Witness,
@@ -68,13 +72,14 @@ pub struct Inference {
 }
 
 impl Inference {
-    /// Looks at the inputs, fits the configuration to their frames, and reads the network for them. Image files together are one clip,
-    /// every other input is a clip or set of its own; each begins with a camera and a network that have seen nothing. Beside the inputs are files of
-    /// ground-truth boxes, for average precision: one for all clips, or one for each; none without.
+    /// Opens the inputs, fits the configuration to their frames, and reads the network for them.
+    /// Image files together are one clip; every other input is a clip or data set of its own. Each
+    /// clip starts with a new camera and a new network. `boxes` are files of ground-truth boxes for
+    /// average precision: one for all clips, one for each clip, or none.
     ///
     /// # Errors
-    /// When an input cannot be read, clips have different sizes, the configuration is not a valid design, or the network cannot be read or
-    /// takes frames of another size.
+    /// Fails if an input cannot be read, clips have different sizes, the configuration is not a
+    /// valid design, or the network cannot be read or takes frames of another size.
     pub fn new(
         config: &Config,
         network: &Path,
@@ -85,10 +90,10 @@ impl Inference {
         Self::with(config, network, viewing, Clips::new(inputs, boxes, config, input)?)
     }
 
-    /// The same for one clip or set that is open already.
+    /// Creates a run over one clip or data set that is already open.
     ///
     /// # Errors
-    /// As [`Inference::new`], without those of inputs.
+    /// Fails like [`Inference::new`], but not on inputs.
     pub fn of_source(
         config: &Config,
         network: &Path,
@@ -110,10 +115,11 @@ impl Inference {
         Ok(Self { design, witness, viewing, path: network.to_owned(), clips })
     }
 
-    /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when everything is written; on an error nothing is left.
+    /// Runs to the end of the clips, or until `hooks` cancels. The folder `output` appears when
+    /// everything is written; on an error nothing is left.
     ///
     /// # Errors
-    /// When a frame cannot be read, the folder cannot be written, or there is no frame.
+    /// Fails if a frame cannot be read, the folder cannot be written, or there is no frame.
     pub fn run(
         self,
         output: &Path,
@@ -129,7 +135,7 @@ impl Inference {
         Ok(summary)
     }
 
-    /// Writes all files.
+    /// Runs the network and writes all files.
     fn write(
         self,
         staging: &StagedFolder,
@@ -210,7 +216,7 @@ impl Inference {
     }
 }
 
-/// Why frames are missing, if some are: the only clip needs no name.
+/// Returns the reason for missing frames, if some are missing. A single clip is not named.
 fn problem(clips: Vec<(String, String)>, all: usize, begun: usize) -> Option<String> {
     let named = |(clip, problem): (String, String)| {
         if all == 1 { problem } else { format!("`{clip}`: {problem}") }
@@ -230,7 +236,7 @@ impl std::fmt::Debug for Inference {
     }
 }
 
-/// The files of a run.
+/// Writes the tables, the charts and the summary of a run.
 fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
     let Ended { summary, frames, detected } = ended;
     let layers = (0..).zip(&summary.layers);
@@ -260,7 +266,7 @@ fn write(staging: &StagedFolder, ended: &Ended) -> Result<(), InferenceError> {
     Ok(staging.write("inference.json", &json)?)
 }
 
-/// The folder that a run leaves, and the only kind that it replaces.
+/// The kind of folder that a run writes, and the only kind that it replaces.
 pub const INFERENCE: FolderKind =
     FolderKind { what: "an inference (its inference.json)", is: is_inference };
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a network on what a region-based event camera sends, and counts what the camera saves it.
+//! Runs a network behind a region-based event camera, and counts what the camera saves the network.
 //!
-//! The network sees the rendered frames, as the receiver has them. A region whose rendered pixels are those of the frame before has not changed, so
-//! everything that depends on such regions alone need not be computed again. An [`Inference`] runs a camera and a network over a clip or a set,
-//! and writes how much was needed, layer by layer and frame by frame.
+//! The network sees the rendered frames of the receiver. A region whose rendered pixels equal those
+//! of the frame before has not changed, so values that depend only on such regions need not be
+//! computed again. An [`Inference`] runs a camera and a network over a clip or a data set, and
+//! writes how much was needed, layer by layer and frame by frame.
 
 mod album;
 mod arrays;
@@ -40,7 +41,7 @@ pub use choices::{parse_goal, parse_mode, parse_noise, read_accelerator};
 pub use closeness::Goal;
 pub use cost::{Accelerated, FrameCost};
 pub use error::InferenceError;
-// What its interface speaks of.
+// Types that appear in the interface of this crate.
 pub use foveate_network::sight::{
     Agreement, ClassKept, Detection, DetectionsKept, Detector, Found, Framing, Head, Looking,
     Mapping, Output, SightError, Testimony, Viewing, Witness, parse_detector, parse_framing,

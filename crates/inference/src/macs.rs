@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Multiplications and additions (MACs) of a frame.
+//! The multiplications and additions (MACs) of a frame.
 
 use crate::positions::Positions;
 use crate::sums::{ratio, sum};
@@ -7,33 +7,35 @@ use foveate_network::Network;
 use serde::Serialize;
 use std::ops::AddAssign;
 
-/// Multiplications and additions per frame.
+/// The number of multiplications and additions (MACs) per frame.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct Macs {
-    /// Of a whole computation.
+    /// The MACs of a whole computation.
     pub dense: f64,
-    /// Of the positions whose windows hold a change.
+    /// The MACs of the positions whose windows hold a change.
     pub needed: f64,
-    /// Of the positions that were computed: whole blocks.
+    /// The MACs of the positions that were computed, in whole blocks.
     pub scheduled: f64,
-    /// Of the positions that a whole computation computes, in the same blocks.
+    /// The MACs of the positions that a whole computation computes, in the same blocks.
     pub whole: f64,
 }
 
 impl Macs {
-    /// Those that were needed as a share of a whole computation; 0 where there is nothing to compute.
+    /// Returns the needed MACs as a share of a whole computation; 0 if there is nothing to compute.
     #[must_use]
     pub fn needed_share(&self) -> f64 {
         self.share(self.needed)
     }
 
-    /// Those that were computed, as such a share.
+    /// Returns the computed MACs as a share of a whole computation; 0 if there is nothing to
+    /// compute.
     #[must_use]
     pub fn scheduled_share(&self) -> f64 {
         self.share(self.scheduled)
     }
 
-    /// Those of a whole computation in blocks, as such a share.
+    /// Returns the MACs of a whole computation in blocks, as a share of a whole computation; 0 if
+    /// there is nothing to compute.
     #[must_use]
     pub fn whole_share(&self) -> f64 {
         self.share(self.whole)
@@ -53,7 +55,7 @@ impl AddAssign for Macs {
     }
 }
 
-/// The sums over all layers.
+/// Returns the MACs of all layers.
 pub(crate) fn macs(network: &Network, sums: &[Positions]) -> Macs {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
     let of = |share: &dyn Fn(usize, &Positions) -> f64| {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One page that shows a run: what was run, what it saved, charts, tables, and how to get it again. No script is needed to read it and
-//! nothing is loaded.
+//! The page of a run: its setup, its savings, charts, tables, and the command that repeats it. The
+//! page needs no script to be read, and loads nothing.
 
 mod again;
 mod figures;
@@ -20,12 +20,12 @@ use foveate_design::Design;
 use foveate_pictures::page::{Notice, Page, PageError, Plot, Table, Target};
 use rows::Rows;
 
-/// Frames that a page shows; with more it would be too large to open.
+/// The most frames that a page shows; with more it would be too large to open.
 const FRAMES: usize = 400;
-/// Where the figures of a mark lead to.
+/// The target of the links of marks: the row of a mark.
 const TARGETS: [Target; 1] = [Target { prefix: "p", name: "its row" }];
 
-/// What was run and what came out.
+/// The section about the run and its findings.
 #[derive(Template)]
 #[template(path = "about.html")]
 struct About {
@@ -37,20 +37,20 @@ struct About {
     shots: bool,
 }
 
-/// The sections.
+/// The other sections.
 #[derive(Template)]
 #[template(path = "main.html")]
 struct Main<'a> {
-    /// Of a network that finds objects.
+    /// The frames with detections, if the network finds objects.
     shots: Option<shots::Pictures>,
     plots: Vec<Plot>,
-    /// Of several.
+    /// The table of clips, if there are several.
     clips: Option<Table<'a>>,
     layers: Table<'a>,
     tried: Option<Table<'a>>,
-    /// Counted frames, if there are any.
+    /// The table of counted frames, if there are any.
     frames: Option<Table<'a>>,
-    /// Of how many counted frames one is shown.
+    /// The number of counted frames of which one is shown.
     every: usize,
     command: String,
     camera: String,
@@ -61,7 +61,7 @@ struct Main<'a> {
     sighted: bool,
 }
 
-/// At the end.
+/// The footer, with the files of the run.
 #[derive(Template)]
 #[template(path = "files.html")]
 struct Files<'a> {
@@ -70,7 +70,7 @@ struct Files<'a> {
     outputs: &'a [crate::Recorded],
 }
 
-/// The page.
+/// Renders the page.
 pub(crate) fn page(
     summary: &Summary,
     frames: &[Frame],
@@ -138,10 +138,11 @@ pub(crate) fn page(
     page.render()
 }
 
-/// Of `every` frames in a row the one that needs the most, so that no peak is lost.
+/// Returns, of every `every` frames in a row, the frame that needs the most MACs, so that no peak
+/// is lost.
 fn shown<'a>(frames: &[&'a Frame], every: usize) -> Vec<&'a Frame> {
     let by_macs = |one: &&&Frame, other: &&&Frame| {
-        // The first of equal ones.
+        // Of equal frames the first one is taken.
         one.macs.needed.total_cmp(&other.macs.needed).then(other.place.cmp(&one.place))
     };
     let most = |frames: &[&'a Frame]| frames.iter().max_by(by_macs).copied();

@@ -1,33 +1,35 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An executor that follows clips, or takes the images of sets one by one.
+//! The player of a network: it runs an executor over clips, or over the frames of data sets one by
+//! one.
 
 use crate::camera::Seen;
 use foveate_network::{Executor, Mask, Mode, Network, Work};
 
-/// What an executor computes.
+/// The computation of an executor.
 #[derive(Clone, Debug)]
 pub(crate) enum Way {
     Mode(Mode),
-    /// What differs by more than a limit, of each node.
+    /// A computation of the changes above a limit for each node.
     Limits(Vec<f32>),
 }
 
-/// Steps executors through frames: every clip has one that has seen nothing.
+/// Runs a network over frames. Every clip starts with a new executor.
 #[derive(Clone, Debug)]
 pub(crate) struct Player<'a> {
     network: &'a Network,
     way: Way,
-    /// That of the clip, once one has begun.
+    /// The executor of the current clip, once one has begun.
     clip: Option<Playing<'a>>,
 }
 
-/// An executor in a clip or set.
+/// An executor in a clip or data set.
 #[derive(Clone, Debug)]
 struct Playing<'a> {
     executor: Executor<'a>,
-    /// As it is after a black picture, from which every image of a set begins.
+    /// The executor after a black screen, from which every frame of a data set starts; `None` for a
+    /// clip.
     black: Option<Executor<'a>>,
-    /// Frames so far.
+    /// The number of frames so far.
     frames: u64,
 }
 
@@ -40,9 +42,9 @@ impl<'a> Player<'a> {
         self.network
     }
 
-    /// Begins a set with its black picture, a clip without.
+    /// Begins a clip, or a data set if `black` is its input for a black screen.
     pub(crate) fn begin(&mut self, black: Option<&[f32]>) {
-        // The memory of the one before goes first.
+        // The memory of the clip before is freed first.
         self.clip = None;
         let mut executor = match &self.way {
             Way::Mode(mode) => Executor::new(self.network, *mode),
@@ -56,7 +58,7 @@ impl<'a> Player<'a> {
         self.clip = Some(Playing { executor, black, frames: 0 });
     }
 
-    /// Runs the network on the next frame. Returns what every node did.
+    /// Runs the network on the next frame. Returns the work of every node.
     pub(crate) fn step(&mut self, seen: Seen<'_>) -> &[Work] {
         let playing = self.clip.as_mut().expect(BEGUN);
         if let Some(black) = &playing.black {
@@ -66,7 +68,8 @@ impl<'a> Player<'a> {
         playing.executor.step(seen.values, seen.changed)
     }
 
-    /// Whether the frame before counts: all of a set, of a clip all but the first, which is computed whole.
+    /// Returns whether the last frame counts: every frame of a data set, and every frame of a clip
+    /// but the first, which is computed whole.
     pub(crate) fn is_counted(&self) -> bool {
         let playing = self.clip.as_ref().expect(BEGUN);
         playing.black.is_some() || playing.frames > 1

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How many positions of a layer were needed, were computed and changed.
+//! The numbers of positions of a layer that were needed, computed and changed.
 
 use crate::sums::ratio;
 use foveate_network::Work;
 use std::ops::AddAssign;
 
-/// Positions of a node over all counted frames.
+/// The positions of a node, summed over frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Positions {
     pub(crate) all: u64,
@@ -15,7 +15,7 @@ pub(crate) struct Positions {
 }
 
 impl Positions {
-    /// Of a frame.
+    /// Returns the positions of one frame.
     pub(crate) fn of(work: &Work, places: usize) -> Self {
         Self {
             all: places as u64,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The network's outputs as files that grow frame by frame: an array of each, and pictures of those that are pictures.
+//! The network's outputs as files that grow frame by frame: an array of each output, and PNG files
+//! of outputs that are frames.
 
 use crate::InferenceError;
 use foveate_files::npy::{Element, NpyWriter};
@@ -11,41 +12,42 @@ use serde::Serialize;
 
 /// The folder of all outputs.
 pub(crate) const FOLDER: &str = "outputs";
-/// Letters of a file's name.
+/// The most letters of a file's name.
 const LETTERS: usize = 100;
 
-/// What is written of the outputs.
+/// The files of the outputs that are written.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Record {
-    /// NumPy arrays `[frames, ...shape]`.
+    /// Whether NumPy arrays of shape `[frames, ...shape]` are written.
     pub arrays: bool,
-    /// PNG files of the outputs with one or three channels and the size of the input.
+    /// Whether PNG files are written of the outputs with one or three channels and the size of the
+    /// input.
     pub pictures: bool,
 }
 
 /// An output of the network and its files.
 #[derive(Clone, Debug, Serialize)]
 pub struct Recorded {
-    /// What the model calls it.
+    /// The name of the output in the model.
     pub name: String,
-    /// Shape of a frame.
+    /// The shape of the output for one frame.
     pub shape: Vec<usize>,
-    /// Type of a value, as NumPy calls it.
+    /// The type of a value, with NumPy's name.
     pub dtype: &'static str,
-    /// Its array.
+    /// The path of the array, if it is written.
     pub array: Option<String>,
-    /// The folder of its pictures.
+    /// The folder of the PNG files, if they are written.
     pub pictures: Option<String>,
 }
 
-/// The files of all outputs, open.
+/// The open files of all outputs.
 pub(crate) struct Recording<'a> {
     staging: &'a StagedFolder,
     outputs: Vec<Output>,
     frames: u64,
 }
 
-/// The files of an output, open.
+/// The open files of one output.
 struct Output {
     value: usize,
     told: Recorded,
@@ -53,8 +55,10 @@ struct Output {
 }
 
 impl<'a> Recording<'a> {
+    /// Creates the files of all outputs.
+    ///
     /// # Errors
-    /// When a file cannot be written, or pictures are wanted and no output is one.
+    /// Fails if a file cannot be written, or if pictures are wanted and no output can be shown as one.
     pub(crate) fn new(
         staging: &'a StagedFolder,
         network: &Network,
@@ -95,10 +99,10 @@ impl<'a> Recording<'a> {
         Ok(Self { staging, outputs, frames: 0 })
     }
 
-    /// Takes the outputs of a frame.
+    /// Writes the outputs of a frame.
     ///
     /// # Errors
-    /// When they cannot be written.
+    /// Fails if they cannot be written.
     pub(crate) fn push(&mut self, executor: &Executor<'_>) -> Result<(), InferenceError> {
         for output in &mut self.outputs {
             let tensor = executor.value(output.value);
@@ -116,10 +120,10 @@ impl<'a> Recording<'a> {
         Ok(())
     }
 
-    /// Completes the files. Returns what there is.
+    /// Completes the files. Returns the outputs with their files.
     ///
     /// # Errors
-    /// When they cannot be written.
+    /// Fails if they cannot be written.
     pub(crate) fn finish(self) -> Result<Vec<Recorded>, InferenceError> {
         let finished = self.outputs.into_iter().map(|output| {
             output.array.map_or(Ok(()), NpyWriter::finish)?;
@@ -129,13 +133,15 @@ impl<'a> Recording<'a> {
     }
 }
 
-/// Whether an output can be shown: one or three channels, and the size of the input.
+/// Returns whether an output can be shown as a frame: it has one or three channels and the size of
+/// the input.
 fn is_picture(form: &Form, input: &Form) -> bool {
     let (shape, input) = (form.shape(), input.shape());
     shape.len() == 4 && shape[0] == 1 && [1, 3].contains(&shape[1]) && shape[2..] == input[2..]
 }
 
-/// 0 as black and 1 as white; what lies beyond is cut off, and what is no number is black.
+/// Encodes an output as a PNG, with 0 as black and 1 as white. Values beyond are clamped, and NaN
+/// is black.
 fn png(form: &Form, values: &[f32]) -> Vec<u8> {
     let (channels, places) = (form.shape()[1], form.places());
     #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "from 0 to 255")]
@@ -154,14 +160,14 @@ fn png(form: &Form, values: &[f32]) -> Vec<u8> {
 }
 
 impl Recorded {
-    /// Its files and folders.
+    /// Returns the file and the folder of the output.
     fn files(&self) -> impl Iterator<Item = String> {
         [self.array.clone(), self.pictures.clone()].into_iter().flatten()
     }
 }
 
-/// A name of files for a tensor, whatever the tensor is called, so that none of those `taken` is its array or the folder of its pictures, also
-/// where cases are alike.
+/// Returns a safe file name for a tensor, whatever its name is. Neither the array nor the folder of
+/// that name is in `taken`, also where upper and lower case do not differ.
 pub(crate) fn free_name(name: &str, taken: &[String]) -> String {
     let safe = |letter: char| {
         if letter.is_ascii_alphanumeric() || letter == '-' { letter } else { '_' }
@@ -177,7 +183,7 @@ pub(crate) fn free_name(name: &str, taken: &[String]) -> String {
     names.find(|file| !is_taken(file)).expect("some number is free")
 }
 
-/// A shape as text.
+/// Formats a shape as text.
 fn by(shape: &[usize]) -> String {
     shape.iter().map(ToString::to_string).collect::<Vec<_>>().join("x")
 }
@@ -230,7 +236,7 @@ mod tests {
         let file = png(&Form::features(vec![1, 3, 1, 2]), &values);
         let picture = image::load_from_memory(&file).unwrap().into_rgb8();
         assert_eq!(picture.dimensions(), (2, 1));
-        // Red, green and blue of each: 0, -3 and no number; 1, 9 and a half.
+        // These are red, green and blue of both pixels: 0, -3 and NaN; 1, 9 and 0.5.
         assert_eq!(picture.into_raw(), [0, 0, 0, 255, 255, 128]);
     }
 }

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A whole computation of every frame, which says how far another one is from it.
+//! A whole computation of every frame, with which another computation is compared.
 
 use crate::closeness::Closeness;
 use foveate_network::sight::Distance;
 use foveate_network::{Executor, Mask, Mode, Network};
 use std::time::Instant;
 
-/// A whole computation beside the one that is judged.
+/// A whole computation that runs next to the compared one.
 pub(crate) struct Reference<'a> {
     network: &'a Network,
     dense: Executor<'a>,
     full: Mask,
-    /// By node.
+    /// The distance of every node's output.
     pub(crate) layers: Vec<Distance>,
     pub(crate) outputs: Closeness,
-    /// Frames in which some value of some tensor has other bits.
+    /// The number of frames in which some value of some tensor has other bits.
     pub(crate) different: u64,
     pub(crate) seconds: f64,
 }
@@ -32,8 +32,8 @@ impl<'a> Reference<'a> {
         }
     }
 
-    /// Computes the picture whole and compares every tensor; returns how close the outputs are. Only a
-    /// counted frame is in the means.
+    /// Computes the frame whole, compares every tensor, and returns how close the outputs are. Only
+    /// a counted frame is part of the means.
     pub(crate) fn judge(
         &mut self,
         picture: &[f32],

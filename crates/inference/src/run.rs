@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A run under way: what every frame did, and the sums.
+//! A run in progress: the figures of every frame, and their sums.
 
 use crate::album::Part;
 use crate::camera::Seen;
@@ -23,12 +23,12 @@ use foveate_network::Network;
 use std::num::NonZeroU32;
 use std::time::Instant;
 
-/// What a summary says that no frame says.
+/// The values of the summary that come from the options and not from the frames.
 pub(crate) struct Told {
     pub(crate) mode: String,
-    /// What the accelerator is called.
+    /// The name of the accelerator.
     pub(crate) accelerator: Option<String>,
-    /// With its goal.
+    /// The result of tuning, and its goal.
     pub(crate) tuning: Option<(Tuning, Goal)>,
     pub(crate) problem: Option<String>,
     pub(crate) network: String,
@@ -38,39 +38,39 @@ pub(crate) struct Told {
     pub(crate) every: NonZeroU32,
 }
 
-/// A run at its end.
+/// The result of a finished run.
 pub(crate) struct Ended {
     pub(crate) summary: Summary,
     pub(crate) frames: Vec<Frame>,
-    /// What was found in them, if detections were read.
+    /// The detections of the counted frames, if detections were read.
     pub(crate) detected: Option<Detected>,
 }
 
-/// What runs beside, to be compared with.
+/// The computations that run for comparison.
 pub(crate) struct Beside<'a> {
-    /// A whole computation of what the receiver sees.
+    /// Whether a whole computation of the receiver's screen runs.
     pub(crate) reference: bool,
-    /// The network on whole frames.
+    /// The network on whole frames, if it runs.
     pub(crate) judge: Option<Judge<'a>>,
 }
 
-/// Where the frames go that are not kept in memory.
+/// The files of the data that is not kept in memory.
 pub(crate) struct Files<'a> {
     pub(crate) outputs: Recording<'a>,
     pub(crate) details: Details,
 }
 
-/// A clip or set that has begun.
+/// A clip or data set that has begun.
 struct Begun {
     name: String,
     problem: Option<String>,
-    /// Its first frame among those of all.
+    /// The index of its first frame among the frames of all clips.
     first: usize,
     /// The place of its first frame.
     place: u64,
 }
 
-/// A run under way.
+/// A run in progress.
 pub(crate) struct Run<'a> {
     design: &'a Design,
     network: &'a Network,
@@ -138,7 +138,7 @@ impl<'a> Run<'a> {
         }
     }
 
-    /// Runs the network on a frame, and adds it to the sums if it counts.
+    /// Runs the network on a frame, and adds the frame to the sums if it counts.
     fn step(&mut self, seen: Seen<'_>) -> (Frame, Vec<LayerFrame>) {
         let start = Instant::now();
         let work = self.player.step(seen).to_vec();
@@ -181,35 +181,35 @@ impl<'a> Run<'a> {
         (frame.of_layers(self.network, &layers, self.costs.as_ref()), layers)
     }
 
-    /// Looks at a part of a clip.
+    /// Runs the network on a part of a clip.
     ///
     /// # Errors
-    /// When a file cannot be written.
+    /// Fails if a file cannot be written.
     pub(crate) fn see(&mut self, part: Part<'_>) -> Result<(), InferenceError> {
         self.begin(part.clip, part.black);
         part.frames.iter().try_for_each(|kept| self.look(kept.seen()))
     }
 
-    /// Clips whose frames are missing, with the reasons.
+    /// Returns the names of clips with missing frames, each with the reason.
     pub(crate) fn problems(&self) -> Vec<(String, String)> {
         let of = |clip: &Begun| Some((clip.name.clone(), clip.problem.clone()?));
         self.clips.iter().filter_map(of).collect()
     }
 
-    /// Whether a frame counted so far.
+    /// Returns whether some frame counts so far.
     pub(crate) fn counts(&self) -> bool {
         self.frames.iter().any(|frame| frame.is_counted)
     }
 
-    /// Clips so far.
+    /// Returns the number of clips so far.
     pub(crate) fn clips(&self) -> usize {
         self.clips.len()
     }
 
-    /// What is to be written beside the files that grew.
+    /// Ends the run. Returns what is to be written next to the files that grew.
     ///
     /// # Errors
-    /// When these cannot be completed.
+    /// Fails if the files that grew cannot be completed.
     pub(crate) fn end(self, told: Told) -> Result<Ended, InferenceError> {
         let executor = self.player.executor();
         let counted = counted(&self.frames);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run says at its end, and its tables.
+//! The summary of a run, and its tables.
 
 use crate::closeness::Closeness;
 use crate::cost::{Accelerated, Costs, FrameCost};
@@ -13,124 +13,133 @@ use foveate_network::{Executor, Form, Mode, Network};
 use serde::Serialize;
 use std::num::NonZeroU32;
 
-/// A run of a network behind a camera. All shares and means are over the counted frames.
+/// The summary of a run of a network behind a camera. All shares and means are over the counted
+/// frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Summary {
-    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    /// The version of this summary as JSON; it changes if a field changes its meaning or is
+    /// removed.
     pub format_version: u32,
-    /// The program.
+    /// The version of the program.
     pub foveate_version: &'static str,
     /// Whether the inputs were read to their end.
     pub complete: bool,
-    /// Why not.
+    /// The reason if the inputs were not read to their end.
     pub problem: Option<String>,
-    /// What is odd: weights and outputs that are infinite or no numbers.
+    /// Warnings about weights and outputs that are infinite or NaN.
     pub warnings: Vec<String>,
-    /// The inputs as they were named.
+    /// The inputs as the user named them.
     pub inputs: Vec<String>,
     /// The network's file.
     pub network: String,
-    /// In which layout the network's model takes its input: `nchw`, or `nhwc`, whose Transpose to channels first is left out.
+    /// The layout in which the model takes its input: `nchw`, or `nhwc`, whose Transpose to
+    /// channels first is left out.
     pub layout: &'static str,
-    /// What was computed: `dense`, `exact`, `compare`, `truncate=0.1` or `fixed`.
+    /// The computation: `dense`, `exact`, `compare`, `truncate=0.1`, `fixed`, or `tuned to` a goal.
     pub mode: String,
-    /// How pixels became inputs.
+    /// The mapping from pixels to inputs.
     pub mapping: Mapping,
-    /// How frames got the size of the network's input, as on the command line.
+    /// The fit of frames to the size of the network's input, as on the command line.
     pub framing: Framing,
-    /// Width of the frames.
+    /// The width of the frames in pixels.
     pub width: u32,
-    /// Height of the frames.
+    /// The height of the frames in pixels.
     pub height: u32,
-    /// The network saw one of so many frames of the camera, the first one first.
+    /// The interval of the frames that the network saw: one of so many frames of the camera, from
+    /// the first one.
     pub every: NonZeroU32,
-    /// Frames that the network saw.
+    /// The number of frames that the network saw.
     pub frames: u64,
-    /// Frames that are counted: all of a set, of a clip all but the first, which is computed whole.
+    /// The number of counted frames: all frames of a data set, and all frames of a clip but the
+    /// first, which is computed whole.
     pub counted_frames: u64,
-    /// Share of regions that were active.
+    /// The share of regions that were active.
     pub active_share: f64,
-    /// Share of regions whose rendered pixels changed.
+    /// The share of regions whose rendered pixels changed.
     pub changed_share: f64,
-    /// Multiplications and additions of a frame, as means.
+    /// The mean multiplications and additions of a frame.
     pub macs: Macs,
-    /// Bytes of all weights.
+    /// The size of all weights in bytes.
     pub weight_bytes: u64,
-    /// Bytes of all tensors, which are kept from frame to frame.
+    /// The size in bytes of all tensors, which are kept from frame to frame.
     pub kept_bytes: u64,
-    /// Bytes of the masks of all tensors, a bit per position.
+    /// The size in bytes of the masks of all tensors, with one bit per position.
     pub mask_bytes: u64,
-    /// What all layers read and write for a frame.
+    /// The mean traffic of all layers for a frame.
     pub traffic: FrameTraffic,
-    /// Mean time of a frame in this run in seconds.
+    /// The mean time of a frame in this run in seconds.
     pub seconds_per_frame: f64,
-    /// Of it the time beside operators: for masks, comparisons and copies.
+    /// The mean time of a frame outside of operators in seconds: for masks, comparisons and copies.
+    /// It is part of `seconds_per_frame`.
     pub overhead_seconds_per_frame: f64,
-    /// What a frame would cost on an accelerator, if one is named.
+    /// The cost of a frame on an accelerator, if one is named.
     pub accelerator: Option<Accelerated>,
-    /// How far the outputs are from those of a whole computation, if one ran beside.
+    /// The error of the outputs against a whole computation, if one ran.
     pub error: Option<Error>,
-    /// How the limits of the layers were chosen, if they were.
+    /// The choice of the limits of the layers, if they were tuned.
     pub tuning: Option<Tuning>,
-    /// What the network loses behind the camera, if it ran on the whole frames, too.
+    /// The loss of the network behind the camera, if it also ran on whole frames.
     pub sight: Option<Sight>,
     /// The files of the outputs, if they are written.
     pub outputs: Vec<Recorded>,
-    /// Every clip or set that is reported, in the order of the frames.
+    /// The clips and data sets that are reported, in the order of the frames.
     pub clips: Vec<Clip>,
-    /// Fingerprint of the design.
+    /// The fingerprint of the design.
     pub design: String,
-    /// The camera's configuration, with the frame size filled in.
+    /// The configuration of the camera, with the frame size filled in.
     pub configuration: Config,
-    /// Every layer.
+    /// The layers of the network.
     pub layers: Vec<Layer>,
 }
 
-/// A clip or set. All shares and means are over its counted frames.
+/// The figures of a clip or data set. All shares and means are over its counted frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct Clip {
-    /// Its name in tables and charts.
+    /// The name in tables and charts.
     pub name: String,
-    /// Frames that were seen.
+    /// The number of frames that the network saw.
     pub frames: u64,
-    /// Frames that are counted.
+    /// The number of counted frames.
     pub counted_frames: u64,
-    /// Share of regions that were active.
+    /// The share of regions that were active.
     pub active_share: f64,
-    /// Share of regions whose rendered pixels changed.
+    /// The share of regions whose rendered pixels changed.
     pub changed_share: f64,
-    /// Multiplications and additions of a frame, as means.
+    /// The mean multiplications and additions of a frame.
     pub macs: Macs,
-    /// Why frames are missing, if some are.
+    /// The reason for missing frames, if some are missing.
     pub problem: Option<String>,
 }
 
-/// A comparison with a whole computation.
+/// The comparison with a whole computation.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Error {
-    /// Frames with a tensor in which a value has other bits.
+    /// The number of frames with a tensor in which some value has other bits.
     pub different_frames: u64,
-    /// How close the outputs are.
+    /// The closeness of the outputs.
     #[serde(flatten)]
     pub outputs: Outputs,
-    /// Mean time of a whole computation in this run in seconds.
+    /// The mean time of a whole computation in this run in seconds.
     pub dense_seconds_per_frame: f64,
 }
 
-/// How close the outputs of all counted frames are to those of a whole computation.
+/// The closeness of the outputs of all counted frames to those of a whole computation.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Outputs {
-    /// Share of frames in which every output has its largest value at the same place.
+    /// The share of frames in which every output has its largest value at the same position.
     pub agreement: f64,
-    /// Cosine of the angle between all outputs as vectors.
+    /// The cosine of the angle between all outputs as vectors.
     pub cosine: f64,
-    /// Peak signal-to-noise ratio in decibels, with the range of the right outputs as the peak; nothing where they are equal.
+    /// The peak signal-to-noise ratio in decibels, with the range of the right outputs as the peak;
+    /// `None` if the outputs are equal.
     pub psnr: Option<f64>,
     /// The largest difference of an output.
     pub largest: f64,
-    /// Root of the mean squared difference of the outputs, as a share of that of their values.
+    /// The root mean squared difference of the outputs, as a share of the root mean square of their
+    /// values.
     pub relative_rms: f64,
-    /// The same as a share of the standard deviation of the outputs over the frames of their clip: about 1 for outputs that never change.
+    /// The root mean squared difference of the outputs, as a share of their standard deviation over
+    /// the frames of their clip: about 1 for outputs that never change.
     pub rms_of_variation: f64,
 }
 
@@ -148,35 +157,38 @@ impl From<&Closeness> for Outputs {
     }
 }
 
-/// How the limits of the layers were chosen.
+/// The choice of the limits of the layers.
 #[derive(Clone, Debug, Serialize)]
 pub struct Tuning {
-    /// What has to hold, as on the command line.
+    /// The goal, as on the command line.
     pub goal: String,
-    /// The clips whose frames it was tuned on: the first half of several, rounded up, or the only one, of which it was the first half.
+    /// The clips whose frames it was tuned on: the first half of several clips, rounded up, or a
+    /// single clip, whose first half it was tuned on.
     pub clips: Vec<String>,
-    /// Counted frames of the first half, which it was tuned on. All else in the summary is of the second half.
+    /// The number of counted frames that it was tuned on. All other values of the summary belong to
+    /// the second half.
     pub frames: u64,
-    /// How often these frames were run.
+    /// The number of runs over these frames.
     pub runs: u64,
-    /// Nothing cut but what came out equal.
+    /// The trial with limits of 0, in which only equal values are not passed on.
     pub exact: Tried,
-    /// The same relative limit at every layer.
+    /// The trials with the same relative limit at every layer.
     pub uniform: Vec<Tried>,
-    /// The limits that were chosen: those of the layers.
+    /// The trial with the chosen limits, one per layer.
     pub chosen: Tried,
-    /// The first frame alone, whose outputs stay. A goal that it reaches says nothing.
+    /// The trial that computes only the first frame, so that the outputs stay the same. A goal that
+    /// it reaches has little meaning.
     pub frozen: Tried,
-    /// Whether the second half reaches the goal, too.
+    /// Whether the second half also reaches the goal.
     pub holds: bool,
 }
 
 impl Tuning {
-    /// Said of a goal that frozen outputs reach.
+    /// The sentence about a goal that frozen outputs reach.
     pub const SAYS_LITTLE: &'static str =
         "outputs that never change after the first frame reach it as well, so it says little";
 
-    /// Everything that was tried, with what its limits are called, in the order of its table.
+    /// Returns all trials in the order of their table, each with the name of its kind of limits.
     pub(crate) fn tried(&self) -> impl Iterator<Item = (&'static str, Tried)> {
         let uniform = self.uniform.iter().map(|tried| ("uniform", *tried));
         let others = [("frozen", self.frozen), ("chosen", self.chosen)];
@@ -184,57 +196,60 @@ impl Tuning {
     }
 }
 
-/// What some limits gave on the first half.
+/// The result of some limits on the first half.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct Tried {
-    /// As a share of the root mean square of each layer's values in the first frame, if it is the same at all layers and finite.
+    /// The limit as a share of the root mean square of each layer's values in the first frame, if
+    /// it is the same at all layers and finite.
     pub relative_limit: Option<f64>,
-    /// Share of the MACs whose windows hold a change.
+    /// The share of the MACs whose windows hold a change.
     pub needed_share: f64,
-    /// How close the outputs are.
+    /// The closeness of the outputs.
     #[serde(flatten)]
     pub outputs: Outputs,
     /// Whether the goal is reached.
     pub holds: bool,
 }
 
-/// What one node did.
+/// The figures of one node.
 #[derive(Clone, Debug, Serialize)]
 pub struct Layer {
-    /// Its name in the model.
+    /// The name of the node in the model.
     pub name: String,
-    /// Its operator.
+    /// The operator of the node.
     pub operator: String,
-    /// Shape of its output.
+    /// The shape of the output.
     pub shape: Vec<usize>,
-    /// Multiplications and additions for a whole frame.
+    /// The number of multiplications and additions for a whole frame.
     pub macs: u64,
-    /// Share of the positions whose windows hold a change.
+    /// The share of the positions whose windows hold a change.
     pub needed_share: f64,
-    /// Share of the positions that were computed; above 1 where whole blocks cover more than there is.
+    /// The share of the positions that were computed; above 1 where whole blocks cover more than
+    /// the output.
     pub scheduled_share: f64,
-    /// Share of the positions that were passed on as changed.
+    /// The share of the positions that were passed on as changed.
     pub changed_share: f64,
-    /// Bytes of its weights.
+    /// The size of the weights in bytes.
     pub weight_bytes: u64,
-    /// Bytes of its output.
+    /// The size of the output in bytes.
     pub output_bytes: u64,
-    /// Bytes of the mask of its output, a bit per position.
+    /// The size in bytes of the output's mask, with one bit per position.
     pub mask_bytes: u64,
-    /// What it reads and writes for a frame.
+    /// The mean traffic of the node for a frame.
     #[serde(flatten)]
     pub traffic: FrameTraffic,
-    /// What it would cost on the accelerator, if one is named: computed whole.
+    /// The cost of the whole node on the accelerator, if one is named.
     pub whole_cost: Option<FrameCost>,
-    /// The same where the masks say.
+    /// The cost of the node where the masks say, if an accelerator is named.
     pub masked_cost: Option<FrameCost>,
-    /// By how much a value must have changed to be passed on, in the modes that cut.
+    /// The change that a value must exceed to be passed on, in the modes that have limits.
     pub limit: Option<f32>,
-    /// Root of the mean squared difference from a whole computation, as a share of that of its values.
+    /// The root mean squared difference from a whole computation, as a share of the root mean
+    /// square of its values.
     pub relative_rms: Option<f64>,
 }
 
-/// What a mode is called on the command line.
+/// Returns the name of a mode on the command line.
 pub(crate) fn mode_name(mode: Mode) -> String {
     match mode {
         Mode::Dense => "dense".to_owned(),
@@ -245,7 +260,7 @@ pub(crate) fn mode_name(mode: Mode) -> String {
     }
 }
 
-/// The layers from their sums.
+/// Returns the layers with their figures.
 pub(crate) fn layers(
     network: &Network,
     (sums, traffic): (&[Positions], &[FrameTraffic]),
@@ -277,12 +292,12 @@ pub(crate) fn layers(
     sums.iter().enumerate().map(layer).collect()
 }
 
-/// Bytes of a mask.
+/// Returns the size of a mask in bytes.
 pub(crate) fn mask_bytes(form: &Form) -> u64 {
     form.places().div_ceil(8) as u64
 }
 
-/// The comparison of the outputs.
+/// Returns the comparison of the outputs with a whole computation.
 pub(crate) fn error(reference: &Reference<'_>) -> Error {
     #[allow(clippy::cast_precision_loss, reason = "a mean")]
     let frames = reference.outputs.frames.max(1) as f64;
@@ -294,13 +309,15 @@ pub(crate) fn error(reference: &Reference<'_>) -> Error {
 }
 
 impl Summary {
-    /// Said instead of shares where no frame counts.
+    /// The sentence that replaces shares if no frame counts.
     pub const ONLY_FRAME: &'static str =
         "the only frame was computed whole; savings begin with a second one";
 
-    /// The share of the MACs of a whole computation, both in blocks, up to which parts are at least faster than the whole: that at which this run
-    /// would have been as slow if each further block took as long as its own. It takes less, because more blocks are neighbors. Nothing without a
-    /// whole computation, where nothing was computed, or where everything was.
+    /// Returns the share of the MACs of a whole computation, both in blocks, up to which this run
+    /// is at least as fast as a whole computation. At this share the run would take as long, if
+    /// each further block took as long as the blocks of this run. Further blocks take less, because
+    /// more of them are neighbors. Returns `None` if no whole computation ran, if nothing was
+    /// computed, or if everything was computed.
     #[must_use]
     pub fn break_even_share(&self) -> Option<f64> {
         let dense = self.error?.dense_seconds_per_frame;
@@ -310,7 +327,8 @@ impl Summary {
         (share.is_finite() && self.macs.scheduled < self.macs.whole).then_some(share.min(1.0))
     }
 
-    /// Whether limits were chosen on other clips than those that are reported, not on the first half of the only one.
+    /// Returns whether the limits were chosen on other clips than the reported ones, and not on the
+    /// first half of a single clip.
     #[must_use]
     pub fn is_tuned_on_clips(&self) -> bool {
         let is_other = |name: &String| self.clips.iter().all(|clip| clip.name != *name);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Means over the frames of a clip, and frames whose outputs are not finite.
+//! The means over the frames of a clip, and the frames whose outputs are not finite.
 
 use crate::frame::{Frame, counted, mean};
 use crate::macs::Macs;
 use crate::summary::Clip;
 use foveate_network::{Executor, Network};
 
-/// A clip with the means of its counted frames.
+/// Returns a clip with the means of its counted frames.
 pub(crate) fn clip(name: &str, problem: Option<&String>, frames: &[Frame]) -> Clip {
     let counted = counted(frames);
     Clip {
@@ -25,16 +25,16 @@ pub(crate) fn clip(name: &str, problem: Option<&String>, frames: &[Frame]) -> Cl
     }
 }
 
-/// Frames with outputs that are infinite or no numbers.
+/// The frames whose outputs are infinite or NaN.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct NotFinite {
     frames: u64,
-    /// Clip and number of the first such frame, and the first node of it that made such a value.
+    /// The clip and the number of the first such frame, and the first node with such a value in it.
     first: Option<(String, u64, usize)>,
 }
 
 impl NotFinite {
-    /// Looks at the outputs of a frame.
+    /// Checks the outputs of a frame.
     pub(crate) fn look(
         &mut self,
         (clip, frame): (&str, u64),
@@ -53,7 +53,7 @@ impl NotFinite {
         }
     }
 
-    /// In words, if there was one. The only clip needs no name.
+    /// Returns a warning, if there is such a frame. A single clip is not named.
     pub(crate) fn warning(&self, network: &Network, is_one_clip: bool) -> Option<String> {
         let (clip, frame, node) = self.first.as_ref()?;
         let node = &network.nodes()[*node];

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the layers read and write for a frame, and the time that they take.
+//! The bytes that the layers read and write for a frame, and their time.
 
 use foveate_network::{Executor, Form, Network};
 use serde::Serialize;
 use std::ops::AddAssign;
 
-/// Sums over frames.
+/// The traffic summed over frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Traffic {
     pub(crate) read: u64,
@@ -14,22 +14,22 @@ pub(crate) struct Traffic {
     pub(crate) seconds: f64,
 }
 
-/// What a frame, or a layer of it, reads and writes beside weights, as a mean over the counted frames. Blocks that are computed beyond what is needed are
-/// not counted.
+/// The mean traffic of a frame, or of a layer of it, without weights, over the counted frames.
+/// Blocks that are computed beyond the needed positions are not counted.
 #[derive(Clone, Copy, Debug, Default, Serialize)]
 pub struct FrameTraffic {
-    /// Bytes of the inputs that the needed outputs see, each once.
+    /// The bytes of the inputs that the needed outputs see, each input once.
     pub read_bytes: f64,
-    /// Of them those that have not changed: the halo around changes.
+    /// The bytes of these inputs that have not changed: the halo around changes.
     pub halo_bytes: f64,
-    /// Bytes of the needed outputs.
+    /// The bytes of the needed outputs.
     pub written_bytes: f64,
-    /// Time in the operators in seconds.
+    /// The time in the operators in seconds.
     pub seconds: f64,
 }
 
 impl Traffic {
-    /// What a node did for the last frame.
+    /// Returns the traffic of a node for the last frame.
     pub(crate) fn of(network: &Network, executor: &Executor<'_>, node: usize) -> Self {
         let bytes =
             |form: &Form, positions: usize| form.bytes() / form.places() as u64 * positions as u64;
@@ -46,7 +46,7 @@ impl Traffic {
         found
     }
 
-    /// The mean of so many frames.
+    /// Returns the mean over `frames` frames.
     #[allow(clippy::cast_precision_loss, reason = "means")]
     pub(crate) fn mean(&self, frames: u64) -> FrameTraffic {
         let frames = frames.max(1) as f64;

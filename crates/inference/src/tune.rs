@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Chooses for every node by how much a value must change to be passed on, so that the outputs stay as close to those of a whole
-//! computation as is wanted.
+//! The choice of a limit for every node: a value must change by more than the limit to be passed
+//! on. The outputs stay as close to those of a whole computation as the goal asks.
 //!
-//! Limits are multiples of the root mean square of a node's values in the first frame, by powers of 2. First all nodes get the same
-//! multiple; the largest with which the goal holds is halved, to leave room. Then, from front to back, each node's limit is doubled for
-//! as long as the goal holds and fewer MACs are needed.
+//! Limits are multiples of the root mean square of a node's values in the first frame, by powers of
+//! 2. First all nodes get the same multiple; the largest multiple that reaches the goal is halved,
+//! to leave room. Then, from front to back, each node's limit is doubled as long as the goal is
+//! reached and fewer MACs are needed.
 
 use crate::InferenceError;
 use crate::album::Part;
@@ -17,20 +18,20 @@ use foveate_footage::{Hooks, Progress};
 use foveate_network::{Executor, Mode, Network};
 use std::borrow::Cow;
 
-/// Multiples that all nodes get together: 2 to these powers.
+/// The exponents of 2 of the multiples that all nodes get together.
 const POWERS: std::ops::RangeInclusive<i32> = -10..=1;
-/// How often a node's limit is doubled at most.
+/// The most times that a node's limit is doubled.
 const DOUBLINGS: usize = 4;
-/// A doubling must save this share of the needed MACs.
+/// The share of the needed MACs that a doubling must save.
 const WORTH: f64 = 0.001;
 
-/// What was chosen, by node.
+/// The chosen limits, by node, and the summary of tuning.
 pub(crate) struct Tuned {
     pub(crate) limits: Vec<f32>,
     pub(crate) tuning: Tuning,
 }
 
-/// Limits that were tried.
+/// The result of some limits.
 #[derive(Clone, Debug)]
 struct Trial {
     limits: Vec<f32>,
@@ -42,15 +43,16 @@ struct Tuner<'a> {
     network: &'a Network,
     goal: Goal,
     parts: &'a [Part<'a>],
-    /// Outputs of a whole computation, by frame of all parts and by value.
+    /// The outputs of a whole computation, by frame of all parts and by value.
     right: Vec<Vec<Vec<f32>>>,
     runs: u64,
-    /// Frames before the first run.
+    /// The number of frames before the first run.
     before: u64,
     hooks: &'a mut dyn Hooks,
 }
 
-/// Tunes on parts of clips, of which the first frame does not count where there is no black picture to begin from.
+/// Tunes on parts of clips. The first frame of a part does not count, unless there is a black
+/// screen to start from.
 pub(crate) fn tune(
     network: &Network,
     goal: Goal,
@@ -66,7 +68,8 @@ pub(crate) fn tune(
     for power in POWERS {
         uniform.push((power, tuner.run(together(power))?));
     }
-    // What holds with larger limits by chance does not count.
+    // A larger limit that reaches the goal after a smaller one missed it does so by chance, and
+    // does not count.
     let holding = uniform.iter().take_while(|(_, trial)| goal.holds(&trial.closeness)).last();
     let best = holding.map_or(&exact, |(_, trial)| trial).clone();
     let start = match holding {
@@ -101,7 +104,8 @@ pub(crate) fn tune(
     Ok(Tuned { limits: chosen.limits, tuning })
 }
 
-/// The outputs of all frames, and the root mean square of every node's values in the first.
+/// Returns the outputs of all frames, and the root mean square of every node's values in the first
+/// frame.
 fn whole(network: &Network, parts: &[Part<'_>]) -> (Vec<Vec<Vec<f32>>>, Vec<f32>) {
     let mut dense = Executor::new(network, Mode::Dense);
     let (mut right, mut scales) = (Vec::new(), Vec::new());
@@ -113,7 +117,8 @@ fn whole(network: &Network, parts: &[Part<'_>]) -> (Vec<Vec<Vec<f32>>>, Vec<f32>
             scales =
                 nodes.clone().map(|value| root_mean_square(&dense.value(value).reals())).collect();
         }
-        // By value, so that it is found as in an executor; what is no output is not needed.
+        // The outputs are stored by value, so that they are found like those of an executor. Other
+        // values are not needed.
         let outputs = network.outputs();
         let of = |value| {
             if outputs.contains(&value) { dense.value(value).reals().to_vec() } else { Vec::new() }
@@ -127,12 +132,12 @@ fn whole(network: &Network, parts: &[Part<'_>]) -> (Vec<Vec<Vec<f32>>>, Vec<f32>
 fn root_mean_square(values: &[f32]) -> f32 {
     let sum: f64 = values.iter().map(|&value| f64::from(value) * f64::from(value)).sum();
     let root = (sum / values.len() as f64).sqrt() as f32;
-    // Of values that are no numbers nothing is cut.
+    // A node with infinite or NaN values gets no limit.
     if root.is_finite() { root } else { 0.0 }
 }
 
 impl Tuner<'_> {
-    /// Runs over all frames.
+    /// Runs the network on all frames.
     fn run(&mut self, limits: Vec<f32>) -> Result<Trial, InferenceError> {
         let mut player = Player::new(self.network, Way::Limits(limits.clone()));
         let mut sums = vec![Positions::default(); limits.len()];
@@ -166,7 +171,7 @@ impl Tuner<'_> {
         Ok(Trial { limits, closeness, macs: macs(self.network, &sums) })
     }
 
-    /// Doubles the limits of one node after the other; those that are 0 begin at `least`.
+    /// Doubles the limits of one node after the other; limits that are 0 start at `least`.
     fn front_to_back(&mut self, start: Trial, least: &[f32]) -> Result<Trial, InferenceError> {
         let mut best = start;
         for (node, &least) in least.iter().enumerate() {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The command line as one that a shell takes.
+//! The command line in a form that a shell reads.
 
 use foveate_toolchain::text::shell_word;
 
-/// The words, quoted where a shell would take them apart.
+/// Joins the words, and quotes those that a shell would split or expand.
 pub(super) fn line(words: &[String]) -> String {
     words.iter().map(|word| shell_word(word)).collect::<Vec<_>>().join(" ")
 }

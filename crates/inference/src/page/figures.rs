@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Figures as the page writes them, and those of its heading.
+//! Figures in the format of the page, and the figures of its heading.
 
 use crate::Summary;
 use foveate_pictures::page::Fact;
 use foveate_pictures::page::number::{NONE, grouped, percent, real};
 
-/// A share with its sign.
+/// Formats a share as a percentage.
 pub(super) fn share(value: f64) -> String {
     format!("{} %", percent(value))
 }
 
-/// An error: zero, or three digits.
+/// Formats an error as zero or with three digits.
 pub(super) fn error(value: f64) -> String {
     match value {
         0.0 => "0".to_owned(),
@@ -19,14 +19,14 @@ pub(super) fn error(value: f64) -> String {
     }
 }
 
-/// A PSNR with its unit. Equal outputs have none.
+/// Formats a PSNR with its unit; equal outputs have an infinite PSNR.
 pub(super) fn decibels(psnr: Option<f64>) -> String {
     psnr.map_or("infinite".to_owned(), |psnr| {
         if psnr.is_finite() { format!("{psnr:.1} dB") } else { NONE.to_owned() }
     })
 }
 
-/// Bytes with a unit.
+/// Formats a number of bytes with a unit.
 #[allow(clippy::cast_precision_loss, reason = "shown with three digits")]
 pub(super) fn bytes(count: u64) -> String {
     let size = count as f64;
@@ -38,7 +38,7 @@ pub(super) fn bytes(count: u64) -> String {
     }
 }
 
-/// A mean number of bytes.
+/// Formats a mean number of bytes with a unit.
 #[allow(
     clippy::cast_possible_truncation,
     clippy::cast_sign_loss,
@@ -48,7 +48,7 @@ pub(super) fn mean_bytes(count: f64) -> String {
     bytes(count.round() as u64)
 }
 
-/// Many of something, with a unit.
+/// Formats a large count with a unit.
 pub(super) fn many(count: f64) -> String {
     match count {
         _ if !count.is_finite() => NONE.to_owned(),
@@ -58,7 +58,7 @@ pub(super) fn many(count: f64) -> String {
     }
 }
 
-/// Milliseconds.
+/// Formats a time in seconds as milliseconds.
 pub(super) fn milliseconds(seconds: f64) -> String {
     let value = 1e3 * seconds;
     let digits = match value.abs() {
@@ -69,14 +69,14 @@ pub(super) fn milliseconds(seconds: f64) -> String {
     format!("{} ms", real(value, digits))
 }
 
-/// Millijoules.
+/// Formats an energy in millijoules.
 pub(super) fn millijoules(value: f64) -> String {
     format!("{} mJ", real(value, if value.abs() < 0.1 { 4 } else { 3 }))
 }
 
-/// The figures of the heading. Without a counted frame there are no shares.
+/// Returns the figures of the heading. Without a counted frame there are no shares.
 pub(super) fn facts(summary: &Summary) -> Vec<Fact> {
-    // A value stays on its line.
+    // A value is not broken across lines.
     let whole = |value: String| value.replace(' ', "\u{a0}").replace('-', "\u{2011}");
     let fact = |name, value, note: String| Fact { name, value: whole(value), note };
     let mut facts = Vec::new();

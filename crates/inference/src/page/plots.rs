@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The charts as plots of the page: the same lines, with a mark for every point that says its figures.
+//! The charts as plots of the page: the same lines, with a mark for every point that shows its
+//! figures.
 
 use crate::charts::Drawn;
 use foveate_pictures::chart::Shape;
 use foveate_pictures::page::{Axis, Field, Line, Mark, Plot, look, rings, text, through};
 use std::collections::BTreeMap;
 
-/// Marks of a line beyond which they are smaller.
+/// The number of points of a line above which its marks are smaller.
 const MANY: usize = 80;
 
-/// A chart. `titles` has the figures of every id; `note` says what is left out of the frames.
+/// Converts a chart to a plot. `titles` has the figures of every id; `note` says which frames are
+/// left out.
 pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> Plot {
     let (lines, is_joined) = match &drawn.chart.shape {
         Shape::Lines(lines) => (lines, true),
@@ -27,7 +29,7 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
     } else {
         Field { x: Axis::even(xs()), y: Axis::even(ys().chain([0.0])) }
     };
-    // The axis of this one has no room for the words of the chart.
+    // The axis of the tuning plot has no room for the words of the chart.
     let y_title = if is_tuning { "error [% of variation]" } else { &drawn.chart.y };
     let logarithmic = if field.y.logarithmic() { " (log)" } else { "" };
     let mut plot = Plot {
@@ -41,7 +43,7 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
         ..Plot::default()
     };
     if !is_tuning && is_joined {
-        // Layers and frames are whole.
+        // Numbers of layers and frames are whole.
         plot.x_ticks.retain(|tick| !tick.label.contains('.'));
     }
     for (index, (line, ids)) in lines.iter().zip(&drawn.ids).enumerate() {
@@ -63,7 +65,7 @@ pub(super) fn plot(drawn: &Drawn, titles: &BTreeMap<&str, &str>, note: &str) -> 
                 title: figures.to_owned(),
             });
         }
-        // A line below another one shows through its gaps.
+        // Every second line is dashed, so that a line below it shows through its gaps.
         let class = if is_joined && index % 2 == 1 { class + " dashed" } else { class };
         let path = if is_joined { through(&places) } else { String::new() };
         plot.lines.push(Line { path, class, shape, label: line.name.clone() });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clips, layers, frames and what tuning tried, as rows of tables and as what a mark says.
+//! Clips, layers, frames and tuning trials, as rows of tables and as texts of marks.
 
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
 use crate::charts::{self, frame_id, layer_id};
@@ -10,18 +10,19 @@ use foveate_pictures::page::number::real;
 use foveate_pictures::page::{Cell, Column, Row, Table};
 use std::collections::BTreeMap;
 
-/// Rows, and the figures of each in a few lines.
+/// The rows of a table, and the text of the mark of each row.
 pub(super) struct Rows {
     columns: Vec<Column>,
     rows: Vec<Row>,
     titles: Vec<String>,
 }
 
-/// A row: its id and number, what it is of, whether frames of it are counted, and what its mark says.
+/// A row: its id, its number, its content, whether the content has counted frames, and the text of
+/// its mark.
 type Of<T> = (String, u64, T, bool, String);
 
 impl Rows {
-    /// The columns of these names, in this order.
+    /// Creates a table of the columns with these keys, in this order.
     fn new<'a, T: 'a>(
         facts: &[Fact<T>],
         keys: &[&str],
@@ -39,7 +40,7 @@ impl Rows {
         let mut rows =
             Self { columns: facts.iter().map(column).collect(), rows: vec![], titles: vec![] };
         for (id, number, of, is_counted, title) in of {
-            // Of no frame there are no shares.
+            // Without a counted frame there are no shares.
             let is_told = |fact: &Fact<T>| is_counted || !fact.is_mean;
             let cell =
                 |fact: &&Fact<T>| if is_told(fact) { cell((fact.value)(of)) } else { Cell::none() };
@@ -54,7 +55,7 @@ impl Rows {
         rows
     }
 
-    /// What a mark says, by id.
+    /// Returns the texts of all marks by id.
     pub(super) fn titles(&self) -> BTreeMap<&str, &str> {
         self.rows.iter().zip(&self.titles).map(|(row, title)| (&row.id[..], &title[..])).collect()
     }
@@ -73,7 +74,7 @@ impl Rows {
     }
 }
 
-/// A value as the page has it.
+/// Formats a value for the page.
 fn cell(value: Value) -> Cell {
     let number = |value: Option<f64>, text: fn(f64) -> String| {
         value.map_or_else(Cell::none, |value| Cell::number(text(value), Some(value)))
@@ -96,7 +97,7 @@ fn cell(value: Value) -> Cell {
     }
 }
 
-/// A row per clip.
+/// Returns a row per clip.
 pub(super) fn clips(summary: &Summary) -> Rows {
     let keys = ["clip", "frames", "counted", "active", "changed", "needed", "computed", "problem"];
     let rows = (0..).zip(&summary.clips).map(|(number, clip)| {
@@ -105,7 +106,7 @@ pub(super) fn clips(summary: &Summary) -> Rows {
     Rows::new(CLIPS, &keys, rows)
 }
 
-/// A row per layer.
+/// Returns a row per layer.
 pub(super) fn layers(summary: &Summary) -> Rows {
     let mut keys = vec!["name", "operator", "shape", "macs"];
     keys.extend(["needed_share", "scheduled_share", "changed_share"]);
@@ -158,7 +159,7 @@ fn layer_title(number: usize, layer: &Layer) -> String {
     title
 }
 
-/// A row per frame that is shown.
+/// Returns a row per frame that is shown.
 pub(super) fn frames(frames: &[&Frame], summary: &Summary) -> Rows {
     let (compared, several) = (summary.error.is_some(), summary.clips.len() > 1);
     let mut keys = if several { vec!["clip"] } else { Vec::new() };
@@ -192,7 +193,7 @@ pub(super) fn frames(frames: &[&Frame], summary: &Summary) -> Rows {
     Rows::new(FRAMES, &keys, rows)
 }
 
-/// A row for everything that tuning tried.
+/// Returns a row per trial of tuning.
 pub(super) fn tried(summary: &Summary) -> Rows {
     let mut keys = vec!["limits", "relative_limit", "needed_share", "rms_of_variation"];
     keys.extend(["relative_rms", "largest", "agreement", "cosine", "psnr", "holds"]);
@@ -222,7 +223,7 @@ fn reached(holds: bool) -> &'static str {
 }
 
 fn limit(value: f64) -> String {
-    // Nothing is infinite but the limit of what is never passed on.
+    // Only the limit of a layer that never passes anything on is infinite.
     match value {
         f64::INFINITY => "infinite".to_owned(),
         0.01.. => real(value, 3),

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames as the receiver sees them, with what the network finds in them and in whole frames.
+//! Frames on the receiver's screen, with the detections in them and in whole frames.
 
 use crate::Detection;
 use crate::sight::{Shot, Shots};
 use askama::Template;
 use foveate_pictures::page::PageError;
 
-/// A box of a picture.
+/// The box of a detection in a frame.
 struct Mark {
-    /// What it is, as a class of the style and in words.
+    /// The fate of the detection, as a CSS class and in words: `kept`, `lost` or `added`.
     class: &'static str,
     x: String,
     y: String,
@@ -17,26 +17,26 @@ struct Mark {
     title: String,
 }
 
-/// A frame.
+/// A frame of the page.
 struct Picture {
     title: String,
-    /// A PNG in base64.
+    /// The receiver's screen as a PNG in base64.
     png: String,
     marks: Vec<Mark>,
 }
 
-/// All of them.
+/// The frames of the page.
 #[derive(Template)]
 #[template(path = "shots.html")]
 pub(super) struct Pictures {
     width: u32,
     height: u32,
-    /// Width of a line in pixels of the frame.
+    /// The width of a line in pixels of the frame.
     line: String,
     pictures: Vec<Picture>,
 }
 
-/// The frames that are kept, if there are any.
+/// Returns the frames that are kept, if there are any.
 pub(super) fn pictures(shots: &Shots) -> Result<Option<Pictures>, PageError> {
     if shots.kept().is_empty() {
         return Ok(None);
@@ -68,7 +68,7 @@ fn title(shot: &Shot) -> String {
     )
 }
 
-/// What is lost or added lies above what is kept.
+/// Returns the boxes of a frame. Lost and added detections are drawn above those that are kept.
 fn marks(shot: &Shot) -> Vec<Mark> {
     let whole = shot.pairs.whole.iter();
     let kept = whole.clone().filter(|(_, both)| *both).map(|(one, _)| mark("kept", one));

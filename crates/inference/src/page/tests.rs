@@ -10,10 +10,10 @@ use roxmltree::{Document, Node, ParsingOptions};
 
 const BAD: &str = "\"><script>alert('&amp;')</script>";
 
-/// A run, its counted frames and its camera.
+/// A run, its counted frames and its design.
 type Sample = (Summary, Vec<Frame>, Design);
 
-/// Marks say what they are and what is needed there, and lead to their rows.
+/// Marks show their name and the needed share, and link to their rows.
 const TIP: Tip = Tip { told: r"/^(Layer|Frame|Limits).*\n.* needed/", links: 1 };
 
 fn outputs(error: f64, psnr: Option<f64>) -> Outputs {
@@ -75,7 +75,8 @@ fn clip(name: &str, counted: u32) -> Clip {
     }
 }
 
-/// A run over three clips, the last of which has broken off at its first frame. Limits were chosen on two others.
+/// Returns a run over three clips, of which the last stopped at its first frame. Limits were chosen
+/// on two other clips.
 fn of_clips() -> Sample {
     let mut sample = sample(20);
     let names = ["a", "b", "c"];
@@ -118,7 +119,7 @@ fn several_clips_have_a_table_and_their_frames_names() {
     assert!(!rendered(&self::sample(3)).contains("id=\"clips\""), "one clip needs no table");
 }
 
-/// A run that never was, with everything that a page can show.
+/// Returns a made-up run with everything that a page can show.
 fn sample(frames: u32) -> Sample {
     let macs = Macs { dense: 140_894_208.0, needed: 14e6, scheduled: 15e6, whole: 141e6 };
     let tried = |relative_limit, needed_share, error| Tried {
@@ -231,7 +232,7 @@ fn rendered((summary, frames, design): &Sample) -> String {
     page(summary, frames, None, design, &command).unwrap()
 }
 
-/// The page as a tree; it is well-formed XML, so nothing can be open or escaped wrongly.
+/// Parses the page as XML, so that every element is closed and every character is escaped.
 fn tree(page: &str) -> Document<'_> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(page, options).unwrap()
@@ -248,7 +249,7 @@ fn by_id<'a>(document: &'a Document<'_>, id: &str) -> Option<Node<'a, 'a>> {
     document.descendants().find(|node| node.attribute("id") == Some(id))
 }
 
-/// What the cells of a row are sorted by.
+/// Returns the keys by which the cells of a row are sorted.
 fn sorted_by<'a>(document: &'a Document<'_>, id: &str) -> Vec<&'a str> {
     let row = by_id(document, id).unwrap_or_else(|| panic!("there is no row {id}"));
     row.children().filter_map(|cell| cell.attribute("data-v")).collect()
@@ -295,7 +296,8 @@ fn every_figure_is_there() {
             [tried.needed_share, tried.outputs.rms_of_variation].map(|value| value.to_string())
         );
     }
-    // Two lines over the layers with MACs, three over the frames, a mark for what each frame saves, and every run of the tuning.
+    // There are two lines over the layers with MACs, three lines over the frames, one mark per
+    // frame for its savings, and one mark per trial of tuning.
     let marks = document
         .descendants()
         .filter(|node| node.tag_name().name() == "a" && node.has_attribute("data-n"));
@@ -379,7 +381,7 @@ fn nothing_is_loaded_from_elsewhere() {
     assert_eq!(urls, page.matches("xmlns=\"http://www.w3.org/1999/xhtml\"").count());
 }
 
-/// Runs of which a page is hard to make.
+/// Returns runs that are hard to show on a page.
 fn hard() -> Vec<(&'static str, Sample)> {
     let mut none = sample(0);
     none.0.tuning = None;
@@ -506,7 +508,7 @@ fn pages_are_the_same_every_time() {
     assert_eq!(rendered(&sample), rendered(&sample));
 }
 
-/// As a reader with a mouse and one with a finger sees it.
+/// A reader with a mouse and a reader with a finger both reach all figures.
 #[test]
 fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
     let Some(program) = chromium() else {
@@ -516,17 +518,18 @@ fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
     let page = rendered(&sample(29));
     for width in [1600, 1280, 500] {
         let found = probe(&program, &page, width, TIP);
-        // Layers, runs of the tuning, frames.
+        // The rows are those of the layers, the tuning trials and the frames.
         assert_eq!(found["rows"], 5 + 15 + 29, "{width}: {found}");
         assert_eq!((&found["hidden"], &found["wider"]), (&0.into(), &0.into()), "{width}: {found}");
         assert_eq!((&found["told"], &found["plots"]), (&4.into(), &4.into()), "{width}: {found}");
         assert!(found["mark"].as_f64().unwrap() > 7.0, "{width}: {found}");
-        // Narrower windows scroll, and say so.
+        // The tables of narrower windows scroll, and show that they do.
         assert_eq!(found["cut"] == 0, width >= 1280, "{width}: {found}");
     }
 }
 
-/// Writes the samples to `FOVEATE_PAGES`, to look at them in a browser.
+/// Writes the samples to the folder `FOVEATE_PAGES`, so that a person can look at them in a
+/// browser.
 #[test]
 fn samples_can_be_looked_at() {
     let Some(folder) = std::env::var_os("FOVEATE_PAGES").map(std::path::PathBuf::from) else {

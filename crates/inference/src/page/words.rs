@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What was run and what came out, in sentences.
+//! The setup and the findings of a run in sentences.
 
 use super::figures::{bytes, decibels, error, many, mean_bytes, millijoules, milliseconds, share};
 use crate::{ConfidenceIntervals, Mapping, NoiseAgreement, Sight, Summary, Tuning};
@@ -7,10 +7,10 @@ use foveate_design::Design;
 use foveate_pictures::page::number::{grouped, things};
 use std::path::Path;
 
-/// Inputs that are named; of more the first.
+/// The number of inputs that are named; the others are counted.
 const NAMED: usize = 3;
 
-/// What the page is called.
+/// Returns the title of the page.
 pub(super) fn title(summary: &Summary) -> String {
     let network = Path::new(&summary.network).file_name().map(|name| name.to_string_lossy());
     let network = network.unwrap_or_else(|| summary.network.as_str().into());
@@ -21,19 +21,19 @@ fn inputs(summary: &Summary) -> String {
     some(&summary.inputs)
 }
 
-/// With a capital letter and a full stop.
+/// Returns the words with a capital letter and a full stop.
 fn sentence(words: &str) -> String {
     words[..1].to_uppercase() + &words[1..] + "."
 }
 
-/// A few names, and how many more there are.
+/// Returns the first few names, and the number of the others.
 fn some(names: &[String]) -> String {
     let more = names.len().saturating_sub(NAMED);
     let named = names[..names.len() - more].join(", ");
     if more > 0 { format!("{named} and {more} more") } else { named }
 }
 
-/// Network, input, camera and mode.
+/// Describes the network, the input, the camera and the mode of the run.
 pub(super) fn run(summary: &Summary, design: &Design) -> String {
     let frames = usize::try_from(summary.frames).unwrap_or(usize::MAX);
     format!(
@@ -51,13 +51,13 @@ pub(super) fn run(summary: &Summary, design: &Design) -> String {
     )
 }
 
-/// The number of camera frames for each one that the network saw, unless it saw all.
+/// Names the number of camera frames for each frame that the network saw, unless it saw all.
 fn every(summary: &Summary) -> String {
     let every = summary.every.get();
     if every == 1 { String::new() } else { format!(", one of {every},") }
 }
 
-/// How many clips there are, if there are several, and which of them are reported.
+/// Names the number of clips, if there are several, and the clips that are reported.
 fn clips(summary: &Summary) -> String {
     let reported = summary.clips.len();
     match summary.tuning.as_ref().filter(|_| summary.is_tuned_on_clips()) {
@@ -72,7 +72,7 @@ fn clips(summary: &Summary) -> String {
     }
 }
 
-/// How the model takes its inputs, if that is not the usual way.
+/// Describes the layout in which the model takes its input, unless it is the usual one.
 fn layout(summary: &Summary) -> &'static str {
     if summary.layout == "nhwc" {
         " The model takes them as [1, height, width, channels] (layout nhwc); its Transpose to channels first is left out."
@@ -81,7 +81,7 @@ fn layout(summary: &Summary) -> &'static str {
     }
 }
 
-/// How pixels become inputs of the network.
+/// Describes how pixels become inputs of the network.
 fn mapped(mapping: &Mapping) -> String {
     let pixels = "Its inputs are the pixels, from 0 (black) to 1 (white), the same in all channels";
     if *mapping == (Mapping { mean: vec![0.0], scale: vec![1.0] }) {
@@ -95,7 +95,7 @@ fn mapped(mapping: &Mapping) -> String {
     )
 }
 
-/// The camera in a few words.
+/// Describes the camera in a few words.
 pub(super) fn camera(design: &Design) -> String {
     let feature = |feature: &foveate_design::SpatialFeature| {
         feature
@@ -131,7 +131,7 @@ fn mode(summary: &Summary) -> String {
     }
 }
 
-/// Why the run is not complete.
+/// Returns the reasons why the run is not complete.
 pub(super) fn problems(summary: &Summary) -> Vec<String> {
     let problem = summary.problem.iter();
     if summary.clips.len() > 1 {
@@ -141,14 +141,14 @@ pub(super) fn problems(summary: &Summary) -> Vec<String> {
     problem.map(|problem| format!("{problem}, after {}", things(frames, "frame"))).collect()
 }
 
-/// What is left out of the plot of frames.
+/// Says which frames the plot of frames leaves out.
 pub(super) fn sampled(every: usize) -> String {
     format!(
         "Of every {every} frames in a row, the one that needs the most MACs is shown; frames.csv has all."
     )
 }
 
-/// A sentence for each total.
+/// Returns a sentence for each total.
 pub(super) fn findings(summary: &Summary) -> Vec<String> {
     let macs = &summary.macs;
     let memory = format!(
@@ -258,7 +258,7 @@ fn compared(summary: &Summary) -> Option<String> {
     ))
 }
 
-/// What the network loses behind the camera.
+/// Describes what the network loses behind the camera.
 fn sighted(summary: &Summary) -> Vec<String> {
     let Some(sight) = &summary.sight else { return Vec::new() };
     let mut found = vec![format!(
@@ -306,7 +306,7 @@ fn sighted(summary: &Summary) -> Vec<String> {
     found
 }
 
-/// The agreement with whole frames under noise, beside that behind the camera.
+/// Compares the agreement with whole frames under noise with the agreement behind the camera.
 fn noisy(sight: &Sight) -> Option<String> {
     let frames = sight.noise.first()?.frames;
     let all = |of: &dyn Fn(&NoiseAgreement) -> String| {

@@ -1,51 +1,55 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The agreement of a network with itself when whole frames have noise on them: no camera can be asked for more.
+//! The agreement of a network with itself when whole frames get noise: a ceiling for the agreement
+//! behind a camera.
 
 use super::interval::ConfidenceIntervals;
 use super::noise::GaussianNoise;
 use foveate_network::sight::{Findings, Found, Looking, Sums, Witness};
 use serde::Serialize;
 
-/// Standard deviations of the noise in grey levels of 8 bits, where nobody says others.
+/// The standard deviations of the noise in grey levels of 8 bits, if the user gives no others.
 pub const NOISE_LEVELS: [f64; 3] = [1.0, 2.0, 4.0];
-/// The most frames that noise is put on, which bounds what it costs.
+/// The most frames that get noise, which bounds its cost.
 const MOST: usize = 48;
 
-/// The findings of the network on whole frames with noise, compared with those on the same frames without.
+/// The agreement of the network on whole frames with noise with the network on the same frames
+/// without.
 #[derive(Clone, Debug, Serialize)]
 pub struct NoiseAgreement {
-    /// Standard deviation of the noise, in grey levels of 8 bits.
+    /// The standard deviation of the noise in grey levels of 8 bits.
     pub levels: f64,
-    /// Frames that were looked at, spread evenly.
+    /// The number of frames with noise, which are spread evenly over the run.
     pub frames: u64,
-    /// The agreement in one number, 0 to 1, as that behind a camera.
+    /// The agreement in one number from 0 to 1, defined as behind a camera.
     pub agreement: f64,
-    /// Root of the mean squared difference of the outputs, as a share of that of their values.
+    /// The root mean squared difference of the outputs, as a share of the root mean square of their
+    /// values.
     pub relative_rms: f64,
-    /// Detections of all sizes, if they are read.
+    /// The detections of all sizes, if they are read.
     pub detections: Option<Found>,
-    /// Share of the detections in whole frames that are found under noise, too.
+    /// The share of the detections in whole frames that are also found under noise.
     pub kept_share: Option<f64>,
-    /// Share of the detections under noise that are in whole frames, too.
+    /// The share of the detections under noise that are also in whole frames.
     pub precision: Option<f64>,
-    /// Intervals in which these shares lie for other frames of this kind.
+    /// The intervals in which these shares lie for other frames of this kind.
     pub intervals: ConfidenceIntervals,
 }
 
-/// Puts noise on some of the frames that it is shown, and has the network look at these.
+/// Adds noise to some of the frames that it gets, and runs the network on them.
 #[derive(Clone, Debug)]
 pub struct NoiseCeiling {
     levels: Vec<(f64, GaussianNoise)>,
-    /// Frames that it was shown, of which one of so many is looked at.
+    /// The number of frames so far; the network runs on one of `every`.
     shown: u64,
     every: u64,
-    /// The frames that were looked at, by their place among those shown: the sums of every level.
+    /// The frames with noise, by their place among all frames: the sums of every level.
     looked: Vec<(u64, Vec<Sums>)>,
     noisy: Vec<u16>,
 }
 
 impl NoiseCeiling {
-    /// For standard deviations in grey levels of 8 bits, each above 0, and frames of any depth.
+    /// Creates a ceiling for standard deviations in grey levels of 8 bits, each above 0, and frames
+    /// with pixels up to `pixel_max`.
     #[must_use]
     pub fn new(levels: &[f64], pixel_max: u32) -> Self {
         let level = |&level: &f64| (level, GaussianNoise::new(level, pixel_max));
@@ -53,8 +57,8 @@ impl NoiseCeiling {
         Self { levels, shown: 0, every: 1, looked: Vec::new(), noisy: Vec::new() }
     }
 
-    /// Shows it a whole frame, the `number`th of the `clip`th clip, which the network has looked at with these findings. Every frame has a noise of
-    /// its own, larger at larger levels.
+    /// Takes a whole frame, number `number` of clip number `clip`, with the findings of the network
+    /// in it. Every frame gets its own noise, which is larger at larger levels.
     pub fn look(
         &mut self,
         (witness, looking): (&Witness, &mut Looking<'_>),
@@ -81,7 +85,7 @@ impl NoiseCeiling {
         }
     }
 
-    /// The results, level by level; none if no frame was looked at.
+    /// Returns the results, level by level; empty if no frame got noise.
     #[must_use]
     pub fn found(&self) -> Vec<NoiseAgreement> {
         let level = |(at, &(levels, _)): (usize, &(f64, GaussianNoise))| {

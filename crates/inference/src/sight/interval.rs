@@ -1,22 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An interval for the share of all things, from the share of a few: Wilson's score interval.
+//! An interval for the share of all things, from the share of a few of them: Wilson's score
+//! interval.
 //!
-//! E. B. Wilson, Probable Inference, the Law of Succession, and Statistical Inference, Journal of the American Statistical Association 22 (1927),
-//! pages 209 to 212. It takes the things for independent.
+//! E. B. Wilson, Probable Inference, the Law of Succession, and Statistical Inference, Journal of
+//! the American Statistical Association 22 (1927), pages 209 to 212. It assumes that the things are
+//! independent.
 
 use foveate_network::Network;
 use foveate_network::sight::{Found, Sums};
 use serde::Serialize;
 
-/// 95 % of all values of a normal variable are at most so many standard deviations away.
+/// The number of standard deviations from the mean within which 95 % of the values of a normal
+/// variable lie.
 const NORMAL: f64 = 1.959_963_984_540_054;
-/// An interval that is wider than this is one of few things.
+/// The width above which an interval counts as an interval of few things.
 const FEW: f64 = 0.02;
 
-/// Intervals that hold the shares of all such things with 95 % confidence, if these are independent.
+/// Intervals that hold the shares of all such things with 95 % confidence, if the things are
+/// independent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ConfidenceIntervals {
-    /// The interval of the agreement; none where the agreement is an error or a class at every place, or nothing was found.
+    /// The interval of the agreement; `None` if the agreement is an error or a class at every
+    /// position, or if nothing was found.
     pub agreement: Option<[f64; 2]>,
     /// The interval of the share of detections that are kept, if there are any.
     pub kept: Option<[f64; 2]>,
@@ -25,13 +30,15 @@ pub struct ConfidenceIntervals {
 }
 
 impl ConfidenceIntervals {
-    /// The intervals of sums over frames. Places of a frame have none: neighbors are so alike that their number says nothing of other frames.
+    /// Returns the intervals of sums over frames. Positions of a frame have no interval: neighbors
+    /// are so alike that their number says nothing about other frames.
     pub(super) fn of(sums: &Sums) -> Self {
         let counted = if sums.places().is_some() { None } else { sums.counted() };
         Self::new(sums.agreement(), sums.found(), counted)
     }
 
-    /// The intervals of an agreement over so many things, which are detections if any were read.
+    /// Returns the intervals of an agreement over `counted` things, or over the detections if any
+    /// were read.
     #[must_use]
     pub fn new(agreement: f64, found: Option<Found>, counted: Option<u64>) -> Self {
         let interval = |share, count| (count > 0).then(|| wilson(share, real(count), NORMAL));
@@ -41,26 +48,27 @@ impl ConfidenceIntervals {
         };
         let kept = interval(found.kept_share(), found.whole);
         let right = interval(found.precision(), found.seen);
-        // The interval of the smaller share.
+        // The agreement has the interval of the smaller share.
         let is_kept = found.kept_share() <= found.precision();
         Self { agreement: if is_kept { kept.or(right) } else { right.or(kept) }, kept, right }
     }
 
-    /// The interval of the agreement, where it is wide because of few things.
+    /// Returns the interval of the agreement, if it is wide because there are few things.
     #[must_use]
     pub fn of_few(&self) -> Option<[f64; 2]> {
         self.agreement.filter(|[low, high]| high - low > FEW)
     }
 }
 
-/// Whether a network has outputs with a class at every place.
+/// Returns whether a network has an output with a class at every position.
 #[must_use]
 pub fn has_places(network: &Network) -> bool {
     let is_map = |shape: &[usize]| matches!(*shape, [1, classes, height, width] if classes > 1 && height * width > 1);
     network.outputs().iter().any(|&value| is_map(network.form(value).shape()))
 }
 
-/// Wilson's score interval of a share of `count` things, above 0, that reaches `deviations` standard deviations to both sides.
+/// Returns Wilson's score interval of a share of `count` things, which is above 0, that reaches
+/// `deviations` standard deviations to both sides.
 #[must_use]
 pub fn wilson(share: f64, count: f64, deviations: f64) -> [f64; 2] {
     let square = deviations.powi(2) / count;
@@ -77,7 +85,8 @@ fn real(count: u64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Ends as `scipy.stats.binomtest(kept, count).proportion_ci(0.95, method="wilson")` of `SciPy` prints them.
+    /// The ends are those that
+    /// `scipy.stats.binomtest(kept, count).proportion_ci(0.95, method="wilson")` of `SciPy` prints.
     #[test]
     fn intervals_are_those_of_scipy() {
         for (kept, count, low, high) in [
@@ -93,7 +102,8 @@ mod tests {
         }
     }
 
-    /// Both ends are shares that a test at this confidence would just not tell from the one that was seen.
+    /// Both ends are shares that a test at this confidence just cannot distinguish from the
+    /// observed share.
     #[test]
     fn ends_are_as_far_away_as_the_confidence_says() {
         for (share, count) in [(0.94, 107.0), (0.5, 7.0), (0.02, 300.0)] {
@@ -112,7 +122,7 @@ mod tests {
         assert!(few.agreement == few.right && few.kept != few.right && few.of_few().is_some());
         let none = ConfidenceIntervals::new(1.0, found(0, 0, 0, 0), Some(0));
         assert_eq!((none, none.of_few()), (ConfidenceIntervals::default(), None));
-        // Nothing that was found in whole frames is there, and much else.
+        // Nothing of the whole frames is found, but much else is.
         let only = ConfidenceIntervals::new(0.0, found(0, 0, 9, 9), Some(0));
         assert_eq!((only.kept, only.agreement), (None, only.right));
         let many = ConfidenceIntervals::new(0.99, None, Some(60_000));

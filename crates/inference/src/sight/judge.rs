@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The network on whole frames, beside the one behind the camera.
+//! The network on whole frames, which the network behind the camera is compared with.
 
 use super::ceiling::NoiseCeiling;
 use super::interval::ConfidenceIntervals;
@@ -14,53 +14,54 @@ use foveate_network::sight::{
     Detection, Findings, Found, Looking, Pairs, SAME_OBJECT, Sums, Witness,
 };
 
-/// The network on whole frames, and how much of what it says is said behind the camera, too.
+/// The network on whole frames, and its agreement with the network behind the camera.
 pub(crate) struct Judge<'a> {
     witness: &'a Witness,
-    /// At whole frames.
+    /// The network that runs on whole frames.
     looking: Looking<'a>,
     sums: Sums,
     noise: NoiseCeiling,
     received: Received,
-    /// Against ground truth, of whole frames and of what the receiver sees.
+    /// The precision curves against ground truth: of whole frames, and of the receiver's screen.
     truth: Option<[Curve; 2]>,
     shots: Shots,
     rows: Vec<DetectionRow>,
     seconds: f64,
 }
 
-/// A frame in numbers.
+/// The comparison of one frame in figures.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct SightFrame {
     pub(crate) agreement: f64,
     pub(crate) sent_bytes: f64,
-    /// Nothing where both pictures are equal.
+    /// The PSNR of the receiver's screen in decibels; `None` if it equals the whole frame.
     pub(crate) picture_psnr: Option<f64>,
     pub(crate) found: Option<Found>,
 }
 
-/// What was found in the counted frames.
+/// The detections of the counted frames.
 #[derive(Debug)]
 pub(crate) struct Detected {
     pub(crate) shots: Shots,
     pub(crate) rows: Vec<DetectionRow>,
 }
 
-/// A detection of a table.
+/// A row of the table of detections.
 #[derive(Clone, Debug)]
 pub(crate) struct DetectionRow {
     pub(crate) clip: String,
     pub(crate) frame: u64,
     pub(crate) name: String,
-    /// Whether it is of the whole frame, and not of what the receiver sees.
+    /// Whether the detection is in the whole frame, or else on the receiver's screen.
     pub(crate) is_whole: bool,
-    /// Whether the other one has it, too.
+    /// Whether the detection is in both.
     pub(crate) is_both: bool,
     pub(crate) detection: Detection,
 }
 
 impl<'a> Judge<'a> {
-    /// `noise` has standard deviations in grey levels of 8 bits; `with_truth` says whether there are ground-truth objects.
+    /// Creates a judge. `noise` has standard deviations in grey levels of 8 bits; `with_truth` says
+    /// whether there are ground-truth objects.
     pub(crate) fn new(
         witness: &'a Witness,
         camera: &Camera,
@@ -80,7 +81,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Runs the network on a whole frame, and compares what it says with what `other` says of what the receiver sees. Only a counted frame is in the sums.
+    /// Runs the network on a whole frame, and compares its findings with those of `other`, which
+    /// ran on the receiver's screen. Only a counted frame is part of the sums.
     pub(crate) fn look(
         &mut self,
         (clip, clip_number): (&str, u64),
@@ -125,7 +127,7 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// Rows of the table.
+    /// Adds the detections of a frame to the table.
     fn tell(&mut self, clip: &str, seen: Seen<'_>, pairs: &Pairs) {
         let both = [(true, &pairs.whole), (false, &pairs.seen)];
         for (is_whole, (detection, is_both)) in both
@@ -143,13 +145,13 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// What was found, if detections were read.
+    /// Returns the detections, if they were read.
     pub(crate) fn detected(self) -> Option<Detected> {
         let Self { witness, shots, rows, .. } = self;
         witness.detector().is_some().then_some(Detected { shots, rows })
     }
 
-    /// All of it.
+    /// Returns the comparison of all counted frames.
     pub(crate) fn sight(&self) -> Sight {
         let detector = self.witness.detector();
         let score = detector.map_or(0.0, |detector| detector.score);

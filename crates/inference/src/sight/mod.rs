@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a network loses behind the camera: the same network on the frames as they were before the camera, and how much of what it says there it says
-//! of what the receiver sees.
+//! The loss of a network behind the camera: the same network runs on the frames before the camera,
+//! and its findings there are compared with its findings on the receiver's screen.
 
 mod ceiling;
 mod interval;

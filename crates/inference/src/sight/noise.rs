@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Gaussian noise on frames: the same on every machine and with any number of threads.
+//! Gaussian noise on frames, which is the same on every machine and with any number of threads.
 //!
-//! A pixel becomes the nearest grey level to itself plus a normal variable, between black and white. The steps that are added to a pixel are drawn
-//! from their exact probabilities with the bits of `fastrand` (wyrand), seeded by the number of the frame.
+//! A pixel becomes the nearest grey level to itself plus a normal variable, clamped to black and
+//! white. The step of a pixel is drawn from the exact probabilities of all steps with the bits of
+//! `fastrand` (wyrand), seeded by the number of the frame.
 
 use fastrand::Rng;
 use std::f64::consts::SQRT_2;
 
-/// Beyond so many standard deviations there is less than one in 2^32 of a normal variable.
+/// The number of standard deviations beyond which a normal variable lies with a probability below
+/// 2^-32.
 const REACH: f64 = 6.4;
-/// Possible draws.
+/// The number of possible draws.
 const DRAWS: f64 = 4_294_967_296.0;
-/// The largest pixel of 8 bits, in whose levels noise is told.
+/// The largest pixel of 8 bits; the deviation of noise is given in levels of 8 bits.
 const LARGEST_OF_8_BITS: f64 = 255.0;
 
 /// Noise of one standard deviation on frames of one depth.
 #[derive(Clone, Debug)]
 pub(super) struct GaussianNoise {
-    /// The largest step down of a pixel.
+    /// The largest step down of a pixel, in grey levels.
     down: i64,
-    /// Which draws are still those of a step, for every step but the last, from the one that goes furthest down.
+    /// The end of the range of draws of every step but the last, from the largest step down.
     ends: Vec<u32>,
     max: u16,
 }
 
 impl GaussianNoise {
-    /// `deviation` is in grey levels of 8 bits, above 0.
+    /// Creates noise with a standard deviation in grey levels of 8 bits, above 0.
     #[allow(
         clippy::cast_possible_truncation,
         clippy::cast_sign_loss,
@@ -42,7 +44,7 @@ impl GaussianNoise {
         Self { down: reach.into(), ends: (-reach..reach).map(below).collect(), max }
     }
 
-    /// The frame with noise, in place of what was there.
+    /// Writes the frame with noise to `noisy`, in place of its content.
     pub(super) fn add(&self, frame: &[u16], seed: u64, noisy: &mut Vec<u16>) {
         let mut chance = Rng::with_seed(seed);
         noisy.clear();
@@ -67,7 +69,7 @@ mod tests {
         noisy
     }
 
-    /// Mean and standard deviation of what is added to a grey of this depth.
+    /// Returns the mean and the standard deviation of the noise on a grey frame.
     fn measured(deviation: f64, max: u16) -> (f64, f64) {
         let grey = vec![max / 2; 1 << 20];
         let noisy = noisy(deviation, max.into(), &grey, 7);
@@ -79,7 +81,7 @@ mod tests {
         (mean(&added), (mean(&squares) - mean(&added).powi(2)).sqrt())
     }
 
-    /// Rounding to whole levels adds the variance of an even distribution over one, 1/12.
+    /// Rounding to whole levels adds 1/12, the variance of a uniform distribution over one level.
     #[test]
     fn noise_has_the_deviation_that_was_asked_at_every_depth() {
         for (deviation, max) in
@@ -93,8 +95,9 @@ mod tests {
         }
     }
 
-    /// The shares of a normal variable between halves of levels: 0.382925, 0.241730, 0.060598 and 0.005977 for 0, 1, 2 and 3 at a deviation of 1
-    /// (differences of scipy.stats.norm.cdf).
+    /// The expected shares are those of a normal variable between halves of levels: 0.382925,
+    /// 0.241730, 0.060598 and 0.005977 for 0, 1, 2 and 3 at a deviation of 1 (differences of
+    /// scipy.stats.norm.cdf).
     #[test]
     fn steps_are_as_frequent_as_those_of_a_normal_variable() {
         let noisy = noisy(1.0, 255, &vec![100; 1 << 20], 3);
@@ -107,7 +110,8 @@ mod tests {
         }
     }
 
-    /// A seed stands for one noise on all machines; others are other noises. The pixels are those of wyrand's bits through `scipy.stats.norm.ppf`.
+    /// A seed gives the same noise on all machines, and other seeds give other noise. The expected
+    /// pixels are computed from wyrand's bits with `scipy.stats.norm.ppf`.
     #[test]
     fn a_seed_is_one_noise() {
         let grey = [100; 12];

@@ -4,19 +4,20 @@
 use foveate_frame::Rect;
 use foveate_network::sight::{Detection, matched};
 
-/// Steps of recall at which precision is read off, 0 to 1 in hundredths, as of COCO.
+/// The number of steps of recall from 0 to 1 at which precision is read, as in COCO.
 const STEPS: u32 = 100;
 
-/// Detections over frames, right or wrong, and how many objects there were.
+/// The right and wrong detections of some frames, and the number of objects in them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Curve {
-    /// Score of every detection that counts, and whether it is an object.
+    /// The score of every counted detection, and whether it is an object.
     found: Vec<(f32, bool)>,
     objects: u64,
 }
 
 impl Curve {
-    /// A frame. Objects and detections less than `least` pixels high count neither as found nor as missed.
+    /// Adds a frame. Objects and detections less than `least` pixels high count neither as found
+    /// nor as missed.
     pub(crate) fn add(&mut self, found: &[Detection], objects: &[Rect], overlap: f64, least: f64) {
         let counts = |rect: &Rect| rect.height() >= least;
         let right = matched(found, objects, overlap, |rect| rect, |_, _| true);
@@ -31,19 +32,20 @@ impl Curve {
         self.objects += objects.iter().filter(|rect| counts(rect)).count() as u64;
     }
 
-    /// Objects that count.
+    /// Returns the number of objects that count.
     pub(crate) fn objects(&self) -> u64 {
         self.objects
     }
 
-    /// Share of the objects that a detection of at least this score finds.
+    /// Returns the share of the objects that a detection of at least this score finds.
     #[allow(clippy::cast_precision_loss, reason = "a share")]
     pub(crate) fn recall(&self, score: f32) -> f64 {
         let right = self.found.iter().filter(|(own, right)| *right && *own >= score).count();
         if self.objects == 0 { 0.0 } else { right as f64 / self.objects as f64 }
     }
 
-    /// Mean of the precision over recall: at each step the best that is reached with this recall or more.
+    /// Returns the mean of the precision over recall. The precision at each step is the best that
+    /// is reached with this recall or more.
     #[allow(clippy::cast_precision_loss, reason = "shares")]
     pub(crate) fn average_precision(&self) -> f64 {
         if self.objects == 0 {
@@ -84,7 +86,8 @@ mod tests {
     fn precision_is_averaged_over_recall() {
         let objects = [rect([0., 0., 10., 10.]), rect([20., 0., 30., 10.])];
         let mut curve = Curve::default();
-        // Right, wrong, right: precision 1 up to half of the objects, then 2 of 3.
+        // The detections are right, wrong and right: precision is 1 up to half of the objects, then
+        // 2 of 3.
         let found = [
             detection(0, 0.9, [0., 0., 10., 10.]),
             detection(0, 0.8, [50., 0., 60., 10.]),
@@ -94,7 +97,7 @@ mod tests {
         let expected = (51.0 + 50.0 * 2.0 / 3.0) / 101.0;
         assert!((curve.average_precision() - expected).abs() < 1e-12);
         assert_eq!((curve.recall(0.8), curve.recall(0.0), curve.objects()), (0.5, 1.0, 2));
-        // A frame in which nothing is found, with as many objects.
+        // The second frame has as many objects, and nothing is found in it.
         curve.add(&[], &objects, 0.5, 0.0);
         assert_eq!(curve.recall(0.0), 0.5);
         assert!(curve.average_precision() < 0.5);

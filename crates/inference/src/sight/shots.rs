@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The frames in which most is lost or added, as the receiver sees them, with what is found in them.
+//! The frames with the most lost and added detections, as the receiver shows them.
 
 use std::io::Cursor;
 
@@ -11,10 +11,10 @@ use foveate_frame::convert_depth;
 use foveate_network::sight::{Found, Pairs};
 use image::{ImageFormat, ImageResult, Luma};
 
-/// Frames that are kept.
+/// The number of frames that are kept.
 const MOST: usize = 6;
 
-/// A frame with what is found in it.
+/// A frame with its detections.
 #[derive(Clone, Debug)]
 pub(crate) struct Shot {
     pub(crate) clip: String,
@@ -24,7 +24,7 @@ pub(crate) struct Shot {
     screen: Vec<u16>,
 }
 
-/// Some frames of many.
+/// The frames with the most differences.
 #[derive(Debug)]
 pub(crate) struct Shots {
     width: u32,
@@ -38,7 +38,7 @@ impl Shot {
         self.pairs.found()
     }
 
-    /// Detections that are lost or added.
+    /// Returns the number of detections that are lost or added.
     fn differences(&self) -> u64 {
         let found = self.found();
         found.whole - found.kept + found.added
@@ -51,7 +51,7 @@ impl Shots {
         Self { width, height, bits, kept: Vec::new() }
     }
 
-    /// Takes a frame, if it differs more than one of those that are kept.
+    /// Keeps a frame if it differs more than one of the kept frames.
     pub(super) fn add(&mut self, clip: &str, seen: Seen<'_>, pairs: Pairs) {
         let shot = Shot {
             clip: clip.to_owned(),
@@ -70,7 +70,7 @@ impl Shots {
         self.kept.truncate(MOST);
     }
 
-    /// Those with the most differences first.
+    /// Returns the kept frames, those with the most differences first.
     pub(crate) fn kept(&self) -> &[Shot] {
         &self.kept
     }
@@ -79,10 +79,10 @@ impl Shots {
         (self.width, self.height)
     }
 
-    /// The picture of a shot as a PNG in base64.
+    /// Returns the screen of a frame as a PNG in base64.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// Fails if it cannot be written.
     pub(crate) fn png(&self, shot: &Shot) -> ImageResult<String> {
         let byte = |&pixel: &u16| {
             u8::try_from(convert_depth(pixel, self.bits, 8)).expect("a pixel of 8 bits is a byte")

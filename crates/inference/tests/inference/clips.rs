@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several clips in one run: each is as it is alone, and the totals are those of all.
+//! Runs over several clips: each clip has the results of a run of its own, and the totals are those
+//! of all clips.
 
 use crate::common::{Row, Run, is_counted, near, number, rows, text};
 use foveate_footage::{Hooks, Progress};
 use foveate_inference::{Computed, Goal};
 use foveate_network::Mode;
 
-/// Bytes of the values of an array: all behind its header.
+/// Returns the bytes of an array after its header.
 fn values(folder: &std::path::Path) -> Vec<u8> {
     std::fs::read(folder.join("out/outputs/clean.npy")).unwrap()[128..].to_vec()
 }
 
-/// The rows of a run, without the time that it took.
+/// Removes the time from the rows of a run.
 fn timeless(rows: Vec<Row>) -> Vec<Row> {
     let strip = |mut row: Row| {
         row.remove("seconds");
@@ -20,7 +21,7 @@ fn timeless(rows: Vec<Row>) -> Vec<Row> {
     rows.into_iter().map(strip).collect()
 }
 
-/// Frames, layers and outputs of a run over clips are those of a run over each, one after the other.
+/// Frames, layers and outputs of a run over clips are those of separate runs, one after the other.
 #[test]
 fn every_clip_is_as_it_is_alone() {
     let dir = tempfile::tempdir().unwrap();
@@ -55,7 +56,8 @@ fn every_clip_is_as_it_is_alone() {
     }
 }
 
-/// Limits are chosen on the first half of the clips, rounded up, and nothing but the others is reported.
+/// Limits are chosen on the first half of the clips, rounded up, and only the other clips are
+/// reported.
 #[test]
 fn limits_of_some_clips_are_reported_on_the_others() {
     let dir = tempfile::tempdir().unwrap();
@@ -73,7 +75,7 @@ fn limits_of_some_clips_are_reported_on_the_others() {
     assert_eq!(frames.iter().map(|row| number(row, "frame")).collect::<Vec<_>>(), [0.0, 1.0, 2.0]);
     assert_eq!((summary.frames, summary.counted_frames, summary.clips.len()), (3, 2, 1));
     assert_eq!(summary.inputs, all);
-    // The limits are the same whatever comes after the clips that they are chosen on.
+    // The limits do not depend on the clips after those that they are chosen on.
     let limits = |inputs| {
         let summary = run(inputs, 3).write(dir.path()).unwrap();
         summary.layers.iter().map(|layer| layer.limit).collect::<Vec<_>>()
@@ -81,7 +83,8 @@ fn limits_of_some_clips_are_reported_on_the_others() {
     let chosen: Vec<_> = summary.layers.iter().map(|layer| layer.limit).collect();
     assert!(chosen.iter().flatten().any(|&limit| limit > 0.0));
     assert_eq!(limits(&["scene:street", "scene:shake", "scene:zero", "scene:flicker"]), chosen);
-    // That clips differ from each other is no variation: nothing computed again is as far away as in the clip that varies.
+    // Differences between clips are not variation: frozen outputs are as far away as in the clip
+    // that varies.
     let far = |inputs| run(inputs, 3).write(dir.path()).unwrap().tuning.unwrap().frozen.outputs;
     let (alone, beside) =
         (far(&["scene:street", "scene:fade"]), far(&["scene:street", "scene:zero", "scene:fade"]));
@@ -90,7 +93,7 @@ fn limits_of_some_clips_are_reported_on_the_others() {
     assert!(error.starts_with("no frame of the clips that it tunes on counts"), "{error}");
 }
 
-/// Stops after some frames.
+/// Cancels after some frames.
 struct Stop {
     after: u64,
     done: u64,
@@ -107,7 +110,8 @@ impl Hooks for Stop {
     }
 }
 
-/// An interrupted run keeps what was done, and says which clip broke off and how many were never begun.
+/// An interrupted run keeps the frames that were done, and says which clip stopped and how many
+/// clips were never begun.
 #[test]
 fn an_interrupted_run_keeps_the_clips_before() {
     let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs the denoiser that is shipped, and reads tables again.
+//! Runs of the denoiser that is shipped, and readers of their tables.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -18,7 +18,7 @@ use parquet::record::Field;
 
 const DENOISER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/../../networks/denoiser.onnx");
 
-/// A run with so many frames of every scene.
+/// A run with `frames` frames of every scene.
 pub(crate) struct Run<'a> {
     pub(crate) inputs: &'a [&'a str],
     pub(crate) frames: u32,
@@ -27,14 +27,14 @@ pub(crate) struct Run<'a> {
     pub(crate) reference: bool,
     pub(crate) framing: Framing,
     pub(crate) sight: bool,
-    /// Standard deviations of noise on whole frames.
+    /// The standard deviations of noise on whole frames.
     pub(crate) noise: &'a [f64],
     pub(crate) detector: Option<Detector>,
-    /// Ground truth.
+    /// The files of ground-truth boxes.
     pub(crate) boxes: &'a [PathBuf],
-    /// Another network than the denoiser.
+    /// The network, if it is not the denoiser.
     pub(crate) network: Option<&'a Path>,
-    /// More of the camera's configuration.
+    /// Further settings of the camera's configuration.
     pub(crate) camera: &'a str,
 }
 
@@ -58,7 +58,7 @@ impl Default for Run<'_> {
 }
 
 impl Run<'_> {
-    /// Writes `out` in `folder`. Frames have 64x48 pixels.
+    /// Writes the folder `out` in `folder`. Frames have 64x48 pixels.
     pub(crate) fn write(&self, folder: &Path) -> Result<Summary, InferenceError> {
         self.watched(folder, &mut Silent)
     }
@@ -102,7 +102,7 @@ impl Run<'_> {
 /// A row by the names of its columns.
 pub(crate) type Row = BTreeMap<String, Field>;
 
-/// The rows of a table of `out`.
+/// Reads the rows of a table of `out`.
 pub(crate) fn rows(folder: &Path, table: &str) -> Vec<Row> {
     let file = File::open(folder.join("out").join(table)).unwrap();
     let reader = SerializedFileReader::new(file).unwrap();
@@ -112,7 +112,7 @@ pub(crate) fn rows(folder: &Path, table: &str) -> Vec<Row> {
     reader.get_row_iter(None).unwrap().map(|found| row(found.unwrap())).collect()
 }
 
-/// A number of a row.
+/// Returns a number of a row.
 #[allow(clippy::cast_precision_loss, reason = "sums are compared")]
 pub(crate) fn number(row: &Row, column: &str) -> f64 {
     match &row[column] {
@@ -122,7 +122,7 @@ pub(crate) fn number(row: &Row, column: &str) -> f64 {
     }
 }
 
-/// A text of a row.
+/// Returns a text of a row.
 pub(crate) fn text<'a>(row: &'a Row, column: &str) -> &'a str {
     match &row[column] {
         Field::Str(value) => value,
@@ -130,12 +130,12 @@ pub(crate) fn text<'a>(row: &'a Row, column: &str) -> &'a str {
     }
 }
 
-/// Whether the frame of a row is in the means.
+/// Returns whether the frame of a row is part of the means.
 pub(crate) fn is_counted(row: &Row) -> bool {
     row["counted"] == Field::Bool(true)
 }
 
-/// Equal but for the order of a sum.
+/// Returns whether two sums are equal except for the order of their terms.
 pub(crate) fn near(one: f64, other: f64) -> bool {
     (one - other).abs() <= 1e-9 * one.abs().max(other.abs())
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs of a network behind a camera: what the tables say agrees among them, and every clip stands alone.
+//! Tests of a network behind a camera: the tables agree with each other, and every clip stands
+//! alone.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod clips;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a network loses behind the camera, and frames that are scaled for it.
+//! The loss of a network behind the camera, and frames that are scaled for the network.
 
 use std::path::{Path, PathBuf};
 
@@ -15,7 +15,7 @@ use foveate_network::onnx::{
 };
 use prost::Message as _;
 
-/// Channels: a score, a place, a size and two classes, as of `FastestDet`.
+/// The number of channels: a score, a position, a size and two classes, as in `FastestDet`.
 const CHANNELS: usize = 7;
 
 fn value(name: &str, shape: &[i64]) -> ValueInfoProto {
@@ -38,12 +38,13 @@ fn tensor(name: &str, dims: &[i64], values: Vec<f32>) -> TensorProto {
     }
 }
 
-/// Writes a network that finds an object in every bright square of 8x8 pixels: one convolution.
+/// Writes a network of one convolution that finds an object in every bright square of 8x8 pixels.
 fn bright_squares(folder: &Path) -> PathBuf {
     let logit = |share: f32| (share / (1.0 - share)).ln();
     let mut weights = vec![0.0; CHANNELS * 64];
     weights[..64].fill(1.0 / 64.0);
-    // In the middle of the square, of its size in frames of 64x48 pixels, of class 1.
+    // The object lies in the middle of the square, has its size in frames of 64x48 pixels, and
+    // class 1.
     let bias =
         vec![0.0, 0.5_f32.atanh(), 0.5_f32.atanh(), logit(1.0 / 8.0), logit(1.0 / 6.0), 0.0, 1.0];
     let ints = |name: &str, ints: &[i64]| AttributeProto {
@@ -89,7 +90,8 @@ fn sight(folder: &Path, camera: &str) -> Sight {
     run(folder, camera, &[]).unwrap().sight.unwrap()
 }
 
-/// Regions without edges are nothing to the receiver, or their means, which is all that this network looks at.
+/// Regions without edges are black for the receiver, or show their means, and this network looks
+/// only at means.
 #[test]
 fn means_keep_what_nothing_loses() {
     let dir = tempfile::tempdir().unwrap();
@@ -102,9 +104,9 @@ fn means_keep_what_nothing_loses() {
     assert!((means.agreement - kept.kept_share.min(kept.precision)).abs() < 1e-12);
     assert!(means.picture_psnr.unwrap() > nothing.picture_psnr.unwrap() + 6.0);
     assert!(means.relative_rms < nothing.relative_rms);
-    // A mean for each of 48 regions is at most 48 bytes more, without the pixels of the first frame.
+    // A mean for each of 48 regions adds at most 48 bytes, without the pixels of the first frame.
     assert!(means.sent_bytes > 12.0 && means.sent_share < 1.0);
-    // The table has what is counted, and the sizes add up.
+    // The table has the counted detections, and the sizes add up.
     let rows = rows(dir.path(), "detections.parquet");
     assert_eq!(rows.len() as u64, kept.all.whole + kept.all.seen);
     assert_eq!(kept.all.whole, kept.small.whole + kept.medium.whole + kept.large.whole);
@@ -114,7 +116,8 @@ fn means_keep_what_nothing_loses() {
     assert!(page.matches("class=\"kept\"").count() > 10);
 }
 
-/// Noise is put on few of many frames, spread evenly, and costs more the larger it is; what nothing changes is all found again.
+/// Noise is added to a few of many frames, spread evenly, and larger noise costs more; the smallest
+/// noise changes nothing, so everything is found again.
 #[test]
 fn detections_are_lost_under_noise() {
     let dir = tempfile::tempdir().unwrap();
@@ -124,7 +127,7 @@ fn detections_are_lost_under_noise() {
     let run = Run { network, detector, noise, sight: true, frames: 120, ..Run::default() };
     let sight = run.write(dir.path()).unwrap().sight.unwrap();
     let found: Vec<_> = sight.noise.iter().map(|noisy| noisy.detections.unwrap()).collect();
-    // 119 frames count, and 48 are the most: every fourth, from the first.
+    // Of 119 counted frames at most 48 get noise: every fourth, from the first.
     assert!(sight.noise.iter().all(|noisy| noisy.frames == 30));
     assert!(found.iter().all(|level| level.whole == found[0].whole && level.whole > 50));
     assert_eq!((found[0].kept, found[0].added), (found[0].whole, 0));
@@ -136,14 +139,15 @@ fn detections_are_lost_under_noise() {
         assert!(low <= noisy.agreement && noisy.agreement <= high && low < high);
     }
     assert!(sight.intervals.kept.is_some() && sight.intervals.right.is_some());
-    // As few objects say less.
+    // Fewer objects give a wider interval.
     let few = Run { frames: 3, ..run }.write(dir.path()).unwrap().sight.unwrap();
     let width = |[low, high]: [f64; 2]| high - low;
     let [few, many] = [&few, &sight].map(|sight| width(sight.intervals.agreement.unwrap()));
     assert!(few > 2.0 * many, "{few} and {many}");
 }
 
-/// Without a detector the outputs are a class at every place, and places are too alike to say anything of other frames.
+/// Without a detector the outputs are a class at every position, and positions are too alike to say
+/// anything about other frames.
 #[test]
 fn places_have_no_interval() {
     let dir = tempfile::tempdir().unwrap();
@@ -156,12 +160,12 @@ fn places_have_no_interval() {
     }
 }
 
-/// Ground truth is what the network finds in whole frames, so that its precision there is 1.
+/// The ground truth is what the network finds in whole frames, so its precision there is 1.
 #[test]
 fn precision_is_against_ground_truth() {
     let dir = tempfile::tempdir().unwrap();
     run(dir.path(), "", &[]).unwrap();
-    // As of MOT: frames and coordinates begin at 1.
+    // In the format of MOT, frames and coordinates begin at 1.
     let mut table = String::new();
     for (track, row) in rows(dir.path(), "detections.parquet").iter().enumerate() {
         let [x0, y0, x1, y1] = ["x0", "y0", "x1", "y1"].map(|name| number(row, name));
@@ -181,7 +185,8 @@ fn precision_is_against_ground_truth() {
     assert!(truth.seen_ap50 < 0.95 && truth.seen_recall < 0.9, "{truth:?}");
 }
 
-/// Every frame is the same, so that what is shown is what a witness says.
+/// A witness compares its findings in two frames: equal frames agree fully, and a frame with half of
+/// the objects agrees by 0.5. It refuses frames of another size and a detector that does not fit.
 #[test]
 fn a_witness_says_what_a_run_says() {
     let dir = tempfile::tempdir().unwrap();
@@ -218,7 +223,8 @@ fn a_witness_says_what_a_run_says() {
     );
 }
 
-/// Frames that are scaled behind the camera are computed exactly, too: what changed covers every input that did.
+/// Frames that are scaled behind the camera are also computed exactly: the mask covers every input
+/// that changed.
 #[test]
 fn scaled_frames_are_exact() {
     let dir = tempfile::tempdir().unwrap();
@@ -233,12 +239,12 @@ fn scaled_frames_are_exact() {
         assert!(text.ends_with(&format!("{width}x{height}")), "{text}");
         assert_eq!(serde_json::to_value(&summary).unwrap()["framing"], text);
     }
-    // The denoiser takes any size, so one must be said.
+    // The denoiser takes any size, so the user must name one.
     let problem = Run { framing: Framing::Letterbox(None), ..Run::default() }.write(dir.path());
     assert!(problem.unwrap_err().to_string().contains("letterbox=416x416"));
 }
 
-/// Without a camera that leaves something out, nothing is lost.
+/// Nothing is lost behind a camera that leaves nothing out.
 #[test]
 fn whole_frames_agree_with_themselves() {
     let dir = tempfile::tempdir().unwrap();

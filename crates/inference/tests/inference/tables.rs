@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table of layers and frames, summed either way, is the two other tables, and these are the totals.
+//! The table of layers and frames, summed over frames or over layers, gives the two other tables,
+//! and they give the totals.
 
 use crate::common::{Row, Run, is_counted, near, number, rows, text};
 use foveate_inference::Computed;
 use foveate_network::Mode;
 use parquet::record::Field;
 
-/// Of several clips, in an approximate mode, on each accelerator.
+/// The run has several clips, an approximate mode, and each accelerator in turn.
 #[test]
 fn layers_of_frames_add_up_to_frames_layers_and_totals() {
     let dir = tempfile::tempdir().unwrap();
@@ -91,7 +92,7 @@ fn layers_of_frames_add_up_to_frames_layers_and_totals() {
     }
 }
 
-/// Without an accelerator the columns are there, and empty.
+/// Without an accelerator the columns exist and are empty.
 #[test]
 fn what_was_not_counted_is_no_number() {
     let dir = tempfile::tempdir().unwrap();
