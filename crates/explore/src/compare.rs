@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One camera beside an ideal camera, over one clip or set: no folder, no front.
+//! A comparison of one camera with an ideal camera over one clip or data set, without a folder or a
+//! Pareto front.
 
 use std::path::PathBuf;
 
@@ -13,16 +14,18 @@ use crate::measure::{Clip, Measured};
 /// The errors of a camera over a clip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Compared {
-    /// The errors.
+    /// The errors against the ideal camera.
     pub figures: Figures,
-    /// Why the clip ended before its end, if it did.
+    /// The reason why the clip ended early, if it did.
     pub problem: Option<String>,
 }
 
-/// Compares the camera `config` with the ideal camera of `ideal`. `go_on` is asked after every frame.
+/// Compares the camera `config` with the ideal camera of `ideal`. `go_on` is called after every
+/// frame; if it returns `false`, the comparison stops.
 ///
 /// # Errors
-/// When the clip cannot be read, a configuration is not valid for its frames, or `go_on` says no.
+/// Fails if the clip cannot be read, if a configuration is not valid for its frames, or if `go_on`
+/// returns `false`.
 pub fn compare(
     inputs: &[PathBuf],
     input: &InputOptions,

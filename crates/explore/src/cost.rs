@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a design costs and how fast it is: area and estimated clock from Yosys, once for every distinct RTL.
+//! The cost and speed of a design: its area and its estimated clock from Yosys, once for every
+//! distinct RTL.
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -13,53 +14,55 @@ use serde::{Deserialize, Serialize};
 
 use crate::{ExploreError, Hooks, Progress};
 
-/// Area of a design, in Yosys' estimate.
+/// The area of a design, as Yosys estimates it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Silicon {
-    /// One RPU, or one lane of a serial design.
+    /// The area of one RPU, of one lane of a serial design, or of a raster core.
     pub unit: Area,
-    /// How many of them the frame has.
+    /// The number of these units for a frame.
     pub units: u64,
-    /// All of them and what they share; of a core on AXI with what puts it there.
+    /// The area of all units and of the logic that they share. With AXI it includes the logic
+    /// around the core.
     pub array: Area,
-    /// Logic levels of the longest path.
+    /// The number of logic levels of the longest path.
     pub levels: u32,
 }
 
-/// What a synthesis tells of a design.
+/// The result of synthesizing a design.
 #[derive(Clone, Debug)]
 pub(crate) struct Synthesized {
     pub(crate) silicon: Silicon,
-    /// The estimated clock and frames per second at it; none of a design without logic between registers.
+    /// The estimated clock, and the frames per second at it; `None` for a design without logic
+    /// between registers.
     pub(crate) speed: Option<Speed>,
 }
 
-/// What synthesizes.
+/// The tools of the synthesis.
 #[derive(Clone, Debug)]
 pub struct Synthesizer {
-    /// Finds and runs Yosys.
+    /// The toolchain, which finds and runs Yosys.
     pub toolchain: Toolchain,
-    /// Keeps what it made, under the hash of the RTL.
+    /// The cache of results, under the hash of the RTL.
     pub cache: Cache,
 }
 
-/// The areas and speeds of some designs, or what Yosys said of those without one.
+/// The results of synthesizing some designs: an area, or the error of Yosys.
 pub(crate) struct Areas {
-    /// For every design what tells its RTL from that of others.
+    /// The key of every design, which is unique for its RTL.
     keys: Vec<String>,
     by_rtl: BTreeMap<String, Result<Synthesized, ExploreError>>,
 }
 
 impl Areas {
-    /// For every design what its synthesis tells, or why it has none.
+    /// Returns the result or the error of every design.
     pub(crate) fn iter(&self) -> impl Iterator<Item = Result<&Synthesized, &ExploreError>> {
         self.keys.iter().filter_map(|key| self.by_rtl.get(key)).map(Result::as_ref)
     }
 
-    /// For every design what its synthesis tells.
+    /// Returns the results of all designs.
     ///
     /// # Errors
-    /// What Yosys said of the first without one.
+    /// Fails with the first error of the synthesis.
     pub(crate) fn all(self) -> Result<Vec<Synthesized>, ExploreError> {
         let found = self.by_rtl.into_iter().map(|(key, area)| Ok((key, area?)));
         let found = found.collect::<Result<BTreeMap<_, _>, ExploreError>>()?;
@@ -68,10 +71,10 @@ impl Areas {
 }
 
 impl Synthesizer {
-    /// Synthesizes every distinct RTL of some designs, side by side.
+    /// Synthesizes every distinct RTL of some designs in parallel.
     ///
     /// # Errors
-    /// When `hooks` cancels.
+    /// Fails if `hooks` cancels.
     pub(crate) fn areas<'a>(
         &self,
         designs: impl Iterator<Item = &'a Design>,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame in every depth that cameras take it in.
+//! A frame in every pixel depth that cameras need.
 
 use std::collections::BTreeMap;
 
@@ -9,14 +9,14 @@ use foveate_frame::{Raster, convert_depth};
 
 use crate::ExploreError;
 
-/// A frame in its own depth and in others.
+/// A frame in its own depth and in other depths.
 pub(crate) struct Depths<'a> {
     own: &'a Raster,
     others: BTreeMap<u32, Raster>,
 }
 
 impl<'a> Depths<'a> {
-    /// The frame for cameras of so many bits per pixel.
+    /// Converts the frame to all depths in `depths`, in bits per pixel.
     pub(crate) fn of(
         own: &'a Raster,
         depths: impl IntoIterator<Item = u32>,
@@ -30,7 +30,8 @@ impl<'a> Depths<'a> {
         Ok(Self { own, others })
     }
 
-    /// Shows it to a camera, to which each image of a set is a first frame.
+    /// Shows the frame to a camera in its depth. Every frame of a data set is a first frame, so the
+    /// camera is reset before it.
     pub(crate) fn show(&self, engine: &mut Engine, kind: Kind) -> Result<(), ExploreError> {
         if kind == Kind::Set {
             engine.reset();

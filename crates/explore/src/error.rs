@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong. Every message names the thing and says what would be right.
+//! The errors of explorations. Every message names its subject and says what would be right.
 
 use std::path::PathBuf;
 
@@ -15,115 +15,115 @@ use foveate_pictures::page::PageError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
-/// An exploration that cannot be started or finished.
+/// An error that keeps an exploration from starting or finishing.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ExploreError {
     /// The file of the space is not valid.
     #[error("the space is not valid: {problem}")]
     Space {
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
-    /// A part of the file is not a valid design.
+    /// A table of the file is not a valid design.
     #[error("the space, [{section}]: {error}")]
     Section {
-        /// The table of the file.
+        /// The name of the table.
         section: &'static str,
-        /// What is wrong.
+        /// The problem.
         error: ConfigError,
     },
     /// No point of the space can be built.
     #[error("no valid design was found; tried {settings}: {reason}")]
     NoPoints {
-        /// What was asked for.
+        /// The settings of a point.
         settings: String,
-        /// Why it cannot be built.
+        /// The reason why it cannot be built.
         reason: String,
     },
-    /// Clips of different sizes.
+    /// The clips have different sizes.
     #[error(
         "`{first}` has {first_size} pixels, but `{other}` has {other_size}; give all clips one size with --resize"
     )]
     Sizes {
-        /// A clip.
+        /// The name of a clip.
         first: String,
-        /// Its size.
+        /// The size of this clip.
         first_size: String,
-        /// Another one.
+        /// The name of another clip.
         other: String,
-        /// Its size.
+        /// The size of the other clip.
         other_size: String,
     },
-    /// A network cannot be read or shown frames.
+    /// A network cannot be read, or cannot be run on the frames.
     #[error(transparent)]
     Inference(Box<InferenceError>),
-    /// Boxes that cannot be read, or that do not fit the clips.
+    /// The ground-truth boxes cannot be read, or do not fit the clips.
     #[error(transparent)]
     Boxes(#[from] BoxError),
-    /// There is nothing of which a share could be sent.
+    /// There are no objects, so no share of them can be sent.
     #[error(
         "no object is to be counted in the {half} half of the clips, so --min-recall says nothing; check --boxes, \
          or take more footage"
     )]
     NoObjects {
-        /// First or second.
+        /// The half of the clips: `first` or `second`.
         half: &'static str,
     },
-    /// An input that can be read only once.
+    /// An input can be read only once.
     #[error(
         "`{input}` can be read only once, but this command reads its inputs several times; record it to a file first"
     )]
     ReadOnce {
-        /// The input.
+        /// The input as the user named it.
         input: String,
     },
-    /// A clip without enough frames.
+    /// A clip has too few frames.
     #[error("`{clip}` has {frames} frames; at least {least} are needed")]
     Short {
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// How many it has.
+        /// The number of its frames.
         frames: u64,
-        /// How many are needed.
+        /// The least number of frames that is enough.
         least: u64,
     },
-    /// A folder that holds something else.
+    /// The folder exists and is not an exploration.
     #[error("`{}` exists but is not the folder of an exploration (it has no exploration.json); name another folder", path.display())]
     Occupied {
-        /// The folder.
+        /// The path of the folder.
         path: PathBuf,
     },
-    /// A unit that the exploration does not have.
+    /// The exploration has no unit of this name.
     #[error(
         "there is no unit `{unit}`: the space, the clips or the options are other than when it was planned; plan again"
     )]
     NoUnit {
-        /// The name as given.
+        /// The name as the user gave it.
         unit: String,
     },
-    /// A clip of a unit that ended before its end.
+    /// A clip of a unit ended early.
     #[error("`{clip}` is not complete: {problem}")]
     Broken {
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// Why it ended.
+        /// The reason why it ended.
         problem: String,
     },
     /// A file of the exploration cannot be written or read.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {
-        /// What was tried.
+        /// The action that failed, as a verb.
         action: &'static str,
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What the system said.
+        /// The error of the system.
         source: std::io::Error,
     },
     /// An input cannot be read.
     #[error(transparent)]
     Footage(Box<FootageError>),
-    /// A configuration that is no design.
+    /// A configuration is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
     /// The engine refused a frame.
@@ -132,7 +132,7 @@ pub enum ExploreError {
     /// The ideal camera refused a frame.
     #[error(transparent)]
     Ideal(#[from] IdealError),
-    /// A design cannot be compared with the ideal.
+    /// A design cannot be compared with the ideal camera.
     #[error(transparent)]
     Fidelity(#[from] FidelityError),
     /// The synthesis failed.
@@ -141,10 +141,10 @@ pub enum ExploreError {
     /// A file or folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
-    /// The page cannot be written; this is a mistake of the program.
+    /// The page cannot be written, which is a fault of the program.
     #[error(transparent)]
     Page(#[from] PageError),
-    /// The user stopped it; what was finished is kept.
+    /// The user stopped the exploration; finished results are kept.
     #[error("interrupted")]
     Cancelled,
 }

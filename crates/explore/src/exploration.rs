@@ -1,38 +1,40 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an exploration found, as data: the JSON beside the tables, and what the page shows.
+//! The results of an exploration as data: for the JSON file next to the tables, and for the page.
 
 use serde::Serialize;
 
 use crate::point::described;
 use crate::{DesignRow, Refused};
 
-/// What an exploration found.
+/// The results of an exploration.
 #[derive(Clone, Debug, Serialize)]
 pub struct Exploration {
-    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    /// The version of the JSON format; it changes if a field changes its meaning or is removed.
     pub format_version: u32,
-    /// The program.
+    /// The name and version of the program.
     pub program: String,
-    /// Clips with their frames.
+    /// The clips, with their numbers of frames.
     pub clips: Vec<ClipRow>,
-    /// Width and height of a frame.
+    /// The width and height of a frame in pixels.
     pub size: (u32, u32),
-    /// The camera that designs are compared with, as TOML.
+    /// The ideal camera that designs are compared with, as TOML.
     pub ideal: String,
-    /// Clock of the frame rates in MHz, if the space gives one; else each design has its estimated one.
+    /// The clock of the frame rates in MHz, if the space gives one; otherwise each design has its
+    /// estimated clock.
     pub clock_mhz: Option<u32>,
-    /// Keys of the configuration that vary.
+    /// The keys of the configuration that vary.
     pub axes: Vec<String>,
-    /// The points.
+    /// The points, each with its figures.
     pub rows: Vec<DesignRow>,
-    /// Combinations that are no design.
+    /// The combinations that are not valid designs.
     pub refused: Vec<Refused>,
-    /// Clips that ended before their end and designs that Yosys did not synthesize, and why.
+    /// The problems: clips that ended early, and designs that Yosys could not synthesize, with the
+    /// reasons.
     pub problems: Vec<String>,
 }
 
 impl Exploration {
-    /// What a point sets, as `key = value`.
+    /// Returns the settings of a point as `key = value`.
     #[must_use]
     pub fn described(&self, row: &DesignRow) -> String {
         described(self.axes.iter().map(String::as_str), &row.settings)
@@ -42,8 +44,8 @@ impl Exploration {
 /// A clip of an exploration.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct ClipRow {
-    /// Its name.
+    /// The name of the clip.
     pub name: String,
-    /// Its frames.
+    /// The number of its frames.
     pub frames: u64,
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From a space and clips to a folder of tables, fronts, configurations and one page.
+//! An exploration: it measures a space over clips, and writes a folder of tables, fronts,
+//! configurations and one page.
 
 use std::path::Path;
 
@@ -16,7 +17,7 @@ use crate::table::{errors, point};
 use crate::work::Work;
 use crate::{ClipRow, Exploration, ExploreError, Hooks, Request, Synthesizer};
 
-/// The tables and the page.
+/// The names of the tables and of the page.
 const POINTS: &str = "points.csv";
 const POINTS_PARQUET: &str = "points.parquet";
 const PARETO: &str = "pareto.csv";
@@ -28,18 +29,18 @@ const TABLES: [&str; 5] = [POINTS, POINTS_PARQUET, PARETO, CLIPS, REPORT];
 /// can continue.
 ///
 /// # Errors
-/// When an input cannot be read, no point is a valid design, the folder holds something else or cannot
-/// be written, or `hooks` cancels.
+/// Fails if an input cannot be read, no point is a valid design, the folder holds something else or
+/// cannot be written, or `hooks` cancels.
 pub fn explore(
     request: &Request<'_>,
     output: &Path,
     hooks: &dyn Hooks,
 ) -> Result<Exploration, ExploreError> {
     let space = request.space;
-    // Files of designs are not known before the clips have been looked at.
+    // The files of designs are not known before the clips have been opened.
     continued(output)?.check(TABLES.into_iter().chain([MARK]))?;
     let Work { footage, points, refused, looks, look_of } = Work::new(request, None, hooks)?;
-    // Hours before they are written.
+    // The names are checked now, because writing the files may come hours later.
     let names = (1..=points.len()).map(design_file).chain(TABLES.map(str::to_owned));
     let names: Vec<String> = names.chain([MARK.to_owned()]).collect();
     continued(output)?.check(names.iter().map(String::as_str))?;
@@ -62,7 +63,7 @@ pub fn explore(
     mark_fronts(&mut rows);
     let of_clip = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| ClipRow {
         name: subject.name.clone(),
-        // A space has a design.
+        // Every space has at least one design.
         frames: measured[0].tally.figures().frames,
     };
     let problem = |(subject, measured): (&foveate_footage::Subject, &Vec<Measured>)| {
@@ -91,8 +92,8 @@ pub fn explore(
     Ok(exploration)
 }
 
-/// Area and speed of every design, and what Yosys said of those without one: one of many that fails does not
-/// lose the others.
+/// Returns the area and speed of every design, and the errors of Yosys. A design that fails does
+/// not lose the others.
 fn synthesized(
     synthesizer: Option<&Synthesizer>,
     designs: &[Design],
@@ -137,16 +138,18 @@ fn write(
     let design = |row: &DesignRow| (design_file(row.number), row.config.to_toml().into_bytes());
     files.extend(rows.iter().map(design));
     files.push((REPORT.to_owned(), crate::report::page(exploration)?.into_bytes()));
-    // Last, since it says that all is there. Plain data with text keys: this cannot fail.
+    // This file is written last, because it marks the exploration as complete. It is plain data
+    // with text keys, so it cannot fail.
     let json = serde_json::to_string_pretty(exploration)
         .expect("it has no map with other keys than text")
         + "\n";
     files.push((MARK.to_owned(), json.into_bytes()));
-    // Designs of an earlier, larger space go: their numbers would belong to other points.
+    // Designs of an earlier, larger space are removed, because their numbers would belong to other
+    // points.
     Ok(continued(output)?.write(&files)?)
 }
 
-/// The configuration of a point.
+/// Returns the name of the configuration file of a point.
 fn design_file(number: usize) -> String {
     format!("designs/{number}.toml")
 }

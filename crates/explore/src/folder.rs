@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folder of an exploration: what marks it, also while several machines write to it.
+//! The folder of an exploration and the file that marks it, also if several machines write to it.
 
 use std::fs;
 use std::path::Path;
@@ -10,44 +10,46 @@ use crate::ExploreError;
 
 /// The file that marks a folder as an exploration and describes it.
 pub(crate) const MARK: &str = "exploration.json";
-/// What the mark holds until all is there.
+/// The content of the mark before the exploration is complete.
 pub(crate) const UNFINISHED: &str = "{ \"finished\": false }\n";
-/// The folder of the files that say which units are done.
+/// The folder of the files that mark finished units.
 pub(crate) const UNITS: &str = "units";
 
-/// Refuses a folder that holds something else than an exploration. Nothing is read but the folder.
+/// Checks that a folder is an exploration, is empty or does not exist. It reads only the folder's
+/// entries.
 ///
 /// # Errors
-/// When it does.
+/// Fails if the folder holds something else.
 pub fn check_folder(output: &Path) -> Result<(), ExploreError> {
-    // A workflow makes the folder of the files that it waits for.
+    // A workflow creates the folder of the files that it waits for.
     let foreign = |entry: fs::DirEntry| {
         let name = entry.file_name();
         name != UNITS && !name.to_string_lossy().starts_with(TEMPORARY)
     };
     let occupied = fs::read_dir(output).is_ok_and(|entries| entries.flatten().any(foreign));
-    // Who else makes the folder writes the mark first, so it is there if anything was seen.
+    // Other processes that create the folder write the mark first, so the mark exists if any of
+    // their files was seen.
     if occupied && !output.join(MARK).is_file() || output.is_file() {
         return Err(ExploreError::Occupied { path: output.to_owned() });
     }
     Ok(())
 }
 
-/// Makes the folder an exploration, unless it is something else.
+/// Makes the folder an exploration, unless it holds something else.
 pub(crate) fn claim(output: &Path) -> Result<(), ExploreError> {
     check_folder(output)?;
     fs::create_dir_all(output).map_err(ExploreError::io("make the folder", output))?;
     if output.join(MARK).is_file() { Ok(()) } else { mark(output, UNFINISHED) }
 }
 
-/// The folder, of which only files that are its own are written again.
+/// Opens the folder; only files of the exploration are overwritten in it.
 pub(crate) fn continued(output: &Path) -> Result<ContinuedFolder, ExploreError> {
     let mut folder = ContinuedFolder::open(output)?;
     folder.expect(MARK, UNFINISHED.as_bytes());
     Ok(folder)
 }
 
-/// Describes the exploration.
+/// Writes the description of the exploration.
 pub(crate) fn mark(output: &Path, text: &str) -> Result<(), ExploreError> {
     Ok(write_file(&output.join(MARK), text.as_bytes())?)
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clips of a run and what is measured on them, what is finished taken from the store.
+//! The clips of a run, and the measurements on them; finished measurements come from the store.
 
 use std::ops::Range;
 use std::path::PathBuf;
@@ -19,11 +19,11 @@ use crate::objects::Objects;
 use crate::store::{Store, identity, key};
 use crate::{ExploreError, Hooks, Progress};
 
-/// Designs that see a clip together. Many share the work of decoding and of the ideal camera; few lose
-/// less when interrupted.
+/// The number of designs that see a clip together. More designs share the work of decoding and of
+/// the ideal camera; fewer designs lose less if the run is interrupted.
 pub(crate) const TOGETHER: usize = 16;
 
-/// Counts the pairs of a clip and a camera that are done.
+/// The number of pairs of a clip and a camera that are done, and of all pairs.
 pub(crate) struct Count {
     done: AtomicUsize,
     all: usize,
@@ -43,20 +43,21 @@ impl Count {
     }
 }
 
-/// Clips of one size.
+/// The clips of a run, which have one size.
 pub(crate) struct Footage<'a> {
     pub(crate) subjects: Vec<Subject>,
-    /// Width and height.
+    /// The width and height of all frames in pixels.
     pub(crate) size: (u32, u32),
     input: &'a InputOptions,
     ideal: &'a CameraConfig,
     hooks: &'a dyn Hooks,
-    /// Ground-truth boxes of every clip, or none.
+    /// The ground-truth boxes of every clip; empty without ground truth.
     pub(crate) boxes: Vec<Arc<Boxes>>,
 }
 
 impl<'a> Footage<'a> {
-    /// Looks at the inputs; sizes of scenes and bits per pixel are those of the ideal.
+    /// Opens the inputs. Scenes get the frame size of the ideal camera, and all frames get its bits
+    /// per pixel.
     pub(crate) fn new(
         inputs: &[PathBuf],
         input: &'a InputOptions,
@@ -95,7 +96,8 @@ impl<'a> Footage<'a> {
         Ok(self)
     }
 
-    /// The objects of a frame of a clip, by its number; `None` without an entry for the frame.
+    /// Returns the objects in a frame of a clip, which is given by its number; `None` if the boxes
+    /// have no entry for the frame.
     pub(crate) fn objects(
         &self,
         clip: usize,
@@ -107,7 +109,7 @@ impl<'a> Footage<'a> {
         Ok(boxes.objects(frame, &origin, self.input.crop)?)
     }
 
-    /// For every clip and camera what was seen of it over the whole clip.
+    /// Returns the measurement of every clip and camera over the whole clip.
     pub(crate) fn measure(
         &self,
         cameras: &[Camera],
@@ -118,7 +120,7 @@ impl<'a> Footage<'a> {
         clips.map(|clip| self.measure_clip(clip, cameras, store, &count)).collect()
     }
 
-    /// For every camera what was seen of it over one clip, by its number.
+    /// Returns the measurement of every camera over one clip, which is given by its number.
     pub(crate) fn measure_clip(
         &self,
         clip: usize,
@@ -137,7 +139,7 @@ impl<'a> Footage<'a> {
             let measured = self.parts(clip, &together, whole, &|| count.progress())?;
             for (&index, mut parts) in some.iter().zip(measured) {
                 let Some(measured) = parts.pop() else { continue };
-                // A clip that broke off may be whole the next time.
+                // A clip that ended early may be complete the next time.
                 if measured.problem.is_none() {
                     store.put(&keys[index], &measured)?;
                 }
@@ -148,14 +150,15 @@ impl<'a> Footage<'a> {
         Ok(found.into_iter().flatten().collect())
     }
 
-    /// The names of the measurements of some cameras over one clip, by its number.
+    /// Returns the names of the measurements of some cameras over one clip, which is given by its
+    /// number.
     pub(crate) fn keys(&self, clip: usize, cameras: &[Camera]) -> Vec<String> {
         let clip = identity(&self.subjects[clip], self.input);
         let ideal = self.ideal.to_toml();
         cameras.iter().map(|camera| key(&clip, &ideal, camera.config())).collect()
     }
 
-    /// Bits of a pixel.
+    /// Returns the number of bits per pixel.
     pub(crate) fn bits(&self) -> u32 {
         self.ideal.frame.pixel_bits
     }
@@ -163,19 +166,20 @@ impl<'a> Footage<'a> {
     /// Reports progress.
     ///
     /// # Errors
-    /// When the work is to stop.
+    /// Fails if the work is to stop.
     pub(crate) fn go_on(&self, progress: Progress) -> Result<(), ExploreError> {
         self.hooks.progress(progress);
         if self.hooks.cancelled() { Err(ExploreError::Cancelled) } else { Ok(()) }
     }
 
-    /// A clip from its beginning.
+    /// Opens a clip from its beginning.
     pub(crate) fn open(&self, subject: &Subject) -> Result<Box<dyn Source>, ExploreError> {
         Ok(open(&subject.inputs, self.ideal, self.input)?)
     }
 
-    /// For every camera its figures over the first halves of all clips, and what becomes of objects; `halves` says for each clip how
-    /// many frames that is. `before` cameras count as done already.
+    /// Returns the figures of every camera over the first halves of all clips, and the counts of
+    /// objects. `halves` has the number of frames of each first half. `before` is the number of
+    /// cameras that were done before, for progress.
     pub(crate) fn first_halves(
         &self,
         cameras: &[Camera],
@@ -206,7 +210,7 @@ impl<'a> Footage<'a> {
         Ok(found)
     }
 
-    /// What was seen of cameras in parts of one clip, by its number, measured now.
+    /// Measures cameras on parts of one clip, which is given by its number, without the store.
     pub(crate) fn parts(
         &self,
         clip: usize,

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pareto fronts: points that no other point beats, in O(n log n) for two or three costs.
+//! Pareto fronts: the points that no other point beats, in O(n log n) for up to three costs.
 
 use std::cmp::Ordering;
 use std::collections::BTreeMap;
 
-/// Whether each point is on the front of its costs: no other point is at most as high in all and lower in
-/// one. A point that lacks a cost, or has NaN for one, is on no front and beats none.
+/// Returns whether each point is on the front of its costs: no other point has costs that are all
+/// at most as high and one of them lower. A point without a cost, or with NaN as a cost, is on no
+/// front and beats no point.
 pub(crate) fn front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
     const { assert!(1 <= N && N <= 3, "the sweep is for one to three costs") };
     let known = |(index, point): (usize, &[Option<f64>; N])| {
         let mut costs = [Cost(0.0); 3];
         for (cost, value) in costs.iter_mut().zip(point) {
-            // Adding zero makes one zero of the two.
+            // Adding zero turns -0 into 0.
             *cost = Cost(value.filter(|value| !value.is_nan())? + 0.0);
         }
         Some((costs, index))
@@ -20,7 +21,7 @@ pub(crate) fn front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
     known.sort_unstable();
     let mut on_front = vec![false; points.len()];
     let mut stairs = Stairs::default();
-    // What beats a point comes before it; equal points do not beat each other.
+    // A point that beats another one comes before it; equal points do not beat each other.
     for equal in known.chunk_by(|one, other| one.0 == other.0) {
         let [_, second, third] = equal[0].0;
         if stairs.add(second, third) {
@@ -30,12 +31,14 @@ pub(crate) fn front<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
     on_front
 }
 
-/// Pairs of costs that no earlier pair is at most as high as: the second falls as the first rises.
+/// The unbeaten pairs of costs so far, sorted by the first cost: the second cost falls as the first
+/// one rises.
 #[derive(Default)]
 struct Stairs(BTreeMap<Cost, Cost>);
 
 impl Stairs {
-    /// Adds a pair unless one that is there is at most as high in both; says whether it was added.
+    /// Adds a pair, unless a known pair is at most as high in both costs. Returns whether it was
+    /// added.
     fn add(&mut self, first: Cost, second: Cost) -> bool {
         if self.0.range(..=first).next_back().is_some_and(|(_, below)| *below <= second) {
             return false;
@@ -50,7 +53,7 @@ impl Stairs {
     }
 }
 
-/// A cost that can be sorted: no NaN, one zero.
+/// A cost with a total order: never NaN, and with only one zero.
 #[derive(Clone, Copy, Debug)]
 struct Cost(f64);
 
@@ -95,7 +98,7 @@ mod tests {
         assert_eq!(front(&[[Some(0.0)], [Some(-0.0)], [Some(1.0)]]), [true, true, false]);
     }
 
-    /// The definition, pair by pair.
+    /// Computes the front by its definition, pair by pair.
     fn naive<const N: usize>(points: &[[Option<f64>; N]]) -> Vec<bool> {
         let beats = |one: &[Option<f64>; N], other: &[Option<f64>; N]| {
             let mut better = false;
@@ -136,7 +139,8 @@ mod tests {
 
     #[test]
     fn many_points_take_no_time() {
-        // All on the front: the worst case. Comparing every pair takes 10^10 steps.
+        // All points are on the front, which is the worst case. Comparing every pair would take
+        // 10^10 steps.
         let count = 100_000;
         let points: Vec<[Option<f64>; 3]> = (0..count)
             .map(|x| [Some(f64::from(x)), Some(f64::from(count - x)), Some(0.0)])

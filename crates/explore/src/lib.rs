@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Many designs over the same footage: the errors of each against the ideal camera, its cost and its
-//! speed; and the cheapest design that a scene needs.
+//! Explorations of many designs over the same footage: the errors of each design against the ideal
+//! camera, its cost and its speed; and fits, which find the cheapest design that a scene needs.
 //!
 //! [`explore`] runs a [`Space`] of designs over clips and writes a folder of tables, Pareto fronts,
-//! configurations and one page. It continues an interrupted run. [`plan`] and [`measure_unit`] spread the
-//! measurements over machines. The reference is the whole-frame
-//! floating-point camera of [`foveate_ideal`], and the figures are those of [`foveate_fidelity`].
-//! The library never prints: progress and cancellation go through [`Hooks`].
+//! configurations and one page. It continues an interrupted run. [`plan`] and [`measure_unit`]
+//! distribute the measurements over machines. The ideal camera is the whole-frame floating-point
+//! camera of [`foveate_ideal`], and the figures are those of [`foveate_fidelity`]. The library
+//! never prints: progress and cancellation go through [`Hooks`].
 
 mod compare;
 mod cost;
@@ -55,26 +55,26 @@ pub use unit::{Unit, measure_unit, plan};
 pub enum Progress {
     /// Clips are read to find their lengths.
     Reading {
-        /// Frames that are read.
+        /// The number of frames that are read.
         frames: u64,
     },
     /// Designs run over clips.
     Measuring {
-        /// Pairs of a clip and a design that are done.
+        /// The number of pairs of a clip and a design that are done.
         done: usize,
-        /// The number of all.
+        /// The number of all pairs.
         all: usize,
     },
-    /// A network looks at what cameras show.
+    /// A network runs behind cameras.
     Asking {
-        /// Cameras that it was asked about.
+        /// The number of cameras that the network was run behind.
         cameras: usize,
     },
-    /// Yosys synthesizes.
+    /// Yosys synthesizes designs.
     Synthesizing {
-        /// Distinct RTL that is done.
+        /// The number of distinct RTLs that are done.
         done: usize,
-        /// The number of all.
+        /// The number of all distinct RTLs.
         all: usize,
     },
 }

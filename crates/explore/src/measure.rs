@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A clip through the ideal camera once, and through the engine of every camera beside it.
+//! The measurement of a clip: the frames go once through the ideal camera, and through the engine
+//! of every camera.
 
 use std::ops::Range;
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
@@ -20,36 +21,37 @@ use crate::ExploreError;
 use crate::depths::Depths;
 use crate::objects::Objects;
 
-/// Frames that are ready before the engines ask for them.
+/// The number of frames that are ready before the engines need them.
 const AHEAD: usize = 2;
 
-/// What was seen of a camera over a part of a clip: the same wherever and whenever it was measured.
+/// The measurement of a camera over a part of a clip. It does not depend on the machine and the
+/// time.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub(crate) struct Measured {
-    /// Errors against the ideal.
+    /// The errors against the ideal camera.
     pub(crate) tally: ErrorTally,
-    /// What becomes of objects, where there are boxes.
+    /// The counts of objects, if there are boxes.
     #[serde(default)]
     pub(crate) objects: Objects,
-    /// Why the clip ended before its end, if it did.
+    /// The reason why the clip ended early, if it did.
     pub(crate) problem: Option<String>,
 }
 
-/// A clip with what it is compared with.
+/// A clip and the ideal camera that others are compared with on it.
 pub(crate) struct Clip<'a> {
     pub(crate) subject: &'a Subject,
     pub(crate) input: &'a InputOptions,
-    /// The ideal that cameras are compared with, for frames of the clip's size.
+    /// The configuration of the ideal camera, for frames of the clip's size.
     pub(crate) ideal: &'a CameraConfig,
-    /// Parts of the clip, by the numbers of their frames, that are measured apart.
+    /// The parts of the clip that are measured separately, as ranges of frame numbers.
     pub(crate) parts: &'a [Range<u64>],
-    /// Its ground-truth boxes, if there are any.
+    /// The ground-truth boxes of the clip, if there are any.
     pub(crate) boxes: Option<&'a Boxes>,
-    /// Called after every frame; says whether to go on.
+    /// A callback after every frame, which returns whether to go on.
     pub(crate) go_on: &'a (dyn Fn() -> bool + Sync),
 }
 
-/// A frame and what the ideal camera makes of it.
+/// A frame and the outcome of the ideal camera for it.
 struct Judged {
     number: u64,
     frame: Raster,
@@ -57,17 +59,17 @@ struct Judged {
     objects: Vec<Rect>,
 }
 
-/// A camera at work.
+/// A camera that is measured.
 struct Candidate {
     camera: Camera,
     engine: Engine,
-    /// One for each part.
+    /// The errors of the camera, for each part.
     fidelity: Vec<Fidelity>,
     objects: Vec<Objects>,
 }
 
 impl Clip<'_> {
-    /// For every camera what was seen of it in every part.
+    /// Returns the measurement of every camera in every part.
     pub(crate) fn measure(&self, cameras: &[Camera]) -> Result<Vec<Vec<Measured>>, ExploreError> {
         let source = open(&self.subject.inputs, self.ideal, self.input)?;
         let (width, height) = source.size();
@@ -81,7 +83,7 @@ impl Clip<'_> {
             let judge = scope.spawn(move || self.judge(source, ideal, end, &give));
             let seen = self.watch(&mut candidates, kind, take);
             let problem = judge.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
-            // What stopped the engines explains why nobody took the frames.
+            // An error of the engines explains why nobody took the frames, so it comes first.
             seen.and(problem)
         })?;
         let measured = |candidate: Candidate| {
@@ -96,7 +98,7 @@ impl Clip<'_> {
         Ok(candidates.into_iter().map(measured).collect())
     }
 
-    /// Shows every frame to every candidate.
+    /// Shows every frame to every camera.
     fn watch(
         &self,
         candidates: &mut [Candidate],
@@ -116,8 +118,9 @@ impl Clip<'_> {
         Ok(())
     }
 
-    /// Decodes the clip and shows it to the ideal camera until frame `end`, or nobody listens. Says why it ended
-    /// before its end, if it did. Objects of the first frame, which has no reference, do not count.
+    /// Decodes the clip and shows it to the ideal camera until frame `end`, or until the receiver
+    /// of the frames is gone. Returns the reason why the clip ended early, if it did. Objects of a
+    /// clip's first frame do not count, because it has no reference.
     fn judge(
         &self,
         mut source: Box<dyn Source>,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which combinations of the values of the axes are points.
+//! The choice of the combinations of axis values that become points.
 
 use std::collections::BTreeSet;
 
@@ -8,27 +8,27 @@ use toml::Value;
 /// The most points of a space.
 pub(crate) const MAX_POINTS: usize = 100_000;
 
-/// A key of the configuration and the values it takes.
+/// A key of the configuration and its values.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Axis {
-    /// Dotted, for example `region.size` or `spatial.0.level`.
+    /// The dotted key, for example `region.size` or `spatial.0.level`.
     pub key: String,
-    /// As the file has them.
+    /// The values, as in the file.
     pub values: Vec<Value>,
 }
 
-/// How the points of a space are chosen.
+/// The method that chooses the points of a space.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Method {
     /// Every combination.
     Grid,
     /// The start, and every value of each axis alone. This shows the cost of each single choice.
     Each,
-    /// A number of combinations, drawn without repetition.
+    /// A number of combinations that are drawn without repetition.
     Sample {
-        /// How many; all combinations if there are fewer.
+        /// The number of combinations; all of them if there are fewer.
         points: usize,
-        /// Seed of the choice.
+        /// The seed of the choice.
         seed: u64,
     },
 }
@@ -61,7 +61,7 @@ impl Method {
         }
     }
 
-    /// How many combinations there are to try; `None` when there are more than can be counted.
+    /// Returns the number of combinations to try; `None` if it exceeds the range of `usize`.
     pub(crate) fn count(self, axes: &[Axis]) -> Option<usize> {
         let all = axes.iter().try_fold(1_usize, |all, axis| all.checked_mul(axis.values.len()));
         match self {
@@ -71,11 +71,12 @@ impl Method {
         }
     }
 
-    /// The combinations: for each axis the index of its value, or none for that of the start.
+    /// Returns the combinations: for each axis the index of its value, or `None` for the value of
+    /// the start.
     pub(crate) fn combinations(self, axes: &[Axis]) -> Vec<Vec<Option<usize>>> {
         let all: usize = axes.iter().map(|axis| axis.values.len()).product();
         let mixed = |mut number: usize| {
-            // The last axis runs fastest, as nested loops would.
+            // The last axis changes fastest, as in nested loops.
             let digit = |axis: &Axis| {
                 let digit = number % axis.values.len();
                 number /= axis.values.len();
@@ -106,13 +107,13 @@ impl Method {
     }
 }
 
-/// Different numbers below `all`, in rising order.
+/// Returns `points` different numbers below `all`, in rising order.
 fn sample(all: usize, points: usize, seed: u64) -> BTreeSet<usize> {
     if points >= all {
         return (0..all).collect();
     }
     let mut chance = fastrand::Rng::with_seed(seed);
-    // Floyd's algorithm: as many draws as numbers.
+    // Floyd's algorithm needs as many draws as numbers.
     let mut drawn = BTreeSet::new();
     for last in all - points..all {
         let number = chance.usize(0..=last);

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What points are judged by, and in which direction each figure is better. Tables, plots and the page take
-//! both from here; nothing else says which way is up.
+//! The objectives that points are compared by, and the direction in which each figure is better.
+//! Tables, plots and the page take both from here.
 
 use crate::front::front;
 use crate::row::{DesignRow, Fronts, real};
 
-/// A figure of a point by which points beat each other.
+/// A figure by which points are compared.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Objective {
-    /// Share of flipped actions, 0..=1: the error.
+    /// The error: the share of flipped actions, 0..=1.
     Error,
-    /// Frames per second at the clock of each design.
+    /// The frames per second at the clock of each design.
     Speed,
-    /// Frames per clock, where no clock is known.
+    /// The frames per clock, if no clock is known.
     PerClock,
-    /// LUTs of the array, those used as memory included.
+    /// The LUTs of the array, including those used as memory.
     Luts,
-    /// Share of the relevant regions that are stale, 0..=1.
+    /// The share of the relevant regions that are stale, 0..=1.
     Stale,
-    /// Bytes per frame that leave the array.
+    /// The bytes per frame that leave the array.
     Bytes,
-    /// SSIM of the screen to the ideal's, at most 1.
+    /// The SSIM of the screen against the ideal's screen, at most 1.
     Likeness,
 }
 
@@ -39,7 +39,7 @@ impl Objective {
         }
     }
 
-    /// The figure of a point; none where it is not known.
+    /// Returns the figure of a point; `None` if it is not known.
     pub(crate) fn of(self, row: &DesignRow) -> Option<f64> {
         match self {
             Self::Error => Some(row.figures.action_flips),
@@ -52,7 +52,7 @@ impl Objective {
         }
     }
 
-    /// The figure as a cost, which is better the smaller it is.
+    /// Returns the figure as a cost, which is better the smaller it is.
     fn cost(self, row: &DesignRow) -> Option<f64> {
         self.of(row).map(|value| match self.better() {
             Better::Smaller => value,
@@ -61,13 +61,14 @@ impl Objective {
     }
 }
 
-/// What tells which of some points is faster: frames per second, or frames per clock if no clock is known.
+/// Returns the objective of speed: frames per second, or frames per clock if no clock is known.
 pub(crate) fn speed<'a>(rows: impl IntoIterator<Item = &'a DesignRow>) -> Objective {
     let known = rows.into_iter().any(|row| row.speed.is_some());
     if known { Objective::Speed } else { Objective::PerClock }
 }
 
-/// Which of some points no other beats: none is as good in all objectives and better in one.
+/// Returns whether each point is unbeaten: no other point is as good in all objectives and better
+/// in one.
 pub(crate) fn unbeaten<const N: usize>(
     rows: &[&DesignRow],
     objectives: [Objective; N],
@@ -96,7 +97,8 @@ mod tests {
     use crate::report::sample::exploration;
     use foveate_estimate::Speed;
 
-    /// Points with figures of few values, so that many are equal; some have no area, some no clock.
+    /// Makes points with figures from a few values, so that many are equal. Some points have no
+    /// area, and some no clock.
     fn points(seed: u64) -> Vec<DesignRow> {
         let row = exploration("", true).rows.remove(0);
         let mut chance = fastrand::Rng::with_seed(seed);
@@ -117,7 +119,8 @@ mod tests {
         (0..60).map(|_| point()).collect()
     }
 
-    /// The definition, read off the figures of the table: lower error, more frames per second, fewer LUTs.
+    /// The definition of the fronts by the figures of the table: lower error, more frames per
+    /// second, fewer LUTs.
     fn beats(one: &DesignRow, other: &DesignRow, fast: bool, luts: bool) -> bool {
         let lut =
             |row: &DesignRow| row.silicon.as_ref().map(|silicon| silicon.array.lut_total_packed);
@@ -151,7 +154,7 @@ mod tests {
                 without_area += usize::from(row.silicon.is_none() && row.front.speed);
             }
         }
-        // Otherwise a swap of speed and area would not be seen.
+        // Without many such points the test would not notice if speed and area were swapped.
         assert!(told_apart > 500 && without_area > 0, "{told_apart}, {without_area}");
     }
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Of how many ground-truth objects a camera sends at least half.
+//! The number of ground-truth objects of which a camera sends at least half.
 
 use foveate_camera::Camera;
 use foveate_footage::boxes::Grid;
 use foveate_frame::Rect;
 use serde::{Deserialize, Serialize};
 
-/// Objects over frames.
+/// Counts of objects over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Objects {
     all: u64,
-    /// Those of which at least half of the regions are active.
+    /// The number of objects of which at least half of the regions are active.
     sent: u64,
 }
 
@@ -30,7 +30,7 @@ impl Objects {
         self.sent += other.sent;
     }
 
-    /// The share that is sent; `None` if there are no objects.
+    /// Returns the share that is sent; `None` if there are no objects.
     pub(crate) fn recall(self) -> Option<f64> {
         #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
         (self.all > 0).then(|| self.sent as f64 / self.all as f64)

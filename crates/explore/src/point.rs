@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The designs of a space.
+//! The points of a space, each with its design.
 
 use std::collections::BTreeSet;
 
@@ -12,32 +12,33 @@ use crate::space::{Space, plain};
 /// A design of a space.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Point {
-    /// The value of every axis, a string without quotes; empty if it is the value of the start.
+    /// The value of every axis, a string without quotes; empty if the axis has the value of the
+    /// start.
     pub settings: Vec<String>,
-    /// Its configuration.
+    /// The configuration.
     pub config: Config,
-    /// The number of its combination, from 0.
+    /// The number of the combination, from 0.
     pub combination: usize,
 }
 
 /// A combination that is not a valid design.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Refused {
-    /// What was asked for, as `key = value`.
+    /// The settings as `key = value`.
     pub settings: String,
-    /// Why it cannot be built.
+    /// The reason why the combination cannot be built.
     pub reason: String,
 }
 
 impl Space {
-    /// The designs, each once, for frames of `width` x `height` pixels, and the combinations that are not
-    /// valid designs.
+    /// Returns the different designs for frames of `width` x `height` pixels, and the combinations
+    /// that are not valid designs.
     #[must_use]
     pub fn points(&self, width: u32, height: u32) -> (Vec<Point>, Vec<Refused>) {
         self.points_of(None, width, height)
     }
 
-    /// The same of some combinations alone, or of all.
+    /// Returns the designs of some combinations, or of all combinations.
     pub(crate) fn points_of(
         &self,
         some: Option<&[usize]>,
@@ -56,7 +57,7 @@ impl Space {
                 values.iter().map(|value| value.map(plain).unwrap_or_default()).collect();
             match self.point(&values, width, height) {
                 Ok(config) => {
-                    // Of designs that are equal the first has the fewest settings.
+                    // Of equal designs the first is kept, because it has the fewest settings.
                     if seen.insert(config.to_toml()) {
                         points.push(Point { settings, config, combination: number });
                     }
@@ -69,7 +70,7 @@ impl Space {
         (points, refused)
     }
 
-    /// The settings as `key = value`, without those of the start.
+    /// Returns the settings as `key = value`, without those that have the value of the start.
     #[must_use]
     pub fn described(&self, settings: &[String]) -> String {
         described(self.axes.iter().map(|axis| axis.key.as_str()), settings)
@@ -84,17 +85,18 @@ impl Space {
         let design = config
             .and_then(|config| config.for_frames(width, height))
             .map_err(|error| error.to_string())?;
-        // With every default filled in, so that equal designs are equal texts.
+        // Every default is filled in, so that equal designs have equal texts.
         Ok(design.config())
     }
 }
 
-/// The settings of some axes as `key = value`, without those of the start.
+/// Returns the settings of some axes as `key = value`, without those that have the value of the
+/// start.
 pub(crate) fn described<'a>(axes: impl Iterator<Item = &'a str>, settings: &[String]) -> String {
     let set = axes.zip(settings).filter(|(_, value)| !value.is_empty());
     let words: Vec<String> = set.map(|(axis, value)| format!("{axis} = {value}")).collect();
     if words.is_empty() { START.to_owned() } else { words.join(", ") }
 }
 
-/// A point that sets nothing.
+/// The name of the point that changes no setting.
 pub(crate) const START: &str = "the start";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One page that shows an exploration: no script is needed to read it and nothing is loaded.
+//! The page of an exploration. It needs no script to be read, and loads nothing.
 
 mod card;
 mod colour;
@@ -24,20 +24,20 @@ use card::Card;
 use colour::Grouping;
 use setting::Settings;
 
-/// Points that a page shows; with more it would be too large to open.
+/// The most points that a page shows; with more it would be too large to open.
 const POINTS: usize = 2000;
-/// Refused combinations that it shows.
+/// The most refused combinations that a page shows.
 const REFUSED: usize = 500;
-/// Where the figures of a mark lead to.
+/// The targets of the links of a mark.
 const TARGETS: [Target; 2] =
     [Target { prefix: "p", name: "its row" }, Target { prefix: "c", name: "its configuration" }];
-/// What stands at the end.
+/// The text at the end of the page.
 const FOOTER: &str = "Everything here is also in the files beside this page: <code>points.csv</code>, \
     <code>points.parquet</code>, <code>pareto.csv</code>, <code>clips.csv</code>, \
     <code>exploration.json</code> and a configuration of every point in \
     <code>designs</code>.";
 
-/// What was explored, below the figures of the heading.
+/// The section about the exploration, below the figures of the heading.
 #[derive(Template)]
 #[template(path = "about.html")]
 struct About<'a> {
@@ -49,7 +49,7 @@ struct About<'a> {
     refused: &'a [Refused],
 }
 
-/// The sections.
+/// The other sections.
 #[derive(Template)]
 #[template(path = "main.html")]
 struct Main<'a> {
@@ -59,10 +59,10 @@ struct Main<'a> {
     front: Table<'a>,
     points: Table<'a>,
     cards: Vec<Card>,
-    /// Points that are not shown.
+    /// The number of points that are not shown.
     hidden: usize,
     refused: &'a [Refused],
-    /// Refused combinations that are not shown.
+    /// The number of refused combinations that are not shown.
     hidden_refused: usize,
 }
 
@@ -70,11 +70,11 @@ struct Main<'a> {
 #[derive(Template)]
 #[template(path = "colours.js", escape = "none")]
 struct Colours {
-    /// How many can be told apart.
+    /// The number of colours that can be told apart.
     colours: usize,
 }
 
-/// The page.
+/// Renders the page.
 pub(crate) fn page(exploration: &Exploration) -> Result<String, ExploreError> {
     let settings = Settings::new(exploration);
     let rows = shown(&exploration.rows);
@@ -132,7 +132,8 @@ pub(crate) fn page(exploration: &Exploration) -> Result<String, ExploreError> {
     Ok(page.render()?)
 }
 
-/// All rows; of too many those of the fronts and an even sample of the others.
+/// Returns all points that a page shows. If there are too many, these are the points of the fronts
+/// and an even sample of the others.
 fn shown(rows: &[DesignRow]) -> Vec<&DesignRow> {
     let front = |row: &DesignRow| row.front.all || row.front.speed || row.front.area;
     let fronts = rows.iter().filter(|row| front(row)).count();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an exploration is asked to do.
+//! The request of an exploration.
 
 use std::path::PathBuf;
 
@@ -7,14 +7,15 @@ use foveate_footage::InputOptions;
 
 use crate::{Space, Synthesizer};
 
-/// What is explored.
+/// The request of an exploration.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
     /// The designs.
     pub space: &'a Space,
-    /// Clips and sets of one size, one each; image files together are one clip.
+    /// The clips and data sets, which have one size. Image files together are one clip; every other
+    /// input is its own.
     pub inputs: &'a [PathBuf],
-    /// How they are read.
+    /// The options for reading them.
     pub input: &'a InputOptions,
     /// The synthesizer, for areas; without it the figures have no areas.
     pub synthesizer: Option<&'a Synthesizer>,

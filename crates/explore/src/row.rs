@@ -13,38 +13,41 @@ use crate::measure::Measured;
 /// A design with its errors, costs and speed.
 #[derive(Clone, Debug, Serialize)]
 pub struct DesignRow {
-    /// Its number, from 1, in the order of the space.
+    /// The number of the point, from 1, in the order of the space.
     pub number: usize,
-    /// The value of every axis, a string without quotes; empty if it is the value of the start.
+    /// The value of every axis, a string without quotes; empty if the axis has the value of the
+    /// start.
     pub settings: Vec<String>,
     /// The configuration, with every default filled in.
     #[serde(skip)]
     pub config: Config,
     /// The fingerprint, which identifies the design.
     pub fingerprint: String,
-    /// Errors over all clips.
+    /// The errors over all clips.
     pub figures: Figures,
-    /// Bytes per frame that leave the array: 2 bits per region, and the pixels of active regions.
+    /// The bytes per frame that leave the array: 2 bits per region, the pixels of active regions,
+    /// and the means of summaries.
     pub bytes_per_frame: f64,
-    /// Clocks from one frame to the next.
+    /// The number of clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// Its clock and frames per second: at the clock of the space, else at that which is estimated from its
-    /// netlist; none without a synthesis.
+    /// The clock and the frames per second: at the clock of the space, or else at the clock that is
+    /// estimated from the netlist; `None` without both.
     pub speed: Option<Speed>,
-    /// Area, if it was asked for.
+    /// The area, if it was synthesized.
     pub silicon: Option<Silicon>,
-    /// The fronts that it is on.
+    /// The fronts that the point is on.
     pub front: Fronts,
 }
 
-/// Which fronts a point is on.
+/// The fronts that a point is on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Fronts {
-    /// Of error and speed.
+    /// Whether it is on the front of error and speed.
     pub speed: bool,
-    /// Of error and LUTs of the array.
+    /// Whether it is on the front of error and LUTs of the array.
     pub area: bool,
-    /// Of error, speed and LUTs of the array; without areas, as `speed`.
+    /// Whether it is on the front of error, speed and LUTs of the array; without areas, equal to
+    /// `speed`.
     pub all: bool,
 }
 
@@ -75,13 +78,13 @@ impl DesignRow {
         })
     }
 
-    /// LUTs of the array, those used as memory included, two SRL16 in one.
+    /// Returns the LUTs of the array, including those used as memory, with two SRL16 in one LUT.
     pub(crate) fn luts(&self) -> Option<f64> {
         self.silicon.as_ref().map(|silicon| real(silicon.array.lut_total_packed))
     }
 }
 
-/// The sums of several clips; none of none.
+/// Returns the sums over several clips; `None` without clips.
 pub(crate) fn together(measured: &[&Measured]) -> Option<ErrorTally> {
     let mut tallies = measured.iter().map(|part| &part.tally);
     let mut all = tallies.next()?.clone();
@@ -89,7 +92,8 @@ pub(crate) fn together(measured: &[&Measured]) -> Option<ErrorTally> {
     Some(all)
 }
 
-/// As `simulate` counts: the two bits of every region say what becomes of it, so no addresses are sent.
+/// Returns the bytes per frame as `simulate` counts them: the two bits of every region state its
+/// action, so no addresses are sent.
 pub(crate) fn bytes_per_frame(camera: &Camera, figures: &Figures) -> f64 {
     let regions = f64::from(camera.regions());
     let pixels = f64::from(camera.width()) * f64::from(camera.height()) * figures.active;
@@ -98,7 +102,7 @@ pub(crate) fn bytes_per_frame(camera: &Camera, figures: &Figures) -> f64 {
     (2.0 * regions + values * f64::from(camera.pixel_bits())) / 8.0
 }
 
-/// A count as a number to calculate with.
+/// Converts a count to a floating-point number.
 #[allow(clippy::cast_precision_loss, reason = "exact up to 2^53")]
 pub(crate) fn real(count: u64) -> f64 {
     count as f64

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A space of designs as a file defines it: the start, the ideal camera, and what varies.
+//! A space of designs, as a file defines it: the start, the ideal camera, and the axes.
 
 use foveate_camera::{CameraConfig, ConfigError};
 use foveate_design::{Config, Preset};
@@ -9,33 +9,35 @@ use toml::{Table, Value};
 use crate::ExploreError;
 use crate::method::{Axis, MAX_POINTS, Method};
 
-/// Which designs to look at.
+/// A space of designs.
 #[derive(Clone, Debug)]
 pub struct Space {
     /// The configuration from which every point starts.
     pub(crate) start: Start,
-    /// The camera with which designs are compared; it computes in floating point over whole frames.
+    /// The ideal camera that designs are compared with; it computes in floating point over whole
+    /// frames.
     pub ideal: CameraConfig,
-    /// What varies, in the order of the file.
+    /// The axes, in the order of the file.
     pub axes: Vec<Axis>,
-    /// Which combinations are points.
+    /// The method that chooses the combinations.
     pub method: Method,
-    /// The clock in MHz that designs run at, if it is known; else it is estimated for each.
+    /// The clock of all designs in MHz, if it is known; otherwise it is estimated for each design.
     pub clock_mhz: Option<u32>,
 }
 
-/// A configuration as TOML, without the keys that it leaves out, so that a point can change it.
+/// A configuration as TOML without the keys that it leaves out, so that a point can change it.
 #[derive(Clone, Debug)]
 pub(crate) struct Start(String);
 
 impl Start {
-    /// The configuration with overrides, each `key=TOML_VALUE`. Its thresholds follow an override of the
-    /// depth; those that are overridden are in grey levels of the new one.
+    /// Returns the configuration with overrides, each `key=TOML_VALUE`. Thresholds of the start are
+    /// scaled to an overridden depth; overridden thresholds are in grey levels of the new depth.
     pub(crate) fn with(&self, overrides: &[String]) -> Result<Config, ConfigError> {
         Config::from_toml_with(&self.0, overrides)
     }
 
-    /// The same with thresholds in grey levels of the start, those that are overridden too.
+    /// Returns the configuration with overrides, with all thresholds, also overridden ones, in grey
+    /// levels of the start.
     pub(crate) fn with_its_levels(&self, overrides: &[String]) -> Result<Config, ConfigError> {
         let (depth, others): (Vec<String>, Vec<String>) =
             overrides.iter().cloned().partition(|text| text.starts_with("frame.pixel_bits="));
@@ -46,15 +48,15 @@ impl Start {
 /// A space that comes with the program.
 #[derive(Clone, Copy, Debug)]
 pub struct BuiltIn {
-    /// Its name on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// What it is for, in one line.
+    /// The purpose in one line.
     pub summary: &'static str,
-    /// The file.
+    /// The content of the file.
     pub toml: &'static str,
 }
 
-/// Every space that comes with the program.
+/// The spaces that come with the program.
 pub const BUILT_IN: &[BuiltIn] = &[
     BuiltIn {
         name: "approximations",
@@ -73,7 +75,7 @@ pub const BUILT_IN: &[BuiltIn] = &[
     },
 ];
 
-/// The file as it is written.
+/// The file of a space, as it is written.
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct File {
@@ -94,8 +96,8 @@ impl Space {
     /// Reads a space.
     ///
     /// # Errors
-    /// When the text is not TOML, has an unknown key, a value is of the wrong type or out of range, or
-    /// the start or the ideal is not a valid design.
+    /// Fails if the text is not TOML, has an unknown key, or has a value of the wrong type or out
+    /// of range, or if the start or the ideal camera is not a valid design.
     pub fn from_toml(text: &str) -> Result<Self, ExploreError> {
         let file: File = toml::from_str(text).map_err(|error| {
             let place = error.to_string().lines().next().unwrap_or_default().to_owned();
@@ -103,10 +105,11 @@ impl Space {
         })?;
         let preset = Preset::find(file.preset.as_deref().unwrap_or("paper"))?.toml;
         let section = |name| move |error| ExploreError::Section { section: name, error };
-        // Whether it is a design depends on the size of the clips and on what varies.
+        // The start alone need not be a valid design: this depends on the size of the clips and on
+        // the axes.
         let start = Config::from_toml_with(preset, &overrides(&file.design));
         let start = Start(start.map_err(section("design"))?.to_toml());
-        // What the ideal sees does not depend on how an array is built.
+        // The ideal camera does not depend on the hardware.
         let ideal = start.with(&overrides(&file.ideal)).map_err(section("ideal"))?;
         let ideal = ideal.camera;
         ideal.validate().map_err(section("ideal"))?;
@@ -129,7 +132,7 @@ impl Space {
 }
 
 impl Axis {
-    /// Refuses a key that is none: every point with it would be refused for the same reason.
+    /// Refuses an unknown key: every point with it would be refused for the same reason.
     fn check(&self, start: &Start) -> Result<(), ExploreError> {
         let first = self.values.first().map(|value| format!("{}={value}", self.key));
         match start.with(first.as_slice()) {
@@ -141,17 +144,17 @@ impl Axis {
     }
 }
 
-/// A value as people read it and as tables have it: a string without quotes, anything else as in TOML.
+/// Formats a value for people and tables: a string without quotes, anything else as in TOML.
 pub(crate) fn plain(value: &Value) -> String {
     value.as_str().map_or_else(|| value.to_string(), str::to_owned)
 }
 
-/// A problem of the file that is not one of a configuration.
+/// Returns an error of the file that is not an error of a configuration.
 fn wrong(problem: String) -> ExploreError {
     ExploreError::Space { problem }
 }
 
-/// A table of configuration as overrides: an array is a value.
+/// Converts a table of a configuration to overrides; an array is a value.
 fn overrides(table: &Table) -> Vec<String> {
     let mut found = Vec::new();
     leaves("", table, &mut |key, value| found.push(format!("{key}={value}")));
@@ -168,7 +171,7 @@ fn leaves(above: &str, table: &Table, see: &mut impl FnMut(String, &Value)) {
     }
 }
 
-/// What varies: every array is a list of values.
+/// Reads the axes: every array is a list of values.
 fn axes(above: &str, table: &Table) -> Result<Vec<Axis>, ExploreError> {
     let mut found = Vec::new();
     let mut problem = None;

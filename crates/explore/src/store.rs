@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is finished, in the folder of the exploration: a file for every clip and camera, under a name
-//! that says all that the figures depend on. A rerun does only what is missing.
+//! The store of finished measurements in the folder of the exploration. It has a file for every
+//! clip and camera, whose name is a hash of everything that the figures depend on. A rerun measures
+//! only what is missing.
 
 use std::fmt::Write as _;
 use std::fs;
@@ -15,28 +16,29 @@ use foveate_toolchain::sha256_hex;
 use crate::ExploreError;
 use crate::measure::Measured;
 
-/// Grows when figures change their meaning, so that older ones are not taken for new ones.
+/// The version of the figures. It grows if figures change their meaning, so that older figures are
+/// not used.
 const VERSION: u32 = 4;
-/// Hexadecimal digits of a name: 96 bits.
+/// The number of hexadecimal digits of a name: 96 bits.
 pub(crate) const KEY_DIGITS: usize = 24;
 const FOLDER: &str = "measured";
-/// The largest measurement that is read, in bytes; one has a few KiB.
+/// The largest measurement that is read, in bytes; a usual one has a few KiB.
 const LIMIT: u64 = 1 << 26;
 
-/// Finished measurements.
+/// The store of finished measurements.
 pub(crate) struct Store {
     folder: PathBuf,
 }
 
 impl Store {
-    /// The store of an exploration, made if it is not there.
+    /// Opens the store of an exploration, and creates it if it does not exist.
     pub(crate) fn open(exploration: &Path) -> Result<Self, ExploreError> {
         let folder = exploration.join(FOLDER);
         fs::create_dir_all(&folder).map_err(ExploreError::io("make the folder", &folder))?;
         Ok(Self { folder })
     }
 
-    /// A finished measurement; none that cannot be read.
+    /// Returns a finished measurement; `None` if it does not exist or cannot be read.
     pub(crate) fn get(&self, key: &str) -> Option<Measured> {
         serde_json::from_slice(&foveate_reading::bytes(&self.place(key), LIMIT).ok()?).ok()
     }
@@ -53,18 +55,20 @@ impl Store {
     }
 }
 
-/// The name of a measurement; the ideal is its TOML.
+/// Returns the name of a measurement; `ideal` is the TOML of the ideal camera.
 pub(crate) fn key(clip: &str, ideal: &str, camera: &CameraConfig) -> String {
     let text = format!("{VERSION}\n{clip}\n{ideal}\n{}", camera.to_toml());
     sha256_hex(text)[..KEY_DIGITS].to_owned()
 }
 
-/// What tells a clip, as it is read, from others: names, sizes and times of its files.
+/// Returns a text that identifies a clip as it is read: its options, and the names, sizes and times
+/// of its files.
 pub(crate) fn identity(subject: &Subject, input: &InputOptions) -> String {
     let mut text = format!("{input:?}");
     for path in &subject.inputs {
         let _ = write!(text, "\n{}", path.display());
-        // What is not there by its name may be a pattern, or a scene, which has no files.
+        // An input that does not exist under its name may be a pattern, or a scene, which has no
+        // files.
         let pattern = path.to_str().filter(|_| !path.exists()).map(glob::glob);
         match pattern {
             Some(Ok(files)) => files.flatten().for_each(|file| stamp_all(&mut text, &file)),
@@ -74,7 +78,7 @@ pub(crate) fn identity(subject: &Subject, input: &InputOptions) -> String {
     text
 }
 
-/// Stamps a file, or all files below a folder.
+/// Adds the name, size and time of a file, or of all files below a folder.
 fn stamp_all(text: &mut String, path: &Path) {
     let Ok(entries) = fs::read_dir(path) else { return stamp(text, path) };
     let mut inside: Vec<PathBuf> = entries.flatten().map(|entry| entry.path()).collect();

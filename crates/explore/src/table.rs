@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Points as a table: one list of columns for CSV and Parquet.
+//! The points as a table, with one list of columns for CSV and Parquet.
 
 use foveate_design::FeatureKind;
 use foveate_estimate::Speed;
@@ -8,7 +8,7 @@ use foveate_files::tables::{Cell, Cells};
 
 use crate::row::{DesignRow, real};
 
-/// The columns of a point.
+/// Returns the cells of a point.
 pub(crate) fn point(row: &DesignRow, axes: &[String]) -> Cells {
     let mut cells: Cells = vec![("point".to_owned(), count(row.number as u64))];
     let settings = axes.iter().zip(&row.settings);
@@ -45,7 +45,7 @@ pub(crate) fn point(row: &DesignRow, axes: &[String]) -> Cells {
     cells
 }
 
-/// The columns that say what a row of one clip is about.
+/// Returns the cells that name the point and the clip of a row.
 pub(crate) fn names(point: usize, clip: &str) -> Cells {
     vec![
         ("point".to_owned(), count(point as u64)),
@@ -53,7 +53,7 @@ pub(crate) fn names(point: usize, clip: &str) -> Cells {
     ]
 }
 
-/// The columns of errors.
+/// Returns the cells of the errors.
 pub(crate) fn errors(figures: &Figures) -> Cells {
     let real = |value: f64| Cell::Real(Some(value));
     let mut cells: Cells = [
@@ -87,7 +87,8 @@ pub(crate) fn errors(figures: &Figures) -> Cells {
     cells
 }
 
-/// Every score that can be compared; the same columns for all spaces, so that tables can be joined.
+/// Returns the name of every score that can be compared. All spaces have the same columns, so that
+/// tables can be joined.
 fn score_names() -> impl Iterator<Item = &'static str> {
     FeatureKind::ALL.iter().map(|kind| kind.name()).chain(["temporal"])
 }

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An exploration in units of work that machines do apart: a clip, and the designs that see it together.
+//! An exploration in units of work for several machines. A unit is a clip, and designs that see it
+//! together.
 //!
-//! A unit adds the results that are missing to the store of the folder, and then writes a file that says so. Both
-//! have the same bytes wherever the unit is done, so it may be done twice, and at the same time.
+//! A unit adds the missing results to the store of the folder, and then writes a file that marks it
+//! as done. Both have the same bytes wherever the unit is done, so a unit may be done twice, and at
+//! the same time.
 
 use std::fs;
 use std::ops::Range;
@@ -22,26 +24,26 @@ use crate::{ExploreError, Hooks, Request};
 /// A unit of work.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Unit {
-    /// Its name: a hash of all that its results depend on.
+    /// The name of the unit: a hash of everything that its results depend on.
     pub unit: String,
-    /// The name of its clip.
+    /// The name of the clip.
     pub clip: String,
-    /// What the clip is read from. The unit is the same with these inputs alone.
+    /// The inputs of the clip. The unit is the same in an exploration of these inputs alone.
     pub inputs: Vec<String>,
     /// The designs that see the clip, by the numbers of their combinations.
     pub combinations: Vec<usize>,
-    /// The file that is written when all its results are there.
+    /// The path of the file that is written when all results exist.
     pub file: String,
 }
 
-/// What the file of a unit holds.
+/// The content of the file of a unit.
 #[derive(Serialize)]
 struct Receipt<'a> {
-    /// The names of its results in the store.
+    /// The names of the results in the store.
     measured: &'a [String],
 }
 
-/// A unit, and what it is of the work.
+/// A unit, and its part of the work.
 struct Part {
     unit: Unit,
     /// The number of the clip.
@@ -50,10 +52,11 @@ struct Part {
     keys: Vec<String>,
 }
 
-/// The units of an exploration into `output`, finished or not. Writes nothing.
+/// Returns the units of an exploration into `output`, finished or not. It writes nothing.
 ///
 /// # Errors
-/// When an input cannot be read, no point is a valid design, or the folder holds something else.
+/// Fails if an input cannot be read, no point is a valid design, or the folder holds something
+/// else.
 pub fn plan(
     request: &Request<'_>,
     output: &Path,
@@ -64,11 +67,12 @@ pub fn plan(
     Ok(parts(&work, output).map(|part| part.unit).collect())
 }
 
-/// Does one unit of an exploration into `output`: that of a name, or of a whole line of the plan, which is sooner found.
+/// Does one unit of an exploration into `output`. `unit` is its name or its whole line of the plan,
+/// which is found faster.
 ///
 /// # Errors
-/// When the exploration has no unit of that name, its clip cannot be read or ends before its end, the folder
-/// holds something else or cannot be written, or `hooks` cancels.
+/// Fails if the exploration has no unit of that name, its clip cannot be read or ends early, the
+/// folder holds something else or cannot be written, or `hooks` cancels.
 pub fn measure_unit(
     request: &Request<'_>,
     unit: &str,
@@ -93,13 +97,13 @@ pub fn measure_unit(
     let folder = output.join(UNITS);
     fs::create_dir_all(&folder).map_err(ExploreError::io("make the folder", &folder))?;
     let receipt = Receipt { measured: &part.keys };
-    // Plain data with text keys: this cannot fail.
+    // The receipt is plain data with text keys, so this cannot fail.
     let text = serde_json::to_string(&receipt).expect("it has no map") + "\n";
     write_file(Path::new(&part.unit.file), text.as_bytes())?;
     Ok(part.unit)
 }
 
-/// Clip by clip, as many designs together as one run takes.
+/// Returns the units clip by clip, each with as many designs as a run measures together.
 fn parts<'a>(work: &'a Work<'_>, output: &'a Path) -> impl Iterator<Item = Part> + 'a {
     let clips = work.footage.subjects.iter().enumerate();
     let points = work.first_points();

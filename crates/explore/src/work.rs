@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an exploration has to measure: the clips, and the cameras of the designs.
+//! The work of an exploration: the clips, and the cameras of the designs.
 
 use std::collections::BTreeMap;
 
@@ -8,24 +8,24 @@ use foveate_camera::Camera;
 use crate::footage::Footage;
 use crate::{ExploreError, Hooks, Point, Refused, Request};
 
-/// Clips, points, and what is to be seen of them.
+/// The clips, the points, and the cameras to measure.
 ///
-/// Of a unit only its own combinations are tried: a space may have many more.
+/// For a single unit only its own combinations are tried, because a space may have many more.
 pub(crate) struct Work<'a> {
     pub(crate) footage: Footage<'a>,
     pub(crate) points: Vec<Point>,
     pub(crate) refused: Vec<Refused>,
-    /// The cameras of the designs, each once.
+    /// The different cameras of the designs.
     pub(crate) looks: Vec<Camera>,
-    /// For each point which of them it is.
+    /// The index into `looks` of the camera of each point.
     pub(crate) look_of: Vec<usize>,
 }
 
 impl<'a> Work<'a> {
-    /// Looks at the clips and tries the combinations of the space, some of them or all.
+    /// Opens the clips, and tries some combinations of the space or all of them.
     ///
     /// # Errors
-    /// When an input cannot be read or no point is a valid design.
+    /// Fails if an input cannot be read or no point is a valid design.
     pub(crate) fn new(
         request: &Request<'a>,
         some: Option<&[usize]>,
@@ -44,7 +44,7 @@ impl<'a> Work<'a> {
         Ok(Self { footage, points, refused, looks, look_of })
     }
 
-    /// For each of the cameras the first point that is it.
+    /// Returns, for each camera, the first point that has it.
     pub(crate) fn first_points(&self) -> Vec<&Point> {
         let mut found = Vec::with_capacity(self.looks.len());
         for (point, &look) in self.points.iter().zip(&self.look_of) {

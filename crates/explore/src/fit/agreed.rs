@@ -1,36 +1,41 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How much a network agrees over some frames, and what that says of others.
+//! The agreement of a network over some frames, and its bound for other frames.
 
 use foveate_inference::{Agreement, ConfidenceIntervals, Found, wilson};
 use serde::Serialize;
 
-/// Frames are taken together in as many groups of neighbors: what is seen in one frame is seen in the next, too.
+/// The number of groups of consecutive frames: consecutive frames show the same objects, so they
+/// are not independent.
 const GROUPS: usize = 8;
-/// 19 of 20 values of Student's t are above the negative of these, by degrees of freedom from 1.
+/// The quantiles of Student's t for 1 and more degrees of freedom: 19 of 20 values are above the
+/// negative of them.
 const STUDENT: [f64; GROUPS - 1] = [6.314, 2.920, 2.353, 2.132, 2.015, 1.943, 1.895];
-/// And of a normal variable above the negative of this.
+/// The quantile of a normal variable: 19 of 20 values are above the negative of it.
 const NORMAL: f64 = 1.645;
 
-/// How much of what the network says of whole frames it says behind a camera.
+/// The agreement of a network behind a camera with the network on whole frames.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Agreed {
-    /// Frames that it looked at.
+    /// The number of frames that the network saw.
     pub frames: u64,
     /// The agreement, 0..=1.
     pub share: f64,
-    /// The agreement that 19 of 20 sets of as many other frames would exceed, if groups of frames were independent: 0..=1.
+    /// The agreement that 19 of 20 sets of as many other frames would exceed, 0..=1, if groups of
+    /// frames were independent.
     pub expected: f64,
-    /// Whether the agreement is at most this: the rest was not looked at.
+    /// Whether the agreement is only an upper bound, because the network did not see the other
+    /// frames.
     #[serde(skip)]
     pub at_most: bool,
-    /// Detections, if they are read.
+    /// The detections, if they are read.
     pub detections: Option<Found>,
-    /// Intervals in which the agreement and the shares of detections lie for other frames of this kind.
+    /// The intervals in which the agreement and the shares of detections lie for other frames of
+    /// this kind.
     pub intervals: ConfidenceIntervals,
 }
 
 impl Agreed {
-    /// That of some frames.
+    /// Returns the agreement over some frames.
     pub(super) fn over(frames: &[Agreement]) -> Self {
         let all: Agreement = frames.iter().sum();
         let share = all.share();
@@ -42,14 +47,15 @@ impl Agreed {
         Self { frames, share, expected, at_most: false, detections, intervals }
     }
 
-    /// After some frames no more than this share can be reached.
+    /// Returns an upper bound: after `frames` frames no more than `share` can be reached.
     pub(super) fn at_most(share: f64, frames: u64) -> Self {
         let intervals = ConfidenceIntervals::default();
         Self { frames, share, expected: share, at_most: true, detections: None, intervals }
     }
 }
 
-/// By how much as many other frames may agree less, from how much groups of frames differ.
+/// Returns by how much the agreement over as many other frames may be lower, from the differences
+/// between groups of frames.
 fn shortfall(frames: &[Agreement]) -> f64 {
     let groups = frames.len().min(GROUPS);
     if groups < 2 {
@@ -60,19 +66,21 @@ fn shortfall(frames: &[Agreement]) -> f64 {
         let rest = frames.iter().enumerate().filter(|(at, _)| group(*at) != left_out);
         rest.map(|(_, frame)| frame).sum::<Agreement>().share()
     };
-    // Two sets of frames differ by more than one of them from the truth.
+    // Two sets of frames differ from each other by more than one set differs from the truth: by the
+    // square root of 2.
     STUDENT[groups - 2] * 2.0_f64.sqrt() * jackknife(groups, without)
 }
 
-/// The least share that as many other things are likely to agree with, even where all groups happen to be alike: the lower end of Wilson's interval, for
-/// the difference of two shares.
+/// Returns the least share that as many other things are likely to agree with, even if all groups
+/// happen to be alike: the lower end of Wilson's interval for the difference of two shares.
 fn elsewhere(share: f64, count: u64) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "a number of things")]
     let half = count as f64 / 2.0;
     if half == 0.0 { share } else { wilson(share, half, NORMAL)[0] }
 }
 
-/// The standard error of a figure over some groups, from what it is without each of them.
+/// Returns the standard error of a figure over some groups, from its values without each of the
+/// groups (jackknife).
 fn jackknife(groups: usize, without: impl Fn(usize) -> f64) -> f64 {
     #[allow(clippy::cast_precision_loss, reason = "a small number")]
     let count = groups as f64;
@@ -86,7 +94,8 @@ fn jackknife(groups: usize, without: impl Fn(usize) -> f64) -> f64 {
 mod tests {
     use super::*;
 
-    /// Of a mean it is the standard deviation over the root of their number.
+    /// The standard error of a mean is the standard deviation over the square root of the number of
+    /// values.
     #[test]
     fn the_jackknife_of_a_mean_is_its_standard_error() {
         let values: [f64; 5] = [1.0, 0.5, 1.0, 0.75, 0.25];
@@ -97,7 +106,8 @@ mod tests {
         assert_eq!(jackknife(4, |_| 0.9), 0.0);
     }
 
-    /// Where all groups are alike a share of few things is still no sure one: it is the least that a test would not tell from the one that was seen.
+    /// Even if all groups are alike, a share of few things is uncertain: the bound is the least
+    /// share that a test would not distinguish from the observed share.
     #[test]
     fn few_things_say_little_of_others() {
         for (share, count) in [(0.976, 251_u32), (1.0, 20), (0.5, 7)] {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Builds looks: which arrays are possible, what each costs, and which is the cheapest.
+//! The designs that build the cameras of the search: the possible arrays, their costs, and the
+//! cheapest of them.
 
 use foveate_camera::Irrelevant;
 use foveate_design::{
@@ -18,35 +19,35 @@ use crate::cost::{Silicon, Synthesized};
 use crate::row::{bytes_per_frame, real};
 use crate::{ExploreError, Hooks};
 
-/// If no look meets the limits, this many of the nearest ones are built anyway.
+/// The number of nearest cameras that are built if no camera meets the limits.
 const NEAREST: usize = 6;
-/// Designs that are synthesized before checking whether one meets the limits.
+/// The number of designs that are synthesized before checking whether one meets the limits.
 const BATCH: usize = 8;
 /// The most designs that are folded again for their own clocks.
 const SLOWER: usize = 4;
 
-/// A design that could be built.
+/// A synthesized design.
 #[derive(Clone, Debug)]
 pub(super) struct Candidate {
     pub(super) look: Look,
     pub(super) design: Design,
     pub(super) clocks_per_frame: u64,
-    /// At the clock that was given, else at the estimated one.
+    /// The speed at the clock of the request, or else at the estimated clock.
     pub(super) speed: Option<Speed>,
     pub(super) silicon: Silicon,
-    /// All constraints.
+    /// All constraints, with the figures of this design.
     pub(super) held: Vec<Held>,
 }
 
-/// Everything that was built, the chosen one first.
+/// All synthesized designs, the chosen one first.
 pub(super) struct Built {
     candidates: Vec<Candidate>,
-    /// Designs that were less promising, and were not synthesized.
+    /// The number of designs that were not synthesized because they were less promising.
     pub(super) left_out: usize,
 }
 
 impl Built {
-    /// The cheapest that holds, else the nearest.
+    /// Returns the cheapest design that meets all limits, or else the nearest one.
     pub(super) fn chosen(&self) -> &Candidate {
         &self.candidates[0]
     }
@@ -65,24 +66,25 @@ impl Candidate {
         excess(&self.held)
     }
 
-    /// What the array costs, as everywhere.
+    /// Returns the cost of the array, as a share of the device.
     pub(super) fn cost(&self) -> f64 {
         Device::xcvu9p().cost(&self.silicon.array)
     }
 }
 
-/// Bounds on the ways to build a camera.
+/// The bounds on the ways to build a camera.
 #[derive(Clone, Copy)]
 struct Bounds {
-    /// Clocks that a frame may take.
+    /// The most clocks that a frame may take.
     max_clocks: Option<u64>,
-    /// Whether they are those of a planned clock, so that a faster design may do with more.
+    /// Whether the bound comes from a planned clock, so that a design with a faster clock may take
+    /// more clocks.
     planned: bool,
     /// The kind of lane memory to build. If it is `None`, each design follows its own rule.
     memory: Option<MemoryKind>,
 }
 
-/// Builds what may be cheapest.
+/// Builds the designs that may be the cheapest.
 pub(super) fn build(
     search: &Search<'_>,
     request: &FitRequest<'_>,
@@ -92,7 +94,7 @@ pub(super) fn build(
     let holding: Vec<&Look> = search.all().filter(|look| look.holds()).collect();
     let looks = match request.network.map(|goal| goal.cheapest) {
         None | Some(Cheapest::Area) => simplest(&holding),
-        // What leaves the camera is the same however it is built.
+        // All designs of a camera send the same bytes.
         Some(Cheapest::Bytes) => fewest_bytes(&holding)?,
     };
     let bounds =
@@ -100,7 +102,8 @@ pub(super) fn build(
     let (mut candidates, mut left_out) = in_batches(&looks, bounds, request.most, request, hooks)?;
     make_slower(&mut candidates, request, hooks)?;
     if !candidates.iter().any(Candidate::holds) {
-        // The nearest that do not hold, and what would hold if it might be slower: for what binds.
+        // Nothing meets the limits. The nearest cameras are built, and those that would meet the
+        // limits at a lower speed, to find the binding limits.
         let mut others: Vec<&Look> = search.all().filter(|look| !look.holds()).collect();
         others.sort_by(|one, other| one.excess().total_cmp(&other.excess()));
         others.truncate(NEAREST);
@@ -125,8 +128,9 @@ pub(super) fn build(
     Ok(Built { candidates, left_out })
 }
 
-/// Folds designs that hold again, each for its own clock, which is faster than planned, or gives them half the pixels
-/// per clock. What is expected to be cheaper than the cheapest so far is synthesized, the most promising first.
+/// Looks for cheaper designs among those that meet the limits: it folds them again for their own
+/// clock, which is faster than the planned one, or halves their pixels per clock. A design is
+/// synthesized if it is expected to be cheaper than the cheapest so far, the most promising first.
 fn make_slower(
     candidates: &mut Vec<Candidate>,
     request: &FitRequest<'_>,
@@ -156,7 +160,7 @@ fn make_slower(
     Ok(())
 }
 
-/// Those that send the fewest bytes.
+/// Returns the cameras that send the fewest bytes.
 fn fewest_bytes<'a>(looks: &[&'a Look]) -> Result<Vec<&'a Look>, ExploreError> {
     let bytes =
         |look: &&'a Look| Ok((bytes_per_frame(&look.config.validate()?, &look.figures), *look));
@@ -165,14 +169,15 @@ fn fewest_bytes<'a>(looks: &[&'a Look]) -> Result<Vec<&'a Look>, ExploreError> {
     Ok(sent.into_iter().filter(|(bytes, _)| *bytes <= least).map(|(_, look)| look).collect())
 }
 
-/// About the least share of the device that a look takes, however it is built; infinite if it cannot be.
+/// Returns roughly the least share of the device that a camera takes, however it is built; infinite
+/// if it cannot be built.
 pub(super) fn cheapest_rough(look: &CameraConfig, asked: &HardwareConfig) -> f64 {
     let bounds = Bounds { max_clocks: None, planned: true, memory: None };
     let ways = ways(look, asked, bounds);
     ways.iter().map(rough).fold(f64::INFINITY, f64::min)
 }
 
-/// The simplest looks: those for which no simpler look meets the limits too.
+/// Returns the simplest cameras: those for which no simpler camera also meets the limits.
 fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
     let simpler = |one: &CameraConfig, other: &CameraConfig| {
         let (one, other) = (complexity(one), complexity(other));
@@ -182,7 +187,8 @@ fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
     };
     let beaten = |look: &Look| looks.iter().any(|other| simpler(&other.config, &look.config));
     let mut kept: Vec<&Look> = looks.iter().copied().filter(|look| !beaten(look)).collect();
-    // Thresholds are inputs of the core: of looks that differ in nothing else that with fewest flips.
+    // Thresholds are inputs of the core and cost nothing. Of cameras that differ only in
+    // thresholds, the one with the fewest flips is kept.
     kept.sort_by(|one, other| one.figures.action_flips.total_cmp(&other.figures.action_flips));
     let mut seen = Vec::new();
     kept.retain(|look| {
@@ -194,7 +200,8 @@ fn simplest<'a>(looks: &[&'a Look]) -> Vec<&'a Look> {
     kept
 }
 
-/// What cannot be compared, and what costs more the larger it is.
+/// The complexity of a camera: the settings that cannot be ordered, and those that cost more the
+/// larger they are.
 type Complexity = ((u32, Neighborhood, Vec<FeatureKind>, Irrelevant, Option<u32>), [u32; 4]);
 
 fn complexity(config: &CameraConfig) -> Complexity {
@@ -213,8 +220,8 @@ fn complexity(config: &CameraConfig) -> Complexity {
     ((region.size, region.neighborhood, features, shown, config.periphery.blocks), ordered)
 }
 
-/// Builds the designs of some looks, the promising ones first, until one holds or there are `most`; says
-/// how many are left.
+/// Synthesizes the designs of some cameras, the promising ones first, until one meets the limits or
+/// there are `most` of them. Returns the number of designs that are left out.
 fn in_batches(
     looks: &[&Look],
     bounds: Bounds,
@@ -240,8 +247,8 @@ fn in_batches(
     Ok((built, left_out))
 }
 
-/// Sorts designs by their rough cost, the organizations in turn: a limit on a unit may rule one of them out, and
-/// then the others must not wait behind all of its designs.
+/// Sorts designs by their rough cost, and takes the organizations in turn. A limit on a unit may
+/// exclude one organization, and the others must not wait behind all its designs.
 fn in_turn(designs: &mut Vec<(&Look, Design)>) {
     designs.sort_by(|(_, one), (_, other)| rough(one).total_cmp(&rough(other)));
     let mut turns = [0; Organization::ALL.len()];
@@ -255,7 +262,7 @@ fn in_turn(designs: &mut Vec<(&Look, Design)>) {
     designs.extend(turned.into_iter().map(|(_, design)| design));
 }
 
-/// Builds designs.
+/// Synthesizes designs.
 fn synthesize(
     designs: &[(&Look, Design)],
     request: &FitRequest<'_>,
@@ -277,10 +284,11 @@ fn synthesize(
     Ok(designs.iter().zip(found).map(candidate).collect())
 }
 
-/// Ways to build a camera. Of serial arrays these are, for each feed, the folds that are fast enough and may be the
-/// cheapest, and halvings of the deepest, because only a synthesis says which one is. If no fold is fast enough, the
-/// pipelined array is a way, and at a planned clock also fold 1. Raster cores come with the fewest pixels per clock that
-/// are fast enough; at a planned clock with the most, if none is.
+/// Returns the ways to build a camera. For each feed of a serial array these are the folds that are
+/// fast enough and may be the cheapest, and halvings of the deepest fold, because only a synthesis
+/// shows which one is the cheapest. If no fold is fast enough, the pipelined array is a way, and at
+/// a planned clock also fold 1. A raster core has the fewest pixels per clock that are fast enough;
+/// at a planned clock it has the most, if none is fast enough.
 fn ways(look: &CameraConfig, asked: &HardwareConfig, bounds: Bounds) -> Vec<Design> {
     let (arrays, is_fast) = serial_arrays(look, asked, bounds);
     let of = |organization| match organization {
@@ -303,7 +311,7 @@ fn ways(look: &CameraConfig, asked: &HardwareConfig, bounds: Bounds) -> Vec<Desi
     Organization::ALL.iter().flat_map(|&organization| of(organization)).collect()
 }
 
-/// A design of that organization, if it can be one.
+/// Returns a design of that organization; `None` if it is not valid.
 fn way(
     look: &CameraConfig,
     asked: &HardwareConfig,
@@ -315,7 +323,7 @@ fn way(
     Config { camera: look.clone(), hardware }.validate().ok()
 }
 
-/// The serial arrays of every feed, and whether one is fast enough.
+/// Returns the serial arrays of every feed, and whether one is fast enough.
 fn serial_arrays(
     look: &CameraConfig,
     asked: &HardwareConfig,
@@ -335,7 +343,7 @@ fn serial_arrays(
     (found, is_fast)
 }
 
-/// The folds of a serial array, and whether one is fast enough.
+/// Returns the folds of a serial array, and whether one is fast enough.
 fn folded(single: &Design, bounds: Bounds) -> (Vec<Design>, bool) {
     let folds = single.frugal_folds(bounds.max_clocks.unwrap_or(u64::MAX));
     let is_fast = !folds.is_empty();
@@ -347,7 +355,8 @@ fn folded(single: &Design, bounds: Bounds) -> (Vec<Design>, bool) {
     (all.filter_map(|fold| single.with_fold(fold).ok()).collect(), is_fast)
 }
 
-/// Of raster cores with more and more pixels per clock the first that is fast enough.
+/// Returns the first raster core that is fast enough; `cores` have rising numbers of pixels per
+/// clock.
 fn fewest_words(cores: Vec<Design>, Bounds { max_clocks, planned, .. }: Bounds) -> Option<Design> {
     let is_fast = |design: &Design| {
         max_clocks.is_none_or(|clocks| design.timing().clocks_per_frame() <= clocks)
@@ -360,8 +369,8 @@ fn fewest_words(cores: Vec<Design>, Bounds { max_clocks, planned, .. }: Bounds) 
 mod tests {
     use super::*;
 
-    /// The raster designs among the ways to build a camera of 64x48 pixels, by their pixels per clock, and whether
-    /// one is pipelined.
+    /// Returns the pixels per clock of the raster designs among the ways to build a camera of 64x48
+    /// pixels, and whether one way is pipelined.
     fn words(max_clocks: u64, planned: bool) -> (Vec<u32>, bool) {
         let look = Config::from_toml("[frame]\nwidth = 64\nheight = 48\n").unwrap();
         let bounds = Bounds { max_clocks: Some(max_clocks), planned, memory: None };
@@ -372,7 +381,8 @@ mod tests {
         (words, of(Organization::Pipelined).next().is_some())
     }
 
-    /// 784 regions: 17 regions per lane are the most that are fast enough; 16 and 8 take fewer block RAMs.
+    /// There are 784 regions. At most 17 regions per lane are fast enough; 16 and 8 take fewer
+    /// block RAMs.
     #[test]
     fn lanes_share_as_many_regions_as_may_be_cheapest_and_halvings_of_the_most() {
         let look = Config::from_toml("").unwrap();
@@ -383,7 +393,7 @@ mod tests {
         assert_eq!(folds.collect::<Vec<_>>(), [17, 16, 8, 4, 2, 1]);
     }
 
-    /// 3,072 pixels take 3,072, 1,536 or 768 clocks, and some more between frames.
+    /// The 3,072 pixels take 3,072, 1,536 or 768 clocks, and some more between frames.
     #[test]
     fn a_raster_core_has_the_fewest_pixels_per_clock_that_are_fast_enough() {
         assert_eq!(words(1_000_000, false), (vec![1], false));

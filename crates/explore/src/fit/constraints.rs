@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Limits that a design must meet, and how far it is from them.
+//! The limits that a design must meet, and its distance from them.
 
 use foveate_camera::Camera;
 use foveate_estimate::Speed;
@@ -9,50 +9,52 @@ use serde::Serialize;
 use crate::cost::Silicon;
 use crate::row::{bytes_per_frame, real};
 
-/// Limits that a design must meet. Shares are 0..=1. A limit that is `None` is not checked.
+/// The limits that a design must meet. Shares are 0..=1. A limit that is `None` is not checked.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Constraints {
-    /// Share of regions whose action differs from the ideal's.
+    /// The largest share of regions whose action differs from the ideal's.
     pub max_flips: Option<f64>,
-    /// Share of the area active in the ideal that is not active in the design.
+    /// The largest share of the ideal's active area that is not active in the design.
     pub max_missed: Option<f64>,
-    /// PSNR of the screen against that of the ideal, in dB.
+    /// The least PSNR of the screen against the ideal's screen, in dB.
     pub min_psnr: Option<f64>,
-    /// Frames in a row for which a relevant region may be stale.
+    /// The most frames in a row for which a relevant region may be stale.
     pub max_stale_frames: Option<u64>,
-    /// Bytes per frame that leave the array.
+    /// The most bytes per frame that leave the array.
     pub max_bytes: Option<f64>,
-    /// Share of the objects of which at least half of the regions are active. It needs boxes.
+    /// The least share of the objects of which at least half of the regions are active. It needs
+    /// ground-truth boxes.
     pub min_recall: Option<f64>,
-    /// Frames per second at the clock; of an estimated clock at the low end of its range.
+    /// The least number of frames per second at the clock; at the low end of the range of an
+    /// estimated clock.
     pub min_fps: Option<f64>,
-    /// LUTs of one RPU or lane, those used as memory included.
+    /// The most LUTs of one RPU or lane, including those used as memory.
     pub max_lut: Option<u64>,
-    /// Flip-flops of one RPU or lane.
+    /// The most flip-flops of one RPU or lane.
     pub max_ff: Option<u64>,
-    /// LUTs of the array.
+    /// The most LUTs of the array.
     pub max_array_lut: Option<u64>,
-    /// Block RAM of the array in units of `RAMB36`, of which a `RAMB18` is half.
+    /// The most block RAM of the array in units of `RAMB36`; a `RAMB18` is half of one.
     pub max_bram: Option<u64>,
 }
 
-/// A limit with the figure that was found.
+/// A limit and the figure that was found.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Held {
-    /// The option that sets it, without its dashes.
+    /// The name of the option that sets the limit, without its dashes.
     pub name: &'static str,
-    /// The figure; infinite, which JSON has as null, for the PSNR of identical screens.
+    /// The figure. The PSNR of identical screens is infinite, which is null in JSON.
     pub value: f64,
-    /// The limit: the most or the least that the figure may be.
+    /// The limit: the largest or the least value of the figure.
     pub limit: f64,
     /// Whether the limit is a minimum.
     pub at_least: bool,
     /// Whether the limit is met.
     pub holds: bool,
-    /// Of frames per second: the clock in MHz that they hold at.
+    /// The clock in MHz at which the frames per second hold; only for frames per second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub clock_mhz: Option<f64>,
-    /// Whether the figure is the one to expect of other frames, and not that of these.
+    /// Whether the figure is the one to expect of other frames, and not the one of these frames.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub is_expected: bool,
 }
@@ -67,18 +69,18 @@ impl Held {
         Self { name, value, limit, at_least: true, holds, clock_mhz: None, is_expected: false }
     }
 
-    /// The agreement of a network, 0 to 1, and the least that is wanted.
+    /// Returns the constraint of a network's agreement, 0 to 1, with its least value.
     pub(super) fn agreement(share: f64, least: f64) -> Self {
         Self::at_least("min-agreement", share, least)
     }
 
-    /// The agreement that is to be expected of other frames.
+    /// Returns the constraint of the agreement that is to be expected of other frames.
     pub(super) fn expected_agreement(share: f64, least: f64) -> Self {
         Self { is_expected: true, ..Self::agreement(share, least) }
     }
 
-    /// How far the figure is from the limit: 0 if the limit is met, 1 if the figure is twice or half of it.
-    /// The value is finite and comparable between limits.
+    /// Returns the distance of the figure from the limit: 0 if the limit is met, 1 if the figure is
+    /// twice or half of the limit. The value is finite and comparable between limits.
     #[must_use]
     pub fn excess(&self) -> f64 {
         const LEAST: f64 = 1e-6;
@@ -91,23 +93,24 @@ impl Held {
     }
 }
 
-/// Whether all limits are met.
+/// Returns whether all limits are met.
 pub(super) fn all_hold(held: &[Held]) -> bool {
     held.iter().all(|held| held.holds)
 }
 
-/// How far all figures together are from their limits.
+/// Returns the sum of the distances of all figures from their limits.
 pub(super) fn excess(held: &[Held]) -> f64 {
     held.iter().map(Held::excess).sum()
 }
 
 impl Constraints {
-    /// The constraints on what a camera sees and sends; `recall` is known where it is limited.
+    /// Returns the constraints on the screen and the sent bytes of a camera. `recall` is known if
+    /// it is limited.
     #[must_use]
     pub fn on_figures(&self, camera: &Camera, figures: &Figures, recall: Option<f64>) -> Vec<Held> {
         let at_most =
             |name, limit: Option<f64>, value| limit.map(|l| Held::at_most(name, value, l));
-        // Screens that are identical are as near as can be.
+        // Identical screens have the best PSNR.
         let psnr = figures.psnr_ideal.unwrap_or(f64::INFINITY);
         [
             at_most("max-flips", self.max_flips, figures.action_flips),
@@ -126,7 +129,7 @@ impl Constraints {
         .collect()
     }
 
-    /// Whether there is one of those on what a camera sees and sends.
+    /// Returns whether there is a limit on the screen or the sent bytes of a camera.
     pub(super) fn limits_figures(&self) -> bool {
         let Self {
             max_flips, max_missed, min_psnr, max_stale_frames, max_bytes, min_recall, ..
@@ -135,7 +138,7 @@ impl Constraints {
         shares.iter().any(|limit| limit.is_some()) || max_stale_frames.is_some()
     }
 
-    /// The constraint on speed, at the low end of the clock. Without a clock it is not met.
+    /// Returns the constraint on speed, at the low end of the clock. Without a clock it is not met.
     #[must_use]
     pub fn on_speed(&self, speed: Option<&Speed>) -> Vec<Held> {
         let rate = speed.map_or(0.0, |speed| speed.low_frames_per_second);
@@ -144,7 +147,7 @@ impl Constraints {
         self.min_fps.map(held).into_iter().collect()
     }
 
-    /// The constraints on area.
+    /// Returns the constraints on area.
     #[must_use]
     pub fn on_silicon(&self, silicon: &Silicon) -> Vec<Held> {
         let Silicon { unit, array, .. } = silicon;

@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cheapest camera that a network cannot tell from whole frames: a descent from the task.
+//! The cheapest camera behind which a network agrees with its outputs for whole frames: a descent
+//! from the task.
 //!
-//! It begins at the task, whatever its irrelevant regions show, and at a camera that sends nearly all. Cameras that differ from the best one so far in
-//! one thing are examined, the cheapest first, until one agrees enough; that is the best one then. It ends when none is cheaper.
+//! The descent starts at the task, with every setting of what irrelevant regions show, and at a
+//! camera that sends nearly all pixels. It examines cameras that differ from the best one so far in
+//! one setting, the cheapest first, until one agrees enough; that camera becomes the best one. The
+//! descent ends when no cheaper camera agrees enough.
 //!
-//! The cheapest of many cameras that agree enough on some frames is one that had luck with them. So enough is what can be expected on others, too; and a
-//! camera that agrees enough must be confirmed by later frames, which are asked about no other.
+//! The cheapest of many cameras that agree enough on some frames agrees partly by chance. So the
+//! descent compares the agreement that is to be expected of other frames. A camera that agrees
+//! enough must also be confirmed by later frames, on which no other camera is tried.
 
 use std::collections::BTreeMap;
 
@@ -23,18 +27,18 @@ use super::network::{Cheapest, Jury, Part};
 use super::target::scaled_by;
 use crate::ExploreError;
 
-/// Sides of regions that are tried beside the task's.
+/// The sides of regions that are tried besides the task's.
 const SIDES: [u32; 2] = [8, 16];
-/// Octaves by which thresholds of the task are scaled.
+/// The octaves by which the thresholds of the task are scaled.
 const OCTAVES: [i32; 6] = [-1, 1, 2, 3, 4, 5];
-/// Grey levels of 8 bits by which means may differ.
+/// The levels of a periphery in grey levels of 8 bits: means may differ by so much.
 const LEVELS: [u32; 4] = [2, 4, 8, 12];
-/// Changed pixels of a region that make it active.
+/// The numbers of changed pixels that make a region active.
 const COUNTS: [u32; 6] = [1, 2, 3, 5, 8, 12];
-/// Bits per pixel that are tried below the task's.
+/// The number of depths below the task's that are tried.
 const FEWER_BITS: u32 = 3;
 
-/// Where the descent is.
+/// The state of the descent.
 pub(super) struct Descent<'s, 'a> {
     search: &'s mut Search<'a>,
     jury: &'s Jury<'a>,
@@ -51,8 +55,9 @@ impl<'s, 'a> Descent<'s, 'a> {
         Self { search, jury, hardware, asked: Asked::default() }
     }
 
-    /// Goes down from the task and from a camera that sends nearly all, until nothing is cheaper. The camera where it ends is in the search then, or
-    /// that which sends nearly all if none holds.
+    /// Descends from the task and from a camera that sends nearly all pixels, until nothing is
+    /// cheaper. The search then contains the camera where the descent ends, or the camera that
+    /// sends nearly all pixels if none meets the limits.
     pub(super) fn run(mut self) -> Result<Asked, ExploreError> {
         let all = nearly_all(self.search.task());
         let mut starts = ways_to_show(self.search.task());
@@ -75,7 +80,7 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok(self.asked)
     }
 
-    /// The cheapest that holds and costs less than `most`.
+    /// Returns the cheapest camera that meets the limits and costs less than `most`.
     fn cheapest(
         &mut self,
         configs: &[CameraConfig],
@@ -87,7 +92,8 @@ impl<'s, 'a> Descent<'s, 'a> {
         for (cost, camera) in priced {
             let Some(expected) = self.expected(&camera)? else { continue };
             let config = camera.config();
-            // To know what else a camera shows takes longer than to ask.
+            // Measuring all figures of a camera takes longer than running the network, so the
+            // network runs first.
             if !self.search.limits_figures() || self.look(config, expected)? {
                 return Ok(Some((cost, config.clone())));
             }
@@ -95,7 +101,8 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok(None)
     }
 
-    /// The agreement to expect of other frames, if that is enough by those that are searched and by those that confirm.
+    /// Returns the agreement to expect of other frames, if it is enough on the frames of the search
+    /// and on those that confirm.
     fn expected(&mut self, camera: &Camera) -> Result<Option<f64>, ExploreError> {
         let least = self.jury.goal.min_agreement;
         let searched = self.ask(camera, Some(least))?.expected;
@@ -106,7 +113,8 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok((confirmed >= least).then(|| searched.min(confirmed)))
     }
 
-    /// What each camera costs. Those that are none, or that no organization takes, are left out.
+    /// Returns the cost of each camera. It leaves out invalid cameras, and cameras that no
+    /// organization can build.
     fn priced(&self, configs: &[CameraConfig]) -> Result<Vec<(f64, Camera)>, ExploreError> {
         let mut cameras: Vec<Camera> = Vec::new();
         let taken = configs.iter().filter(|config| is_taken(config));
@@ -125,21 +133,23 @@ impl<'s, 'a> Descent<'s, 'a> {
         Ok(costs.into_iter().zip(cameras).collect())
     }
 
-    /// What the network says of a camera on the frames that are searched, in full if there is no `least` that is to be reached.
+    /// Returns the agreement of a camera on the frames of the search; the exact agreement if there
+    /// is no `least`.
     fn ask(&mut self, camera: &Camera, least: Option<f64>) -> Result<Agreed, ExploreError> {
         let asked = self.asked.count();
         let ask = || self.jury.ask(camera, Part::Search, least, asked);
         known_or(&mut self.asked.searched, camera, least, ask)
     }
 
-    /// What it says of it on later frames.
+    /// Returns the agreement of a camera on the later frames that confirm.
     fn confirm(&mut self, camera: &Camera, least: Option<f64>) -> Result<Agreed, ExploreError> {
         let asked = self.asked.count();
         let ask = || self.jury.ask(camera, Part::Confirmation, least, asked);
         known_or(&mut self.asked.confirmed, camera, least, ask)
     }
 
-    /// Measures a camera in full; says whether all limits hold, with the agreement that is expected.
+    /// Measures all figures of a camera. Returns whether all limits hold, including the one on the
+    /// expected agreement.
     fn look(&mut self, config: &CameraConfig, expected: f64) -> Result<bool, ExploreError> {
         let mut holds = false;
         for mut look in self.search.look(std::slice::from_ref(config))? {
@@ -151,7 +161,8 @@ impl<'s, 'a> Descent<'s, 'a> {
     }
 }
 
-/// What is known of a camera, or what `ask` says; in full if there is no `least` that is to be reached.
+/// Returns the known agreement of a camera, or calls `ask`. Without `least`, a known upper bound is
+/// not enough.
 fn known_or(
     known: &mut BTreeMap<String, Agreed>,
     camera: &Camera,
@@ -168,7 +179,8 @@ fn known_or(
     Ok(agreed)
 }
 
-/// A camera that sends much more than the task's: if the network tells this one from whole frames, it tells all others.
+/// Returns a camera that sends much more than the task's. If the network disagrees behind this
+/// camera, it disagrees behind all others.
 fn nearly_all(task: &CameraConfig) -> CameraConfig {
     const OCTAVES: f64 = -2.0;
     let mut config = scaled_by(task, OCTAVES, OCTAVES);
@@ -182,7 +194,7 @@ fn nearly_all(task: &CameraConfig) -> CameraConfig {
     config
 }
 
-/// All that irrelevant regions can show.
+/// Returns the camera with every setting of what irrelevant regions show.
 fn ways_to_show(config: &CameraConfig) -> Vec<CameraConfig> {
     let mut found = Vec::new();
     for &irrelevant in Irrelevant::ALL {
@@ -201,7 +213,7 @@ fn ways_to_show(config: &CameraConfig) -> Vec<CameraConfig> {
     found
 }
 
-/// Cameras that differ in one thing.
+/// Returns the cameras that differ in one setting.
 fn neighbors(config: &CameraConfig) -> Vec<CameraConfig> {
     let bits = config.frame.pixel_bits;
     let with = |change: &dyn Fn(&mut CameraConfig)| {
@@ -232,39 +244,40 @@ fn neighbors(config: &CameraConfig) -> Vec<CameraConfig> {
     found
 }
 
-/// A level of 8 bits by which means may differ, at another depth.
+/// Converts the level of a periphery from 8 bits to another depth.
 fn level_at(level: u32, bits: u32) -> Option<u32> {
     let periphery = PeripheryConfig { level: Some(level), ..PeripheryConfig::default() };
     CameraConfig { periphery, ..CameraConfig::default() }.at_depth(bits).periphery.level
 }
 
-/// What the network said of cameras, by their configurations.
+/// The agreement of the network behind cameras, by their configurations.
 #[derive(Debug, Default)]
 pub(super) struct Asked {
-    /// On the frames that are searched.
+    /// The agreement on the frames of the search.
     searched: BTreeMap<String, Agreed>,
-    /// On later frames, of those that agreed enough before.
+    /// The agreement on later frames, for cameras that agreed enough before.
     confirmed: BTreeMap<String, Agreed>,
 }
 
 impl Asked {
-    /// Of how many.
+    /// Returns the number of cameras.
     pub(super) fn count(&self) -> usize {
         self.searched.len()
     }
 
-    /// What it said of one that was asked in full; on later frames, if it was asked there.
+    /// Returns the exact agreement of a camera, and its agreement on later frames if it is known.
     pub(super) fn of(&self, config: &CameraConfig) -> (Agreed, Option<Agreed>) {
         let text = config.to_toml();
         (self.searched[&text], self.confirmed.get(&text).copied())
     }
 
-    /// Why this camera was chosen, as far as the network has a say; `least` is the agreement that was to be reached.
+    /// Returns the reasons of the network for choosing this camera; `least` is the agreement that
+    /// was to be reached.
     pub(super) fn reasons(&self, chosen: &CameraConfig, least: f64) -> Vec<String> {
         self.not_confirmed(least).into_iter().chain(self.steps(chosen)).collect()
     }
 
-    /// How many cameras later frames did not confirm.
+    /// Returns a sentence with the number of cameras that later frames did not confirm.
     fn not_confirmed(&self, least: f64) -> Option<String> {
         let failed = |agreed: &&Agreed| agreed.at_most || agreed.expected < least;
         let count = self.confirmed.values().filter(failed).count();
@@ -276,7 +289,8 @@ impl Asked {
         })
     }
 
-    /// What one change of the chosen camera would do that is cheaper or not, in the order of the keys.
+    /// Returns a line for each camera that differs from the chosen one in one setting, in the order
+    /// of the keys.
     fn steps(&self, chosen: &CameraConfig) -> Vec<String> {
         let own = settings(&chosen.to_toml());
         let step = |(text, agreed): (&String, &Agreed)| {
@@ -295,7 +309,7 @@ impl Asked {
     }
 }
 
-/// The settings of a configuration, each with the names of its tables.
+/// Returns the settings of a configuration, each with the names of its tables.
 fn settings(toml: &str) -> Vec<String> {
     let table: toml::Table = toml.parse().expect("a configuration is written as TOML");
     let mut found = Vec::new();

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where the first half of every clip ends.
+//! The end of the first half of every clip.
 
 use crate::ExploreError;
 use crate::footage::Footage;
 use crate::{Hooks, Progress};
 
-/// Clips and where they are divided.
+/// The clips, and where they are divided.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Halves {
-    /// For every clip the frames of its first half and all of its frames.
+    /// The number of frames of each clip's first half, and of the whole clip.
     pub(super) frames: Vec<(u64, u64)>,
-    /// Clips that ended too early, and why.
+    /// The clips that ended early, with the reasons.
     pub(super) problems: Vec<String>,
 }
 
-/// A frame to start with, and one that can change, in each half.
+/// The least number of frames of a clip: each half needs a first frame, and one that can change.
 pub(super) const LEAST: u64 = 4;
 
-/// Counts the frames of every clip, of which each needs `least`; what a container says may be wrong.
+/// Counts the frames of every clip by reading it, because a container may state a wrong number.
+/// Each clip needs `least` frames.
 pub(super) fn halves(
     footage: &Footage<'_>,
     least: u64,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What cameras see: the search over everything but the silicon.
+//! The search over cameras: over every setting except those of the hardware.
 
 use std::collections::BTreeMap;
 
@@ -18,16 +18,17 @@ use crate::footage::Footage;
 use crate::objects::Objects;
 use crate::row::together;
 
-/// Sides of regions that are tried beside the task's.
+/// The sides of regions that are tried besides the task's.
 const SIDES: [u32; 3] = [4, 8, 16];
 /// The fewest bits per pixel that are tried.
 const FEWEST_BITS: u32 = 3;
-/// This many pairs of a region size and features are examined closely, even if they flip more than wanted.
+/// The number of pairs of a region size and features that are examined closely, even if they flip
+/// more than wanted.
 const AT_LEAST: usize = 3;
-/// Pairs that flip at most this many times the wanted share are examined, too.
+/// The factor of the wanted share of flips up to which further pairs are examined.
 const SLACK: f64 = 1.5;
 
-/// A camera and how it did on the first halves.
+/// A camera and its figures on the first halves.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
     pub(super) config: CameraConfig,
@@ -35,7 +36,7 @@ pub(super) struct Look {
     pub(super) held: Vec<Held>,
 }
 
-/// The search and what it has seen.
+/// The search and the cameras that it has examined.
 pub(super) struct Search<'a> {
     constraints: &'a Constraints,
     footage: &'a Footage<'a>,
@@ -49,7 +50,7 @@ impl Look {
         all_hold(&self.held)
     }
 
-    /// How far it is from holding, over all constraints.
+    /// Returns the distance of the camera from its limits, over all constraints.
     pub(super) fn excess(&self) -> f64 {
         excess(&self.held)
     }
@@ -67,22 +68,22 @@ impl<'a> Search<'a> {
         Ok(Self { constraints, footage, halves, task, seen: BTreeMap::new() })
     }
 
-    /// All cameras that were examined.
+    /// Returns all cameras that were examined.
     pub(super) fn all(&self) -> impl Iterator<Item = &Look> {
         self.seen.values()
     }
 
-    /// Whether a limit is one on what a camera shows or sends.
+    /// Returns whether there is a limit on the screen or the sent bytes of a camera.
     pub(super) fn limits_figures(&self) -> bool {
         self.constraints.limits_figures()
     }
 
-    /// Takes over what is new of a camera that was examined.
+    /// Replaces a camera that was examined.
     pub(super) fn replace(&mut self, look: Look) {
         self.seen.insert(look.config.to_toml(), look);
     }
 
-    /// A camera, if it was examined.
+    /// Returns a camera, if it was examined.
     pub(super) fn get(&self, config: &CameraConfig) -> Option<&Look> {
         self.seen.get(&config.to_toml())
     }
@@ -91,7 +92,8 @@ impl<'a> Search<'a> {
         &self.task
     }
 
-    /// Sizes and features with thresholds that agree best; then bits, windows, filters, references.
+    /// Searches the region sizes and features with the thresholds that agree best, and then depths,
+    /// windows, filters and references.
     pub(super) fn run(&mut self) -> Result<(), ExploreError> {
         let mut bases = Vec::new();
         for side in self.sides() {
@@ -116,7 +118,7 @@ impl<'a> Search<'a> {
         std::iter::once(own).chain(SIDES.into_iter().filter(|&side| side != own)).collect()
     }
 
-    /// The task's features, and each feature alone.
+    /// Returns the task's features, and each feature alone.
     fn features(&self) -> Vec<Vec<SpatialConfig>> {
         let own = &self.task.spatial;
         let alone = FeatureKind::ALL.iter().map(|&kind| vec![SpatialConfig::new(kind)]);
@@ -125,7 +127,7 @@ impl<'a> Search<'a> {
         std::iter::once(own.clone()).chain(alone.filter(|features| !is_own(features))).collect()
     }
 
-    /// As exact as can be built, with every threshold worth trying.
+    /// Returns cameras that are as exact as hardware can be, with every threshold worth trying.
     fn with_thresholds(&self, side: u32, features: &[SpatialConfig]) -> Vec<CameraConfig> {
         let mut exact = self.task.clone();
         exact.region.size = side;
@@ -151,8 +153,8 @@ impl<'a> Search<'a> {
         found
     }
 
-    /// Every cheaper way to see the same: fewer bits, windows of their own, no filter, the other
-    /// reference, a mean without fraction.
+    /// Returns every cheaper version of a camera: with fewer bits, isolated windows, no filter, the
+    /// other reference, or a mean without fraction bits.
     fn simpler(&self, base: &CameraConfig) -> Vec<CameraConfig> {
         let mut found = Vec::new();
         let depth = base.frame.pixel_bits;
@@ -177,7 +179,8 @@ impl<'a> Search<'a> {
         found.into_iter().chain(coarse).collect()
     }
 
-    /// Examines cameras on the first halves. Those that are none, or that no organization takes, are left out.
+    /// Examines cameras on the first halves. It leaves out invalid cameras, and cameras that no
+    /// organization can build.
     pub(super) fn look(&mut self, configs: &[CameraConfig]) -> Result<Vec<Look>, ExploreError> {
         let taken = configs.iter().filter(|config| is_taken(config));
         let cameras: Vec<_> = taken.filter_map(|config| config.validate().ok()).collect();
@@ -200,7 +203,7 @@ impl<'a> Search<'a> {
         Ok(looks.collect())
     }
 
-    /// The figures of a camera on the second halves, which influenced no choice.
+    /// Returns the figures of a camera on the second halves, which influenced no choice.
     pub(super) fn second_half(&self, look: &Look) -> Result<(Figures, Vec<Held>), ExploreError> {
         let camera = look.config.validate()?;
         let mut measured = Vec::new();
@@ -220,7 +223,7 @@ impl<'a> Search<'a> {
         Ok((figures, held))
     }
 
-    /// The share of the objects of a half that is sent, if it is limited.
+    /// Returns the share of the objects of a half that is sent, if it is limited.
     fn recall(&self, objects: Objects, half: &'static str) -> Result<Option<f64>, ExploreError> {
         if self.constraints.min_recall.is_none() {
             return Ok(None);
@@ -233,7 +236,8 @@ fn by_flips(one: &Look, other: &Look) -> std::cmp::Ordering {
     one.figures.action_flips.total_cmp(&other.figures.action_flips)
 }
 
-/// A count of pixels of a region for regions of another size: as it is, as much of the area, between.
+/// Scales a number of pixels of a region to another region size: unchanged, in proportion to the
+/// area, and halfway between.
 fn counts(count: u32, from: u32, to: u32) -> Vec<u32> {
     if count == 0 {
         return vec![0];
@@ -248,7 +252,7 @@ fn counts(count: u32, from: u32, to: u32) -> Vec<u32> {
     found
 }
 
-/// The task's features, with every default filled in, with their counts of hits for another region size.
+/// Returns the task's features with their counts of hits scaled to another region size.
 fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<SpatialConfig>> {
     let mut found: Vec<Vec<SpatialConfig>> = vec![Vec::new()];
     for entry in features {
@@ -277,12 +281,14 @@ fn own_thresholds(features: &[SpatialConfig], from: u32, to: u32) -> Vec<Vec<Spa
     found
 }
 
-/// Fraction bits with which the mean of a region is exact, or as exact as there is: ceil(log2 n).
+/// Returns the fraction bits with which the mean of a region is exact, or as exact as it can be:
+/// ceil(log2 n).
 fn exact_fraction(side: u32) -> u32 {
     (side * side).next_power_of_two().ilog2()
 }
 
-/// Thresholds of a feature that the task does not have, those of 8 bits at another depth.
+/// Returns the thresholds to try for a feature that the task does not have. They are given for 8
+/// bits and scaled to the depth.
 fn ladder(feature: FeatureKind, bits: u32) -> Vec<Vec<SpatialConfig>> {
     let scaled =
         |spatial| CameraConfig { spatial, ..CameraConfig::default() }.at_depth(bits).spatial;

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds the cheapest design that a scene needs. It is fitted on the first half of every clip and reported
-//! on the second half.
+//! A fit: the search for the cheapest design that a scene needs. The design is fitted on the first
+//! half of every clip and reported on the second half.
 //!
 //! 1. If a share of active regions is wanted, the task's thresholds are set for it ([`target`]).
-//! 2. The search goes through looks. A look is what a camera sees, and not how it is built. It tries
-//!    region sizes and features, each with the thresholds that agree best with the ideal. For the best
-//!    of them it tries all pixel bits, windows, filters and references ([`looks`]).
-//!    With a network that is not to tell what the receiver sees from whole frames, the search is a descent from the
-//!    task instead, and the network is asked ([`descent`], [`network`]).
-//! 3. Of the looks that meet the limits, only the simplest are built: a look is dropped if a simpler one
-//!    meets the limits too. Each is built with every feed and with the folds that are fast enough and may be the
-//!    cheapest, or pipelined if no serial array is fast enough; and as a raster core, if one is fast
-//!    enough ([`build`]). The most promising designs are synthesized first ([`rough`]). Where no clock is given,
-//!    a planned one says which of them are tried, and the clock that is estimated from the netlist says whether
-//!    they are fast enough, and which are folded again ([`plan`]).
+//! 2. The search tries cameras. A camera says what is computed, and not how it is built. The search tries
+//!    region sizes and features, each with the thresholds that agree best with the ideal. For the best of
+//!    them it tries all depths, windows, filters and references ([`looks`]). With a network, the search is
+//!    a descent from the task instead: the network must agree, behind the camera, with its outputs for
+//!    whole frames ([`descent`], [`network`]).
+//! 3. Of the cameras that meet the limits, only the simplest are built: a camera is dropped if a simpler
+//!    one also meets the limits. Each is built with every feed and with the folds that are fast enough and
+//!    may be the cheapest, or pipelined if no serial array is fast enough; and as a raster core, if one is
+//!    fast enough ([`build`]). The most promising designs are synthesized first ([`rough`]). If no clock is
+//!    given, a planned clock decides which designs are tried. The clock that is estimated from the netlist
+//!    decides whether they are fast enough, and which are folded again ([`plan`]).
 //! 4. The cheapest design is chosen, with the reasons why no simpler one is enough ([`why`]).
 
 mod agreed;
@@ -49,40 +49,44 @@ pub use constraints::{Constraints, Held};
 pub use network::{Cheapest, FittedNetwork, NetworkGoal};
 pub use report::{Design, Fit, Target};
 
-/// What is to be fitted.
+/// The request of a fit.
 #[derive(Clone, Debug)]
 pub struct FitRequest<'a> {
     /// The task of the camera. The ideal camera performs it in floating point over whole frames.
     pub task: &'a Config,
-    /// Clips of one size.
+    /// The clips, which have one size.
     pub inputs: &'a [PathBuf],
-    /// How they are read.
+    /// The options for reading the clips.
     pub input: &'a InputOptions,
     /// The limits that the design must meet.
     pub constraints: &'a Constraints,
-    /// The clock in Hz, if it is known; else that of each design is estimated from its netlist, and
-    /// [`Constraints::min_fps`] is checked at the low end of its range.
+    /// The clock in Hz, if it is known. Otherwise the clock of each design is estimated from its
+    /// netlist, and [`Constraints::min_fps`] is checked at the low end of its range.
     pub clock_hz: Option<u64>,
-    /// The wanted share of active regions, 0..=1; the task's thresholds are set to it.
+    /// The wanted share of active regions, 0..=1; the task's thresholds are set to reach it.
     pub target_active: Option<f64>,
-    /// Ground-truth boxes for [`Constraints::min_recall`]: one file or folder for all inputs, or one for each.
+    /// The ground-truth boxes for [`Constraints::min_recall`]: one file or folder for all inputs,
+    /// or one for each.
     pub boxes: &'a [PathBuf],
-    /// A network that is not to tell what the receiver sees from whole frames.
+    /// A network that must agree, behind the camera, with its outputs for whole frames.
     pub network: Option<NetworkGoal<'a>>,
     /// The synthesizer, for areas.
     pub synthesizer: &'a Synthesizer,
-    /// The most designs that are synthesized: of those that meet all other limits, or of the nearest ones.
+    /// The most designs that are synthesized: of those that meet all other limits, or of the
+    /// nearest ones.
     pub most: usize,
 }
 
-/// Finds the cheapest design that meets the limits on the first half of the footage, or the nearest one if
-/// no design does, and measures it on the second half.
+/// Finds the cheapest design that meets the limits on the first half of the footage, or the nearest
+/// one if no design does, and measures it on the second half.
 ///
 /// # Errors
-/// When an input cannot be read or is too short to be halved, Yosys is missing or fails, or `hooks`
-/// cancels.
+/// Fails if an input cannot be read or is too short to be halved, if Yosys is missing or fails, or
+/// if `hooks` cancels.
 pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreError> {
-    // How the task would be built is no matter of what it is to see; how its stream comes is.
+    // The hardware settings of the task do not affect what the camera computes, so they are
+    // dropped. `thresholds` and `sync` stay, because every candidate design takes them over;
+    // `memory` goes to `build`.
     let HardwareConfig { thresholds, sync, memory, .. } = request.task.hardware;
     let hardware = HardwareConfig { thresholds, sync, ..HardwareConfig::default() };
     let task = Config { hardware, ..request.task.clone() };
@@ -118,7 +122,7 @@ pub fn fit(request: &FitRequest<'_>, hooks: &dyn Hooks) -> Result<Fit, ExploreEr
     Ok(report::fit(request, &search, steps, &built, target, (second, network), &lengths))
 }
 
-/// The sums of both halves of all clips in frames.
+/// Returns the number of frames of the first halves and of the second halves of all clips.
 fn frames(halves: &Halves) -> (u64, u64) {
     halves
         .frames

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A network that is not to tell what the receiver sees from whole frames.
+//! A network that must agree, behind the camera, with its outputs for whole frames.
 //!
-//! What it says of whole frames is found once, of some frames of every part of the clips, spread evenly. A camera is dropped as soon as it cannot reach
-//! the wanted agreement any more, even if it agreed on all other frames.
+//! The network first runs on some whole frames of every part of the clips, spread evenly. A camera
+//! is dropped as soon as it cannot reach the wanted agreement, even if it agreed on all other
+//! frames.
 
 use std::ops::Range;
 use std::path::Path;
@@ -24,72 +25,75 @@ use crate::footage::Footage;
 use crate::row::real;
 use crate::{ExploreError, Progress};
 
-/// A network that is not to tell what the receiver sees from whole frames.
+/// The goal of a fit with a network: the network must agree, behind the camera, with its outputs
+/// for whole frames.
 #[derive(Clone, Copy, Debug)]
 pub struct NetworkGoal<'a> {
-    /// Its file.
+    /// The network's file.
     pub path: &'a Path,
-    /// How it is read and shown frames.
+    /// The options for reading the network and for showing it frames.
     pub viewing: &'a Viewing,
-    /// The least agreement, 0..=1, as of `foveate infer --whole-frames`.
+    /// The least agreement, 0..=1, defined as by `foveate infer --whole-frames`.
     pub min_agreement: f64,
-    /// What the design is to be cheapest in.
+    /// The cost that is minimized.
     pub cheapest: Cheapest,
-    /// The most frames of each part of all clips that the network looks at: those that cameras are searched by, those that
-    /// confirm one, and the second halves.
+    /// The most frames of each part of all clips that the network sees: of the part that cameras
+    /// are searched by, of the part that confirms a camera, and of the second halves.
     pub frames: u64,
 }
 
-/// What designs are compared by that a network cannot tell from whole frames.
+/// The cost of designs behind which a network agrees enough.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Cheapest {
-    /// Bytes that leave the camera; of cameras with as many, area.
+    /// The bytes that leave the camera; area decides between cameras with equal bytes.
     Bytes,
-    /// Area.
+    /// The area.
     Area,
 }
 
-/// What a network says of the design, beside what it says of whole frames.
+/// The agreement of a network behind the chosen design with the network on whole frames.
 #[derive(Clone, Debug, Serialize)]
 pub struct FittedNetwork {
-    /// Its file.
+    /// The network's file.
     pub network: String,
-    /// How detections are read, if they are.
+    /// The format of the detections, if they are read.
     pub detector: Option<String>,
     /// The least agreement that was wanted, 0..=1.
     pub min_agreement: f64,
-    /// What the design was to be cheapest in.
+    /// The cost that was minimized.
     pub cheapest: Cheapest,
-    /// On the frames that cameras were searched by: the first two thirds of the first half.
+    /// The agreement on the frames of the search: the first two thirds of the first half.
     pub fitted: Agreed,
-    /// On the rest of the first half. It took no part in the search, and confirmed its result.
+    /// The agreement on the rest of the first half, which had no part in the search and confirmed
+    /// its result.
     pub confirmed: Agreed,
-    /// On the second half, which influenced no choice.
+    /// The agreement on the second half, which influenced no choice.
     pub held_out: Agreed,
     /// The agreement with whole frames of the second half under noise, level by level.
     pub noise: Vec<NoiseAgreement>,
-    /// Bytes of a whole frame.
+    /// The size of a whole frame in bytes.
     pub bytes_per_whole_frame: f64,
 }
 
 /// A part of every clip.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
-    /// The first two thirds of the first half: cameras are searched by it.
+    /// The first two thirds of the first half, which cameras are searched by.
     Search,
-    /// The rest of the first half, which comes later and takes no part in the search: it confirms what was found.
+    /// The rest of the first half, which comes later, has no part in the search, and confirms its
+    /// result.
     Confirmation,
     /// The second half.
     HeldOut,
 }
 
 impl Part {
-    /// The fewest frames of a clip of which each part has one.
+    /// The fewest frames of a clip with which each part has a frame.
     pub(super) const LEAST: u64 = 6;
 
-    /// Its frames, of a clip of `all` frames of which `half` are the first half. The first frame of a clip is one that every
-    /// camera sends whole: it belongs to no part.
+    /// Returns the frames of this part of a clip with `all` frames, of which `half` are the first
+    /// half. The first frame belongs to no part, because every camera sends it whole.
     fn frames(self, (half, all): (u64, u64)) -> Range<u64> {
         let searched = (2 * half).div_ceil(3);
         match self {
@@ -100,28 +104,28 @@ impl Part {
     }
 }
 
-/// A frame that the network looks at, and what it says of it.
+/// A frame that the network sees, and its findings.
 struct Sample {
     number: u64,
     whole: Testimony,
-    /// That of a camera which shows whole frames.
+    /// The agreement behind a camera that shows whole frames.
     best: Agreement,
 }
 
-/// The network, and what it says of whole frames.
+/// The network, and its findings in whole frames.
 pub(super) struct Jury<'a> {
     witness: Witness,
     pub(super) goal: NetworkGoal<'a>,
     footage: &'a Footage<'a>,
     halves: &'a Halves,
-    /// Of every clip, by parts.
+    /// The frames that the network saw, by part and by clip.
     samples: [Vec<Vec<Sample>>; 3],
-    /// On the whole frames of the second halves.
+    /// The noise ceiling of the whole frames of the second halves.
     noise: NoiseCeiling,
 }
 
 impl<'a> Jury<'a> {
-    /// Shows the network whole frames of the depth of the task.
+    /// Runs the network on whole frames in the depth of the task.
     pub(super) fn new(
         goal: NetworkGoal<'a>,
         footage: &'a Footage<'a>,
@@ -164,7 +168,8 @@ impl<'a> Jury<'a> {
         Ok(Self { witness, goal, footage, halves, samples, noise })
     }
 
-    /// Bytes per frame that cameras send on the first halves; `asked` cameras were shown to the network so far.
+    /// Returns the bytes per frame that cameras send on the first halves. `asked` is the number of
+    /// cameras that the network was run behind so far, for progress.
     pub(super) fn bytes_sent(
         &self,
         cameras: &[Camera],
@@ -194,7 +199,8 @@ impl<'a> Jury<'a> {
         Ok(cameras.iter().zip(&values).map(bytes).collect())
     }
 
-    /// What the network says of the camera that was chosen; what it said of it to search is known, and perhaps what it said to confirm it.
+    /// Reports the agreement of the network behind the chosen camera. The agreement on the frames
+    /// of the search is known; the one on the frames that confirm may be known.
     pub(super) fn report(
         &self,
         chosen: &CameraConfig,
@@ -218,7 +224,8 @@ impl<'a> Jury<'a> {
         })
     }
 
-    /// The agreement on a part; `asked` cameras were looked at before. With `least` it looks no further than to know that it is missed.
+    /// Returns the agreement behind a camera on a part. `asked` is the number of cameras so far,
+    /// for progress. With `least` it stops as soon as `least` cannot be reached.
     pub(super) fn ask(
         &self,
         camera: &Camera,
@@ -227,7 +234,7 @@ impl<'a> Jury<'a> {
         asked: usize,
     ) -> Result<Agreed, ExploreError> {
         let samples = &self.samples[part as usize];
-        // What can be at best: frames that were not looked at agree as well as they can.
+        // Frames that the network has not seen yet count with their best possible agreement.
         let mut frames: Vec<Agreement> =
             samples.iter().flatten().map(|sample| sample.best.clone()).collect();
         let mut looked = 0;
@@ -254,7 +261,7 @@ impl<'a> Jury<'a> {
     }
 }
 
-/// At most so many numbers of a range, spread evenly.
+/// Returns at most `most` numbers of a range, spread evenly.
 fn spread(range: Range<u64>, most: u64) -> Vec<u64> {
     let length = range.end.saturating_sub(range.start);
     let count = most.min(length);
@@ -265,7 +272,8 @@ fn spread(range: Range<u64>, most: u64) -> Vec<u64> {
 mod tests {
     use super::*;
 
-    /// Every frame but the first is in one part, those that confirm come after those that cameras are searched by, and no part is empty.
+    /// Every frame but the first is in one part, the confirming frames come after those of the
+    /// search, and no part is empty.
     #[test]
     fn parts_follow_each_other() {
         for all in Part::LEAST..200 {

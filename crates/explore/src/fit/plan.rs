@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Folds before and after a design's clock is known. A clock is estimated from a netlist, and what is to be
-//! synthesized has none: so a planned clock says which folds are tried, and no rate is told at it.
+//! The folds of a design before and after its clock is known. A clock is estimated from a netlist,
+//! which a design does not have before its synthesis. So a planned clock decides which folds are
+//! tried; no frame rate is reported at it.
 
 use foveate_design::{Design, Hardware};
 use foveate_estimate::{Area, Device, Speed, most_clocks};
@@ -9,18 +10,19 @@ use super::FitRequest;
 use crate::cost::Silicon;
 use crate::row::real;
 
-/// The planned clock in Hz. It is below the low ends of the serial arrays in `docs/area.md`, of which the slowest
-/// is at 56 MHz. A design that is faster is folded again, by its own clock.
+/// The planned clock in Hz. It is below the low ends of the serial arrays in `docs/area.md`, of
+/// which the slowest is at 56 MHz. A faster design is folded again for its own clock.
 const PLANNED_HZ: u64 = 50_000_000;
 
-/// The most clocks that a frame may take, at the clock that was given or at the planned one.
+/// Returns the most clocks that a frame may take, at the clock of the request or at the planned
+/// one.
 pub(super) fn max_clocks(request: &FitRequest<'_>) -> Option<u64> {
     let hertz = real(request.clock_hz.unwrap_or(PLANNED_HZ));
     request.constraints.min_fps.map(|fps| most_clocks(hertz, fps))
 }
 
-/// The deeper folds of a serial design that are fast enough at the low end of its clock and may be the cheapest; of a
-/// raster design that with half the pixels per clock, if that is fast enough.
+/// Returns the deeper folds of a serial design that are fast enough at the low end of its clock and
+/// may be the cheapest, or a raster design with half the pixels per clock, if it is fast enough.
 pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design> {
     let most = most_clocks(speed.low_clock_mhz * 1e6, min_fps);
     match design.hardware() {
@@ -38,8 +40,9 @@ pub(super) fn slower(design: &Design, speed: &Speed, min_fps: f64) -> Vec<Design
     }
 }
 
-/// What a slower design is expected to cost, after the synthesis of the one that it is made of. A lane has the logic of
-/// that design's lanes, and its memory follows from the fold. Half the pixels per clock are half the logic.
+/// Returns the expected cost of a slower design, from the synthesis of the design that it is
+/// derived from. Its lanes have the logic of that design's lanes, and their memory follows from the
+/// fold. Half the pixels per clock take half the logic.
 pub(super) fn expected(design: &Design, silicon: &Silicon) -> f64 {
     let Silicon { unit, units, array, .. } = silicon;
     let area = match design.hardware() {
@@ -85,7 +88,7 @@ mod tests {
         assert!(slower(found, &speed(low / 2.0), fps).is_empty(), "it is too deep already");
     }
 
-    /// 1,574 clocks or a little more take two pixels at a clock, 3,110 take one.
+    /// About 1,574 clocks take two pixels per clock, about 3,110 clocks take one.
     #[test]
     fn a_raster_core_takes_fewer_pixels_per_clock_where_its_clock_allows() {
         let text = "[frame]\nwidth = 64\nheight = 48\n[hardware]\norganization = \"raster\"\n\
@@ -101,7 +104,8 @@ mod tests {
         assert!(slower(&single[0], &speed, 1.0).is_empty(), "there are no fewer");
     }
 
-    /// Four lanes of 16 regions from eight of 8: their logic is half, and each has a block RAM instead of 128 LUTs.
+    /// Four lanes of 16 regions are derived from eight lanes of 8: their logic is half, and each
+    /// has a block RAM instead of 128 LUTs.
     #[test]
     fn a_slower_design_has_fewer_lanes_and_the_memory_of_its_fold() {
         let text =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the receiver of a camera sees of a clip.
+//! The receiver of a camera over a clip.
 
 use foveate_camera::Camera;
 use foveate_engine::Engine;
@@ -10,7 +10,7 @@ use crate::depths::Depths;
 use crate::footage::Footage;
 use crate::{ExploreError, Progress};
 
-/// A camera before a clip, and its receiver.
+/// A camera that sees a clip, and its receiver.
 pub(super) struct Receiver<'a> {
     footage: &'a Footage<'a>,
     source: Box<dyn Source>,
@@ -29,7 +29,8 @@ impl<'a> Receiver<'a> {
         Ok(Self { footage, source, engine: Engine::new(camera), next: 0 })
     }
 
-    /// The screen after a later frame; `None` if the clip has ended before. `asked` cameras were shown to the network so far.
+    /// Returns the screen after frame `number`, which must not be before the last one; `None` if
+    /// the clip has ended. `asked` is the number of cameras so far, for progress.
     pub(super) fn screen(
         &mut self,
         number: u64,

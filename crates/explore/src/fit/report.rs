@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What came out of a fit, for people and programs.
+//! The result of a fit, for people and programs.
 
 use foveate_design::Config;
 use foveate_estimate::Speed;
@@ -15,10 +15,10 @@ use super::{FitRequest, frames, why};
 use crate::cost::Silicon;
 use crate::row::bytes_per_frame;
 
-/// Thresholds for a wanted share of active regions.
+/// The thresholds for a wanted share of active regions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Target {
-    /// The share that was wanted, 0..=1.
+    /// The wanted share, 0..=1.
     pub wanted: f64,
     /// The nearest share that was possible, on the first half.
     pub found: f64,
@@ -26,40 +26,41 @@ pub struct Target {
     pub task: String,
 }
 
-/// The design that was chosen.
+/// The chosen design.
 #[derive(Clone, Debug, Serialize)]
 pub struct Design {
-    /// Its configuration, for `generate`.
+    /// The configuration, for `generate`.
     #[serde(skip)]
     pub config: Config,
-    /// The same as TOML.
+    /// The configuration as TOML.
     pub toml: String,
     /// A summary in a few words.
     pub summary: String,
-    /// Clocks from one frame to the next.
+    /// The number of clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// Frames per second, at the clock that was given or at that which is estimated from its netlist.
+    /// The frames per second, at the clock of the request or at the clock that is estimated from
+    /// the netlist.
     pub speed: Option<Speed>,
-    /// Its area.
+    /// The area.
     pub silicon: Silicon,
-    /// Bytes per frame that leave it, on the first half and on the second.
+    /// The bytes per frame that the camera sends, on the first half and on the second half.
     pub bytes_per_frame: (f64, f64),
-    /// Figures on the first half, on which it was fitted.
+    /// The figures on the first half, on which the design was fitted.
     pub fitted: Figures,
-    /// Constraints on the first half.
+    /// The constraints on the first half.
     pub fitted_held: Vec<Held>,
-    /// Figures on the second half, which influenced no choice.
+    /// The figures on the second half, which influenced no choice.
     pub held_out: Figures,
-    /// Constraints on the second half.
+    /// The constraints on the second half.
     pub held_out_held: Vec<Held>,
 }
 
 /// The result of a fit.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fit {
-    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    /// The version of the JSON format; it changes if a field changes its meaning or is removed.
     pub format_version: u32,
-    /// Frames of the first and of the second halves.
+    /// The numbers of frames of the first halves and of the second halves.
     pub frames: (u64, u64),
     /// The camera that designs are compared with, as TOML.
     pub task: String,
@@ -67,22 +68,23 @@ pub struct Fit {
     pub target: Option<Target>,
     /// The clock in Hz, if one was given.
     pub clock_hz: Option<u64>,
-    /// Numbers of candidate cameras, of synthesized designs, and of less promising designs that were skipped.
+    /// The numbers of candidate cameras, of synthesized designs, and of less promising designs that
+    /// were skipped.
     pub considered: (usize, usize, usize),
     /// Whether the design meets all limits on the first half.
     pub feasible: bool,
-    /// Whether it meets them on the second half.
+    /// Whether the design meets all limits on the second half.
     pub borne_out: bool,
-    /// Binding limits: without any one of them there would be a design. Empty if there is a design, or if
-    /// every design exceeds more than one limit.
+    /// The binding limits: without any one of them there would be a design. Empty if there is a
+    /// design, or if every design exceeds more than one limit.
     pub binding: Vec<&'static str>,
-    /// What a network says of it, if one was asked.
+    /// The agreement of a network, if one was given.
     pub network: Option<FittedNetwork>,
     /// The cheapest design, or the nearest one if no design meets all limits.
     pub design: Design,
-    /// Why this design was chosen.
+    /// The reasons why this design was chosen.
     pub why: Vec<String>,
-    /// Clips that ended too early, and why.
+    /// The clips that ended early, with the reasons.
     pub problems: Vec<String>,
 }
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A rough cost of a design before it is synthesized, only to try the promising ones first. What is
-//! chosen is chosen by what Yosys counts.
+//! A rough cost of a design before its synthesis, which only orders the designs that are
+//! synthesized. The choice is made with the figures of Yosys.
 
 use foveate_design::{Design, FeatureKind, Filter, Hardware, RasterMemory};
 use foveate_estimate::Device;
 
 use crate::row::real;
 
-/// About the share of the device. The constants are read off the area table of 8x8 regions.
+/// Returns roughly the share of the device that a design takes. The constants are read from the
+/// area table of 8x8 regions.
 pub(super) fn rough(design: &Design) -> f64 {
     let device = Device::xcvu9p();
     let bits = f64::from(design.pixel_bits());
@@ -39,7 +40,8 @@ pub(super) fn rough(design: &Design) -> f64 {
             (300.0 + lanes * (logic + real(luts))) / real(device.lut)
                 + lanes * real(blocks) / real(device.bram18)
         }
-        // Read off docs/organizations.md: a core with its store inside, and what each pixel of a word adds.
+        // The constants are read from docs/organizations.md: a core with its memory, and the cost
+        // of each pixel of a word.
         Hardware::Raster(own) => {
             let features: f64 = kinds
                 .map(|kind| match kind {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds for a wanted share of active regions.
+//! The thresholds for a wanted share of active regions.
 //!
-//! All thresholds in grey levels are scaled by one factor, as if the contrast of the scene were scaled:
-//! that goes from nearly all regions to none in small steps. Then `temporal.min_count` is set for what
-//! whole grey levels cannot say.
+//! All thresholds in grey levels are scaled by one factor, as if the contrast of the scene were
+//! scaled. This goes from nearly all regions to none in small steps. Then `temporal.min_count` is
+//! set, because whole grey levels are too coarse for some shares.
 
 use foveate_camera::{CameraConfig, Decimal, Neighborhood};
 use foveate_design::Config;
@@ -14,10 +14,11 @@ use super::report::Target;
 use crate::ExploreError;
 use crate::footage::Footage;
 
-/// Steps of the factor: quarters of a power of two, from 1/32 to 32.
+/// The steps of the factor: quarters of a power of two, from 1/32 to 32.
 const STEPS: std::ops::RangeInclusive<i32> = -20..=20;
 
-/// The task with thresholds for the wanted share, and what was found; as it is without one.
+/// Returns the task with thresholds for the wanted share, and the share that was found. Without a
+/// wanted share it returns the task unchanged.
 pub(super) fn aim(
     request: &FitRequest<'_>,
     footage: &Footage<'_>,
@@ -34,7 +35,7 @@ pub(super) fn aim(
         config.temporal.min_count = count;
         config
     });
-    // The best so far is among them, so that it cannot get worse.
+    // The best task so far is also tried, so that the result cannot get worse.
     let all = std::iter::once(task.clone()).chain(counted).collect();
     let (task, found) = nearest(footage, halves, all, wanted)?;
     let whole = Config { camera: task.clone(), hardware: hardware.clone() };
@@ -42,7 +43,7 @@ pub(super) fn aim(
     Ok((task, Some(target)))
 }
 
-/// Of some tasks that whose share of active regions on the first halves is nearest.
+/// Returns the task whose share of active regions on the first halves is nearest to the wanted one.
 fn nearest(
     footage: &Footage<'_>,
     halves: &Halves,
@@ -55,7 +56,7 @@ fn nearest(
         exact.region.neighborhood = Neighborhood::Shared;
         exact.for_frames(width, height)
     };
-    // A scaled threshold can be out of range; that is no task.
+    // A scaled threshold can be out of range; such a task is left out.
     let (tasks, cameras): (Vec<CameraConfig>, Vec<_>) =
         tasks.into_iter().filter_map(|task| Some((task.clone(), camera(&task).ok()?))).unzip();
     let shares = footage.first_halves(&cameras, &halves.frames, 0)?;
@@ -68,12 +69,12 @@ fn nearest(
     })
 }
 
-/// The task with every threshold in grey levels times `2^octaves`.
+/// Multiplies every threshold of the task in grey levels by `2^octaves`.
 fn scaled(task: &CameraConfig, octaves: f64) -> CameraConfig {
     scaled_by(task, octaves, octaves)
 }
 
-/// The same with other octaves for thresholds of features and for that of change.
+/// Multiplies the thresholds of features by `2^spatial` and the temporal level by `2^temporal`.
 pub(super) fn scaled_by(task: &CameraConfig, spatial: f64, temporal: f64) -> CameraConfig {
     let scale = |octaves: f64| move |level: u32| rounded(f64::from(level) * octaves.exp2());
     let (level, changed) = (scale(spatial), scale(temporal));
@@ -86,7 +87,7 @@ pub(super) fn scaled_by(task: &CameraConfig, spatial: f64, temporal: f64) -> Cam
         let measure = entry.feature.measure();
         entry.level = entry.level.map(level);
         if !measure.is_count() {
-            // Deviations scale with contrast, their squares with its square.
+            // Deviations scale with the contrast, and their squares with its square.
             let factor = (0..measure.power()).map(|_| factor).product::<f64>();
             let scale = |score: Decimal| {
                 let score: f64 = score.to_string().parse().expect("a decimal is a number");
@@ -98,7 +99,7 @@ pub(super) fn scaled_by(task: &CameraConfig, spatial: f64, temporal: f64) -> Cam
     config
 }
 
-/// The nearest whole number, within the range of a level.
+/// Returns the nearest whole number, within the range of a level.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "clamped before")]
 fn rounded(value: f64) -> u32 {
     value.round().clamp(0.0, f64::from(u32::MAX)) as u32

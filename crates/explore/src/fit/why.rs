@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a design was chosen: what one step to something simpler would do.
+//! The reasons why a design was chosen: the effect of one step to something simpler.
 
 use std::iter;
 
@@ -12,7 +12,7 @@ use super::build::{Built, Candidate};
 use super::constraints::Held;
 use super::looks::{Look, Search};
 
-/// The design in a few words.
+/// Describes a design in a few words.
 pub(super) fn summary(design: &Design) -> String {
     let features: Vec<&str> =
         design.features().iter().map(|feature| feature.kind().name()).collect();
@@ -38,7 +38,8 @@ pub(super) fn summary(design: &Design) -> String {
     )
 }
 
-/// What one step to something simpler would do, a line each; then how far the next design is in cost.
+/// Returns a line for each step to something simpler, and then the cost of the next cheapest
+/// design.
 pub(super) fn why(
     search: &Search<'_>,
     built: &Built,
@@ -47,7 +48,7 @@ pub(super) fn why(
 ) -> Vec<String> {
     let mut lines = Vec::new();
     for (step, config) in steps(&chosen.look.config) {
-        // The steps of the search's own tries are there; the others were not looked at.
+        // The search has examined only some of these steps; the others are left out.
         if let Some(look) = search.get(&config) {
             lines.push(format!("{step}: {}", verdict(look, built)));
         }
@@ -69,7 +70,7 @@ pub(super) fn why(
     lines
 }
 
-/// The constraints without each of which alone one of the designs would hold all others.
+/// Returns the limits of which each one alone keeps some design from meeting all limits.
 pub(super) fn binding(built: &Built) -> Vec<&'static str> {
     if built.chosen().holds() {
         return Vec::new();
@@ -86,7 +87,8 @@ pub(super) fn binding(built: &Built) -> Vec<&'static str> {
     found
 }
 
-/// One thing simpler than the chosen camera.
+/// Returns the cameras that are simpler than the chosen one in one setting, each with a name for
+/// the step.
 fn steps(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
     let mut found = Vec::new();
     let mut step = |what: String, change: &dyn Fn(&mut CameraConfig)| {
@@ -110,7 +112,7 @@ fn steps(chosen: &CameraConfig) -> Vec<(String, CameraConfig)> {
     found
 }
 
-/// What its constraints say of a camera, or what it costs if they hold.
+/// Returns the limits that a camera misses, or its cost if it meets them.
 fn verdict(look: &Look, built: &Built) -> String {
     let broken: Vec<String> = look.held.iter().filter(|held| !held.holds).map(Held::text).collect();
     if !broken.is_empty() {
@@ -126,7 +128,7 @@ fn verdict(look: &Look, built: &Built) -> String {
     }
 }
 
-/// The best of every other feature and region size.
+/// Returns a line for the best camera of every other set of features and region size.
 fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec<String> {
     let of = |config: &CameraConfig| {
         let names: Vec<&str> = config.spatial.iter().map(|entry| entry.feature.name()).collect();
@@ -145,7 +147,7 @@ fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec
             None => best.push((key, look)),
         }
     }
-    // What differs in one thing only is what a reader asks for.
+    // Readers ask for cameras that differ in one setting only.
     best.retain(|((features, size), _)| *features == own.0 || *size == own.1);
     best.sort_by(|one, other| one.1.excess().total_cmp(&other.1.excess()));
     let line = |((features, size), look): ((String, u32), &Look)| {
@@ -154,7 +156,7 @@ fn other_features(search: &Search<'_>, built: &Built, chosen: &Candidate) -> Vec
     best.into_iter().map(line).collect()
 }
 
-/// The best design of every other organization, of those that were synthesized.
+/// Returns the best synthesized design of every other organization.
 fn other_organizations<'a>(
     built: &'a Built,
     chosen: &Candidate,
@@ -165,7 +167,7 @@ fn other_organizations<'a>(
     })
 }
 
-/// One fold more, if that is too slow.
+/// Returns a line about one fold more, if it is too slow.
 fn slower(chosen: &Candidate, request: &FitRequest<'_>) -> Option<String> {
     let fold = chosen.design.slots() + 1;
     let deeper = chosen.design.with_fold(fold).ok()?;
@@ -176,13 +178,13 @@ fn slower(chosen: &Candidate, request: &FitRequest<'_>) -> Option<String> {
     (!held.holds).then(|| format!("fold {fold}: {}{whose}", held.text()))
 }
 
-/// What a design takes, and which limits it misses.
+/// Returns the cost of a design, and the limits that it misses.
 fn costs(candidate: &Candidate) -> String {
     let broken = candidate.held.iter().filter(|held| !held.holds).map(Held::text);
     iter::once(price(candidate)).chain(broken).collect::<Vec<_>>().join("; ")
 }
 
-/// What a design takes, and the figure that designs are chosen by.
+/// Returns the area of a design, and its share of the device, by which designs are chosen.
 fn price(candidate: &Candidate) -> String {
     let area = &candidate.silicon.array;
     format!(
@@ -193,13 +195,13 @@ fn price(candidate: &Candidate) -> String {
     )
 }
 
-/// A number with at most two digits after the point.
+/// Formats a number with at most two digits after the decimal point.
 fn hundredths(value: f64) -> String {
     format!("{value:.2}").trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 impl Held {
-    /// The figure beside its limit.
+    /// Returns the figure and its limit as text.
     #[must_use]
     pub fn text(&self) -> String {
         let side = if self.at_least { "at least" } else { "at most" };

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page in Chromium, where there is one; otherwise the tests say that they are skipped.
+//! Tests of the page in Chromium. Without Chromium they are skipped and say so.
 
 use foveate_pictures::page::browser::{Tip, chromium, probe};
 
 use super::page;
 use super::sample::exploration;
 
-/// Marks say what point they are and what is wrong with it, and lead to its row and its configuration.
+/// Marks show the number and the error of their point, and link to its row and its configuration.
 const TIP: Tip = Tip { told: r"/^Point \d+: .*\n.*% flipped/", links: 2 };
 
 #[test]
@@ -28,7 +28,7 @@ fn columns_fit_rows_are_in_sight_and_fingers_get_figures() {
             );
             assert!(found["told"] == found["plots"], "{width}: {found}");
             assert!(found["mark"].as_f64().unwrap() > 7.0, "{width}: {found}");
-            // Narrower windows scroll, and say so.
+            // The tables of narrower windows scroll, and show that they do.
             assert_eq!(found["cut"] == 0, width >= 1280, "{width}: {found}");
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A point with all that is known of it.
+//! The card of a point, with all its figures.
 
 use foveate_estimate::ramb36;
 use foveate_pictures::page::number::{grouped, percent, real};
@@ -8,15 +8,15 @@ use super::setting::Settings;
 use super::table::decibels;
 use crate::DesignRow;
 
-/// What the page says of one point.
+/// The card of a point on the page.
 pub(crate) struct Card {
     pub(crate) number: usize,
     pub(crate) front: bool,
-    /// What it sets.
+    /// The settings of the point.
     pub(crate) settings: String,
-    /// Name and value.
+    /// The figures, each with its name and value.
     pub(crate) facts: Vec<(String, String)>,
-    /// Its configuration as TOML.
+    /// The configuration as TOML.
     pub(crate) toml: String,
 }
 
@@ -84,7 +84,7 @@ impl Card {
     }
 }
 
-/// What a mark says when pointed at.
+/// Returns the text of the mark of a point.
 pub(crate) fn title(row: &DesignRow, settings: &Settings) -> String {
     let figures = &row.figures;
     let area = row.luts().map(|luts| format!(", {} LUTs", real(luts, 0))).unwrap_or_default();
@@ -103,7 +103,7 @@ pub(crate) fn title(row: &DesignRow, settings: &Settings) -> String {
     )
 }
 
-/// An error of a score: three digits that matter.
+/// Formats the error of a score with two or three significant digits.
 fn short(value: f64) -> String {
     match value.abs() {
         0.0 => "0".to_owned(),

@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Colours of points: one grouping for each axis, of which the page shows one at a time.
+//! The colours of points: one grouping for each axis. The page shows one grouping at a time.
 
 use foveate_pictures::page::{COLOURS, look};
 
 use super::setting::{Settings, set};
 use crate::DesignRow;
 
-/// Groups that can be told apart; the rest is grey.
+/// The number of groups that can be told apart; further groups are grey.
 const GROUPS: usize = 2 * COLOURS;
 
-/// Points in groups by what one axis is.
+/// The points in groups by the value of one axis.
 pub(crate) struct Grouping {
-    /// What the groups are by.
+    /// The name of the axis.
     pub(crate) name: String,
-    /// Whether the page starts with it.
+    /// Whether the page starts with this grouping.
     pub(crate) chosen: bool,
     /// The groups.
     pub(crate) groups: Vec<Group>,
-    /// The group of each row.
+    /// The number of the group of each row.
     pub(crate) of_row: Vec<usize>,
 }
 
-/// Points of one colour.
+/// A group of points with one colour and shape.
 pub(crate) struct Group {
-    /// What they have in common.
+    /// The value that the points have in common.
     pub(crate) label: String,
-    /// Class of the colour.
+    /// The CSS class of the colour.
     pub(crate) class: String,
     /// Shape of the marks.
     pub(crate) shape: &'static str,
 }
 
-/// Every grouping of the rows; the one to start with has the most groups that can be told apart. Where
-/// points differ from a start in one axis each, that is by the axis they differ in.
+/// Returns every grouping of the rows. The chosen one has the most groups that can be told apart.
+/// If every point differs from the start in one axis, the only grouping is by that axis.
 pub(crate) fn groupings(settings: &Settings, rows: &[&DesignRow]) -> Vec<Grouping> {
     let axes = 0..settings.names.len();
     let of_axis = |axis: usize| {

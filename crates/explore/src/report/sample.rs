@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Explorations that were never run, for tests of the page.
+//! Made-up explorations, for tests of the page.
 
 use foveate_estimate::{Area, ClockEstimate, LogicPath, Speed};
 use foveate_fidelity::{Figures, ScoreError, Staleness};
@@ -13,7 +13,7 @@ fn clock(mhz: f64) -> ClockEstimate {
     ClockEstimate { mhz, low_mhz, high_mhz, wiring_share: 0.65, path: LogicPath::default() }
 }
 
-/// Every design of a space with figures that follow from its settings.
+/// Returns an exploration with every design of a space, with figures that follow from its settings.
 pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
     let space = Space::from_toml(space).unwrap();
     let (points, refused) = space.points(224, 224);
@@ -57,7 +57,7 @@ pub(crate) fn exploration(space: &str, areas: bool) -> Exploration {
             figures: figures(flips, bits, (130.0 - level) / 200.0 + bits / 300.0 + fold / 90.0),
             bytes_per_frame: 196.0 + 6000.0 * bits * (0.2 + noise / 30.0),
             clocks_per_frame: clocks,
-            // As a synthesis would find it: the clock of each design.
+            // Each design has its own clock, as a synthesis would find it.
             speed: areas.then(|| Speed::estimated(&clock(40.0 + 2.0 * bits), clocks)),
             silicon: areas.then(|| Silicon {
                 unit: area(0.01),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Error against speed, area and bytes: every point of the exploration is a mark.
+//! The plots of error against speed, area and bytes, with a mark for every point of the
+//! exploration.
 
 use std::collections::BTreeMap;
 
@@ -9,7 +10,7 @@ use super::colour::Grouping;
 use crate::objective::{Better, Objective, speed, unbeaten};
 use crate::{DesignRow, Exploration};
 
-/// What a plot shows: two objectives, and the front of both.
+/// A plot of two objectives, with the front of both.
 struct Scatter {
     id: &'static str,
     title: &'static str,
@@ -21,12 +22,13 @@ struct Scatter {
 struct Measure {
     objective: Objective,
     title: String,
-    /// From the unit of the objective to that of the axis; positive, so that the order stays.
+    /// The factor from the unit of the objective to that of the axis; positive, so that the order
+    /// stays.
     scale: f64,
 }
 
 impl Measure {
-    /// An objective as the axis of a plot, in a unit that people use.
+    /// Creates the axis of an objective, in a unit that people use.
     fn of(objective: Objective, clock_mhz: Option<u32>) -> Self {
         let (title, scale) = match objective {
             Objective::Error => ("flipped actions, %".to_owned(), 100.0),
@@ -55,13 +57,13 @@ impl Measure {
         }
     }
 
-    /// Whether the better end of the axis is its low one.
+    /// Returns whether the better end of the axis is its low one.
     fn low(&self) -> bool {
         self.objective.better() == Better::Smaller
     }
 }
 
-/// Every plot of points, in order.
+/// Returns every plot of points, in order.
 pub(crate) fn plots(
     exploration: &Exploration,
     rows: &[&DesignRow],
@@ -98,7 +100,7 @@ impl Scatter {
             let title = titles[index].clone();
             marks.push(mark(row, index, (x, y), on_front[index], groupings, title));
         }
-        // What is drawn later lies above.
+        // Marks that are drawn later lie above the others.
         marks.sort_by_key(|mark| mark.front);
         stack(&mut marks);
         let path = staircase(&steps, self.x.low(), self.y.low());
@@ -121,7 +123,7 @@ impl Scatter {
     }
 }
 
-/// The mark of a row.
+/// Returns the mark of a row.
 fn mark(
     row: &DesignRow,
     index: usize,
@@ -147,7 +149,8 @@ fn mark(
     }
 }
 
-/// Marks of one place name each other, and those that look different become rings around each other.
+/// Adds to every mark the names of other marks at the same place. Marks with different looks become
+/// rings around each other.
 pub(crate) fn stack(marks: &mut [Mark]) {
     let place = |mark: &Mark| (mark.x.clone(), mark.y.clone());
     let mut at: BTreeMap<_, Vec<String>> = BTreeMap::new();
@@ -161,7 +164,7 @@ pub(crate) fn stack(marks: &mut [Mark]) {
         if others.is_empty() {
             continue;
         }
-        // As numbers: they have no zeros before them.
+        // Numbers without leading zeros sort by length and then by text.
         others.sort_unstable_by_key(|number| (number.len(), number.clone()));
         let named = &others[..others.len().min(12)];
         let more = if others.len() > named.len() { " and more" } else { "" };

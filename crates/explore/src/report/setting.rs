@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The settings of points as people read them.
+//! The settings of points in a readable form.
 
 use foveate_design::Config;
 use toml::{Table, Value};
@@ -8,17 +8,17 @@ use crate::point::START;
 use crate::space::plain;
 use crate::{DesignRow, Exploration};
 
-/// The axes of an exploration and the values of the start, as far as they can be known.
+/// The axes of an exploration, and the values of the start as far as they are known.
 pub(crate) struct Settings {
-    /// Keys as they are written in a configuration.
+    /// The keys, as in a configuration.
     pub(crate) keys: Vec<String>,
-    /// As short as they can be told apart.
+    /// The keys in the shortest form that can be told apart.
     pub(crate) names: Vec<String>,
-    /// What an axis is where a point does not set it.
+    /// The value of every axis in a point that does not set it.
     start: Vec<String>,
-    /// What it is in the ideal.
+    /// The value of every axis in the ideal camera.
     ideal: Vec<String>,
-    /// Whether there are several axes of which no point sets two.
+    /// Whether there are several axes and no point sets more than one.
     pub(crate) one_at_a_time: bool,
 }
 
@@ -38,18 +38,19 @@ impl Settings {
         Self { one_at_a_time: keys.len() > 1 && most == 1, keys, names, start, ideal }
     }
 
-    /// The value of an axis; that of the start where the point does not set it, empty if nobody knows.
+    /// Returns the value of an axis for a point: its setting, or the value of the start; empty if
+    /// it is unknown.
     pub(crate) fn value(&self, row: &DesignRow, axis: usize) -> String {
         let set = row.settings.get(axis).filter(|text| !text.is_empty()).cloned();
         set.or_else(|| self.start.get(axis).cloned()).unwrap_or_default()
     }
 
-    /// The value of an axis in the ideal, if it says.
+    /// Returns the value of an axis in the ideal camera, if it is known.
     pub(crate) fn ideal(&self, axis: usize) -> Option<&str> {
         self.ideal.get(axis).map(String::as_str).filter(|text| !text.is_empty())
     }
 
-    /// What a point sets, `name value`, apart from one axis.
+    /// Returns the settings of a point as `name value`, without one axis.
     pub(crate) fn described(&self, row: &DesignRow, without: Option<usize>) -> String {
         let set = row.settings.iter().enumerate();
         let set = set.filter(|(axis, text)| !text.is_empty() && Some(*axis) != without);
@@ -60,13 +61,13 @@ impl Settings {
     }
 }
 
-/// The axes that a point sets.
+/// Returns the numbers of the axes that a point sets.
 pub(crate) fn set(row: &DesignRow) -> impl Iterator<Item = usize> {
     let set = row.settings.iter().enumerate().filter(|(_, text)| !text.is_empty());
     set.map(|(axis, _)| axis)
 }
 
-/// The last part of a key, if no other key has it.
+/// Returns the last part of a key, or the whole key if another key has the same last part.
 fn short(key: &str, keys: &[String]) -> String {
     fn last(key: &str) -> &str {
         key.rsplit('.').next().unwrap_or(key)
@@ -75,7 +76,7 @@ fn short(key: &str, keys: &[String]) -> String {
     if same > 1 { key.to_owned() } else { last(key).replace('_', " ") }
 }
 
-/// The value of a dotted key; numbers lead into arrays.
+/// Returns the value of a dotted key; numbers index into arrays.
 fn value(table: &Table, key: &str) -> Option<String> {
     let mut parts = key.split('.');
     let mut found = table.get(parts.next()?)?;
@@ -89,13 +90,14 @@ fn value(table: &Table, key: &str) -> Option<String> {
     Some(plain(found))
 }
 
-/// A configuration with every default filled in; as it is if it is none.
+/// Fills in every default of a configuration; returns the text unchanged if it is not valid.
 fn complete(toml: &str) -> String {
     let design = Config::from_toml(toml).and_then(|config| config.validate());
     design.map_or_else(|_| toml.to_owned(), |design| design.config().to_toml())
 }
 
-/// The ideal camera in one line: its windows are those of the whole frame, whatever its neighborhood.
+/// Describes the ideal camera in one line. Its windows always see the whole frame, whatever its
+/// neighborhood.
 pub(crate) fn camera(toml: &str) -> String {
     let table = complete(toml).parse::<Table>().unwrap_or_default();
     let of = |key: &str| value(&table, key);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What was explored and what came out, in a few lines.
+//! The setup and the findings of an exploration in a few lines.
 
 use std::cmp::Ordering;
 
@@ -9,7 +9,7 @@ use foveate_pictures::page::number::{NONE, grouped, percent, real, things};
 use super::setting::Settings;
 use crate::{DesignRow, Exploration, objective};
 
-/// What the page is called.
+/// Returns the title of the page.
 pub(crate) fn title(exploration: &Exploration) -> String {
     let points = things(exploration.rows.len(), "design");
     match exploration.clips.as_slice() {
@@ -18,7 +18,7 @@ pub(crate) fn title(exploration: &Exploration) -> String {
     }
 }
 
-/// The names of the clips; of many the first.
+/// Returns the names of the first few clips.
 pub(crate) fn clips(exploration: &Exploration) -> String {
     const NAMED: usize = 4;
     let clips = &exploration.clips;
@@ -27,7 +27,7 @@ pub(crate) fn clips(exploration: &Exploration) -> String {
     names.join(", ") + more
 }
 
-/// The figures of the heading.
+/// Returns the figures of the heading.
 pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
     let Exploration { rows, refused, clips, axes, .. } = exploration;
     let frames = clips.iter().map(|clip| clip.frames).sum();
@@ -57,7 +57,7 @@ pub(crate) fn facts(exploration: &Exploration) -> Vec<Fact> {
     ]
 }
 
-/// The clock of the frame rates.
+/// Returns the clock of the frame rates.
 fn clock(exploration: &Exploration) -> Fact {
     let of_rows = || exploration.rows.iter().filter_map(|row| row.speed);
     let (value, note) = match (exploration.clock_mhz, of_rows().next()) {
@@ -75,7 +75,7 @@ fn clock(exploration: &Exploration) -> Fact {
     Fact { name: "Clock", value, note: note.to_owned() }
 }
 
-/// The ends of the front in words.
+/// Describes the ends of the front.
 pub(crate) fn findings(rows: &[DesignRow], settings: &Settings) -> Vec<String> {
     let front = || rows.iter().filter(|row| row.front.all);
     let by_error = |one: &&DesignRow, other: &&DesignRow| {

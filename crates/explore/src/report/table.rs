@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Points as rows of a table.
+//! The points as rows of a table.
 
 use foveate_estimate::ramb36;
 use foveate_pictures::page::number::real;
@@ -9,7 +9,7 @@ use super::setting::{Settings, set};
 use crate::row::real as number;
 use crate::{DesignRow, Silicon};
 
-/// Name, unit and meaning of every figure, as the table has them.
+/// The name, unit and meaning of every figure of the table.
 const FIGURES: [(&str, &str, &str); 8] = [
     ("flipped", "%", "regions that the ideal camera treats differently on the screen"),
     ("missed", "%", "share of the ideal camera's active area that is not active here"),
@@ -21,7 +21,7 @@ const FIGURES: [(&str, &str, &str); 8] = [
     ("bytes", "/frame", "bytes per frame that leave the array"),
 ];
 
-/// Name and meaning of every part of the area.
+/// The name, unit and meaning of every part of the area.
 const AREA: [(&str, &str, &str); 5] = [
     ("LUT", "unit", "LUTs of one RPU, of one lane of a serial design, or of a raster core"),
     ("LUT", "array", "LUTs of the array, those used as memory included"),
@@ -30,7 +30,7 @@ const AREA: [(&str, &str, &str); 5] = [
     ("RAMB36", "array", "block RAM of the array; half of one is a RAMB18"),
 ];
 
-/// The headings after the number; with `area` those of the area.
+/// Returns the headings after the number; with `area` also those of the area.
 pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
     let axis = |name: &str, title: &str| Column {
         name: name.to_owned(),
@@ -60,7 +60,7 @@ pub(crate) fn columns(settings: &Settings, area: bool) -> Vec<Column> {
         .collect()
 }
 
-/// The row of a point, with as many cells as there are headings.
+/// Returns the row of a point, with as many cells as there are headings.
 pub(crate) fn line(row: &DesignRow, settings: &Settings, area: bool) -> Row {
     let figures = &row.figures;
     let setting = |text: String, set: bool| {
@@ -112,7 +112,7 @@ pub(crate) fn line(row: &DesignRow, settings: &Settings, area: bool) -> Row {
     Row { id: row.number.to_string(), number: row.number as u64, best: row.front.all, cells }
 }
 
-/// Equal pictures have no PSNR and are the best.
+/// Formats a PSNR. Equal frames have no PSNR and are the best.
 pub(crate) fn decibels(psnr: Option<f64>) -> Cell {
     match psnr {
         Some(psnr) => Cell::number(real(psnr, 1), Some(psnr)),

@@ -5,7 +5,7 @@ use super::sample::exploration;
 use super::*;
 use crate::objective::mark_fronts;
 
-/// Two organizations, folds, bits and a threshold.
+/// A space with two organizations, and with folds, depths and a threshold that vary.
 const GRID: &str = r#"
 [ideal]
 region.neighborhood = "shared"
@@ -16,7 +16,7 @@ frame.pixel_bits = [8, 6, 4]
 spatial.0.level = [80, 90, 100, 110, 120]
 "#;
 
-/// The page as a tree; it is well-formed XML, so nothing can be open or escaped wrongly.
+/// Parses the page as XML, so that every element is closed and every character is escaped.
 fn tree(page: &str) -> Document<'_> {
     let options = ParsingOptions { allow_dtd: true, ..ParsingOptions::default() };
     Document::parse_with_options(page, options).unwrap()
@@ -108,7 +108,7 @@ fn nothing_is_loaded_from_elsewhere() {
     assert!(!page.contains("@import") && !page.contains("url("));
 }
 
-/// Explorations of which a picture is hard to draw.
+/// Returns explorations whose plots are hard to draw.
 fn hard() -> Vec<(&'static str, Exploration)> {
     let each = exploration(crate::BUILT_IN[0].toml, false);
     let one = exploration("", false);
@@ -173,7 +173,8 @@ fn pictures_have_numbers_whatever_the_data() {
     }
 }
 
-/// Where the better corner of each plot is: right or left, and down or up, as a reader sees it.
+/// The direction of the better corner of each plot as a reader sees it: right is 1 and left is -1;
+/// down is 1 and up is -1.
 const BETTER: [(&str, f64, f64); 4] = [
     ("plot-speed", 1.0, 1.0),
     ("plot-area", -1.0, 1.0),
@@ -200,7 +201,7 @@ fn large_marks_are_those_that_no_mark_beats_on_the_picture() {
         let best = marks.iter().filter(|mark| mark.2).count();
         assert!(best > 1 && best < marks.len(), "{id}: {best} of {}", marks.len());
         for (x, y, on_front) in &marks {
-            // Places are rounded to tenths, and may be equal though the figures are not.
+            // Positions are rounded to tenths, so they may be equal although the figures differ.
             let beaten = marks.iter().any(|(a, b, _)| *a > x + 0.11 && *b > y + 0.11);
             let not_above =
                 marks.iter().any(|(a, b, best)| *best && *a >= x - 0.11 && *b >= y - 0.11);
@@ -248,7 +249,8 @@ fn of_very_many_points_the_fronts_are_shown() {
     assert_eq!(rows.iter().filter(|row| row.front.all).count(), fronts);
 }
 
-/// Writes the samples to `FOVEATE_PAGES`, to look at them in a browser.
+/// Writes the samples to the folder `FOVEATE_PAGES`, so that a person can look at them in a
+/// browser.
 #[test]
 fn samples_can_be_looked_at() {
     let Some(folder) = std::env::var_os("FOVEATE_PAGES").map(std::path::PathBuf::from) else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How much is active as a threshold moves.
+//! Plots of the active share over a threshold.
 
 use std::collections::BTreeMap;
 
@@ -10,18 +10,19 @@ use super::scatter::stack;
 use super::setting::{Settings, set};
 use crate::DesignRow;
 
-/// Lines of a plot that can be told apart.
+/// The most lines of a plot, which can be told apart.
 const LINES: usize = 8;
 
-/// A line: points that differ in the threshold alone, by threshold.
+/// A line: points that differ only in the threshold, sorted by it.
 struct Sweep<'a> {
     points: Vec<(f64, &'a DesignRow, usize)>,
-    /// Other axes that are not those of the ideal, and those that are set.
+    /// The number of other set axes whose values differ from the ideal's, and the number of other
+    /// set axes.
     distance: (usize, usize),
     label: String,
 }
 
-/// A plot for every axis that is a threshold and takes several values.
+/// Returns a plot for every axis that is a threshold and has several values.
 pub(crate) fn plots(settings: &Settings, rows: &[&DesignRow], titles: &[String]) -> Vec<Plot> {
     let keys = settings.keys.iter().enumerate();
     let thresholds = keys.filter(|(_, key)| {
@@ -100,7 +101,7 @@ fn title(text: &str, axis: Axis) -> String {
     format!("{text}{}", if axis.logarithmic() { " (log)" } else { "" })
 }
 
-/// The lines of an axis; a point alone is none.
+/// Returns the lines of an axis, without single points.
 fn sweeps<'a>(settings: &Settings, rows: &[&'a DesignRow], axis: usize) -> Vec<Sweep<'a>> {
     let mut groups: BTreeMap<Vec<&str>, Sweep<'_>> = BTreeMap::new();
     for (index, row) in rows.iter().enumerate() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Explorations over scenes: what is written, what is kept, what is done again.
+//! Explorations over scenes: the files that are written, the results that are kept, and the results
+//! that are measured again.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -20,7 +21,7 @@ pub(crate) const SPACE: &str = "method = 'each'\n[design]\nframe.width = 48\nfra
      temporal.reference = 'last-sent'\n[vary]\nframe.pixel_bits = [8, 6, 3]\nregion.size = [16]\n\
      temporal.reference = ['previous']\ntemporal.min_count = [5, 10]\nhardware.organization = ['serial']\n";
 
-/// Counts frames, and cancels after so many.
+/// Counts frames, and cancels after some of them.
 pub(crate) struct Watch {
     pub(crate) frames: AtomicUsize,
     most: usize,
@@ -68,7 +69,8 @@ fn every_figure_is_in_its_file() {
     let output = folder.path().join("out");
     let found =
         run(SPACE, &["scene:street", "scene:shake"], &output, &Watch::new(usize::MAX)).unwrap();
-    // The start is also 8 bits and a count of 5; a serial array sees what the start sees.
+    // The start also has 8 bits and a count of 5, and a serial array computes the same as the
+    // start.
     assert_eq!(found.rows.len(), 7);
     let row = |what: &str| {
         found.rows.iter().find(|row| row.settings.iter().any(|value| value.contains(what))).unwrap()
@@ -98,7 +100,7 @@ fn every_figure_is_in_its_file() {
     assert!(parquet.starts_with(b"PAR1") && parquet.ends_with(b"PAR1"));
 }
 
-/// Each design is as fast as the clock of its own netlist says, unless the space gives a clock.
+/// Each design has the clock of its own netlist, unless the space gives a clock.
 #[test]
 fn a_point_has_the_clock_of_its_netlist() {
     if !require_tools(&[Tool::Yosys]) {
@@ -135,7 +137,7 @@ fn a_point_has_the_clock_of_its_netlist() {
     }
 }
 
-/// What a core on AXI takes is what stands in the tables, and not the array in it.
+/// The tables have the area of a core on AXI, and not that of the array in it.
 #[test]
 #[ignore = "`cli` synthesizes such a core in every run; scripts/release.sh runs it"]
 fn a_core_on_axi_is_counted_as_a_whole() {
@@ -164,7 +166,7 @@ fn a_core_on_axi_is_counted_as_a_whole() {
     assert!(silicon.array.lut_total > report.rcm.lut_total && report.rcm.lut_total > 0);
 }
 
-/// Every cell of a column of `points.parquet` as text.
+/// Returns every cell of a column of `points.parquet` as text.
 fn parquet_column(file: &Path, name: &str) -> Vec<String> {
     let reader = SerializedFileReader::new(fs::File::open(file).unwrap()).unwrap();
     let of = |row: parquet::record::Row| {
@@ -217,7 +219,7 @@ fn a_rerun_does_only_what_is_missing() {
 fn an_interrupted_run_keeps_what_is_finished() {
     let folder = tempfile::tempdir().unwrap();
     let output = folder.path().join("out");
-    // All of the first clip and some of the second.
+    // The run is stopped after all frames of the first clip and some of the second.
     let stopped = run(SPACE, &["scene:street", "scene:fade"], &output, &Watch::new(15));
     assert!(matches!(stopped, Err(ExploreError::Cancelled)), "{stopped:?}");
     assert_eq!(fs::read_dir(output.join("measured")).unwrap().count(), 6);
@@ -260,7 +262,8 @@ fn what_cannot_be_explored_is_refused_before_work() {
     assert!(!output.exists());
 }
 
-/// Thresholds that are left out are those of the depth, so that a camera of fewer bits goes on seeing.
+/// Thresholds that are left out follow the depth, so that a camera with fewer bits still sees
+/// changes.
 #[test]
 fn a_camera_of_any_depth_sees_about_as_much() {
     let folder = tempfile::tempdir().unwrap();
@@ -271,7 +274,7 @@ fn a_camera_of_any_depth_sees_about_as_much() {
         |bits: &str| found.rows.iter().find(|row| row.settings[0] == bits).unwrap().figures.active;
     for row in &found.rows {
         let share = row.figures.active;
-        // With 4 bits and fewer a level is as large as the changes of the scene.
+        // With 4 bits and fewer, one level is as large as the changes of the scene.
         if row.config.camera.frame.pixel_bits >= 5 {
             assert!((share / active("8") - 1.0).abs() < 0.05, "{} bits: {share}", row.settings[0]);
         }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fitting over scenes: the cheapest design that holds, honest when none does.
+//! Fits over scenes: the cheapest design that meets the limits, and a clear answer if none does.
 
 use std::path::{Path, PathBuf};
 
@@ -74,7 +74,8 @@ fn run_with(
     )
 }
 
-/// The cheapest design, or the smallest, that the denoiser cannot tell from whole frames of 48x32 pixels; `frames` of each part are looked at.
+/// Fits the cheapest design to the denoiser on frames of 48x32 pixels; the network sees `frames`
+/// frames of each part.
 fn fit_to_denoiser(
     input: &Path,
     frames: u32,
@@ -110,8 +111,8 @@ fn fit_to_denoiser(
     fit(&request, &Quiet).unwrap()
 }
 
-/// The denoiser's outputs of what the receiver sees are to be near those of whole frames, in bytes as few as there are; and if nothing can be as near,
-/// that is said.
+/// The denoiser's outputs behind the camera must be near those of whole frames, with as few bytes
+/// as possible. If no camera reaches that, the fit says so.
 #[test]
 fn a_network_cannot_tell_the_design_from_whole_frames() {
     if !require_tools(&[Tool::Yosys]) {
@@ -136,14 +137,15 @@ fn a_network_cannot_tell_the_design_from_whole_frames() {
     let agreed = near.network.as_ref().unwrap().fitted;
     assert!(agreed.share > agreed.expected && agreed.expected >= 0.97, "{agreed:?}");
     assert!(near.why.iter().any(|line| line.contains(": agreement ")), "{:?}", near.why);
-    // Two bits for each of 24 regions are all that fits.
+    // The limit of 8 bytes leaves room for little more than two bits for each of 24 regions.
     let none = fitted(0.9, Cheapest::Area, Some(8.0));
     assert!(!none.feasible);
     let held = |name| none.design.fitted_held.iter().find(|held| held.name == name).unwrap().holds;
     assert!(!held("max-bytes") || !held("min-agreement"), "{:?}", none.design.fitted_held);
 }
 
-/// Nothing moves in the frames that cameras are searched by. Later a square does, and a camera that sees no change of its size is not confirmed.
+/// The frames that cameras are searched by do not change. Later a square moves, and a camera that
+/// does not see a change of its size is not confirmed.
 #[test]
 fn a_camera_that_only_the_searched_frames_agree_with_is_not_confirmed() {
     if !require_tools(&[Tool::Yosys]) {
@@ -189,12 +191,12 @@ fn the_design_holds_what_was_asked_and_is_one() {
     assert_eq!(design.fitted.frames, 4);
     assert_eq!(design.held_out.frames, 4);
     assert!(design.speed.unwrap().frames_per_second >= 50.0);
-    // What is written is the design that was measured.
+    // The written configuration is the design that was measured.
     let read = Config::from_toml(&design.toml).unwrap().validate().unwrap();
     assert_eq!(read.timing().clocks_per_frame(), design.clocks_per_frame);
     assert_eq!(found.borne_out, design.held_out_held.iter().all(|held| held.holds));
     assert!(found.why.iter().any(|line| line.contains("regions")), "{:?}", found.why);
-    // A raster core has no unit of 200 LUTs, and the reader is told.
+    // A raster core has no unit of 200 LUTs, and the reasons say so.
     let raster = found.why.iter().find(|line| line.starts_with("raster, 1 pixel per clock"));
     assert!(raster.is_some_and(|line| line.contains("LUTs of a unit")), "{:?}", found.why);
 }
@@ -251,10 +253,10 @@ fn a_clip_must_have_halves_and_a_run_can_be_stopped() {
     assert!(matches!(stopped, ExploreError::Cancelled), "{stopped}");
 }
 
-/// Two objects in every frame, squares of 8 pixels in the lower corners, which are sent now and then.
+/// Two objects in every frame: squares of 8 pixels in the lower corners, which are sometimes sent.
 const BOXES: [[u32; 2]; 2] = [[0, 16], [24, 16]];
 
-/// Their recall by a design, counted in frames of the clip, the first of which does not count.
+/// Returns the recall of a design, counted over frames of the clip without its first frame.
 fn counted(design: &Design, frames: std::ops::Range<usize>) -> f64 {
     let options = InputOptions { frames: Some(8), ..InputOptions::default() };
     let mut source = open(&["scene:street"], design.camera().config(), &options).unwrap();
@@ -303,7 +305,7 @@ fn objects_are_counted_and_bind_where_they_are_lost() {
     assert!((0.01..1.0).contains(&recall(&found.design.fitted_held)), "it would show nothing");
     let lost = fitted(rows(1..=8), 1.0).unwrap();
     assert!(!lost.feasible && lost.binding == ["min-recall"], "{:?}", lost.binding);
-    // Frame 0 does not count, so there is nothing in the first half; and boxes of other frames do not fit.
+    // Frame 0 does not count, so the first half has no objects; boxes of other frames do not fit.
     for (text, part) in
         [(rows(1..=1), "first half"), (rows(5..=8), "first half"), (rows(9..=9), "frame 9")]
     {

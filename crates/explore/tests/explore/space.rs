@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Spaces as files say them.
+//! Spaces as files define them.
 
 use foveate_design::{Config, Decimal};
 use foveate_explore::{BUILT_IN, Space};
@@ -29,7 +29,7 @@ fn a_grid_has_every_combination_that_is_a_design() {
     assert!(configs.iter().all(|config| config.camera.frame.width == Some(64)));
 }
 
-/// 1,200 regions of 8x8 in a frame of 320x240, where the default frame has 784.
+/// A frame of 320x240 pixels has 1,200 regions of 8x8, and the default frame has 784.
 #[test]
 fn the_start_is_judged_with_the_size_of_the_clips() {
     let text = "[design]\nhardware.organization = 'serial'\nhardware.fold = 1200\n[vary]\nframe.pixel_bits = [8, 6]\n";
@@ -47,7 +47,7 @@ fn one_at_a_time_starts_from_the_start() {
     let (points, refused) = space.points(64, 48);
     let described: Vec<String> =
         points.iter().map(|point| space.described(&point.settings)).collect();
-    // A region of 4 is the start once more.
+    // The point with regions of 4 equals the start.
     assert_eq!(described, ["the start", "region.size = 8", "frame.pixel_bits = 5"]);
     assert!(refused.is_empty());
 }
@@ -75,7 +75,8 @@ fn thresholds_are_in_grey_levels_of_the_start() {
     let eighths = |value| Decimal::from_f64(value).unwrap();
     assert_eq!(of(&configs[1]), (12, 1, whole(5), eighths(0.625), eighths(0.78125)));
     assert_eq!(of(&configs[2]), (404, 36, whole(5), whole(20), whole(800)));
-    // Those that vary, too; and the ideal follows its own depth.
+    // Varied thresholds are also in grey levels of the start, and the ideal camera follows its own
+    // depth.
     let text = "[design]\nframe.pixel_bits = 6\ntemporal.level = 3\n[ideal]\nframe.pixel_bits = 8\n[vary]\nframe.pixel_bits = [6, 5]\ntemporal.level = [2, 10]\n";
     let levels: Vec<u32> =
         points(text).0.iter().map(|config| config.camera.temporal.level.unwrap()).collect();

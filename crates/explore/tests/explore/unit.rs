@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Explorations in units: together they are the exploration, byte for byte, in any order and more than once.
+//! Explorations in units: together they equal the exploration, byte for byte, in any order and more
+//! than once.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,7 +13,7 @@ use crate::explore::{SPACE, Watch, run};
 
 const CLIPS: [&str; 2] = ["scene:street", "scene:shake"];
 
-/// More designs than see a clip together, of which some look the same.
+/// Returns a space with more designs than see a clip together, of which some have equal cameras.
 fn large() -> String {
     let counts: Vec<String> = (1..=20).map(|count| count.to_string()).collect();
     format!(
@@ -43,7 +44,7 @@ fn only(
     with(space, inputs, |request| measure_unit(request, unit, output, watch))
 }
 
-/// Every file of a folder by its name, sorted.
+/// Returns every file of a folder by its name, sorted.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let file = |entry: fs::DirEntry| {
         (entry.file_name().into_string().unwrap(), fs::read(entry.path()).unwrap())
@@ -66,7 +67,7 @@ fn a_plan_has_every_clip_and_design_once_and_writes_nothing() {
     assert!(!output.exists());
     let seen: Vec<_> =
         found.iter().map(|unit| (unit.clip.as_str(), unit.combinations.len())).collect();
-    // 20 designs look different; arrays do not change what they see.
+    // There are 20 different cameras; the organization does not change what a camera sees.
     assert_eq!(seen, [("street", 16), ("street", 4), ("shake", 16), ("shake", 4)]);
     for unit in &found {
         assert_eq!(unit.inputs, [format!("scene:{}", unit.clip)]);
@@ -85,7 +86,7 @@ fn units_in_any_order_are_the_whole_run_byte_for_byte() {
     run(&large(), &CLIPS, &whole, &never_ends()).unwrap();
     for unit in units(&large(), &CLIPS, &apart).iter().rev() {
         let inputs: Vec<&str> = unit.inputs.iter().map(String::as_str).collect();
-        // By its name or by its line.
+        // Units are named by their name or by their line.
         let line = serde_json::to_string(unit).unwrap();
         let which = if unit.clip == "street" { &unit.unit } else { &line };
         let done = only(&large(), &inputs, which, &apart, &never_ends()).unwrap();
@@ -156,7 +157,8 @@ fn a_folder_of_something_else_is_refused_also_by_a_plan() {
     let output = folder.path().join("mine");
     let unit = units(SPACE, &CLIPS, &output).remove(0);
     fs::create_dir(&output).unwrap();
-    // Nor is what a killed worker left of the first file, and a folder that waits for the files of the units.
+    // The folder may hold a temporary file of a killed worker, and the folder that waits for the
+    // files of the units.
     fs::write(output.join(".foveate-killed"), "{").unwrap();
     fs::create_dir(output.join("units")).unwrap();
     assert_eq!(units(SPACE, &CLIPS, &output)[0], unit);
