@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong in a study. Every message names the thing and says what to do.
+//! The errors of studies. Every message names its subject and says what to do.
 
 use std::path::PathBuf;
 
@@ -11,7 +11,7 @@ use foveate_pictures::chart::ChartError;
 use foveate_staging::StagingError;
 use thiserror::Error;
 
-/// A study that cannot be started or finished; nothing is written then.
+/// An error that keeps a study from starting or finishing; nothing is written then.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum StudyError {
@@ -27,36 +27,36 @@ pub enum StudyError {
     /// The folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
-    /// Images without order in a study of change.
+    /// A study of change got a data set, whose frames have no order.
     #[error(
         "`{name}` is a set of unrelated images, in which nothing changes; the study {study} needs clips"
     )]
     Set {
-        /// The input.
+        /// The name of the input.
         name: String,
-        /// The study.
+        /// The name of the study.
         study: &'static str,
     },
-    /// The events of the sensor are missing.
+    /// The study `sensor` needs the events of a sensor.
     #[error(
         "the study `sensor` needs the events of a real sensor; name their file with --sensor-events"
     )]
     NoSensorEvents,
-    /// The study is about one recording.
+    /// The study `sensor` takes a single clip.
     #[error("the study `sensor` takes one clip, but {clips} are given")]
     OneClip {
-        /// How many there are.
+        /// The number of clips that were given.
         clips: usize,
     },
     /// The events of the sensor cannot be read.
     #[error("cannot read sensor events `{}`: {problem}; expected CSV with the columns t_us, x, y, sorted by time", path.display())]
     SensorEvents {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What is wrong.
+        /// The problem.
         problem: String,
     },
-    /// The recording is about another time than the clip.
+    /// No event of the recording falls into the time of the clip.
     #[error(
         "no event of `{}` falls into the time of the clip, which is {first} to {last} us with \
          --sensor-start {first}. The events are from {from} to {to} us; set --sensor-start to the \
@@ -64,38 +64,38 @@ pub enum StudyError {
         path.display()
     )]
     SensorTime {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// Time of the first frame on the clock of the events, in microseconds.
+        /// The time of the first frame on the clock of the events, in microseconds.
         first: u64,
-        /// That of the last.
+        /// The time of the last frame on this clock, in microseconds.
         last: u64,
-        /// Time of the first event.
+        /// The time of the first event, in microseconds.
         from: u64,
-        /// That of the last.
+        /// The time of the last event, in microseconds.
         to: u64,
     },
-    /// The boxes are missing.
+    /// The study `recall` needs ground-truth boxes.
     #[error(
         "the study `recall` needs ground-truth boxes of objects; name their file or folder with --boxes"
     )]
     NoBoxes,
-    /// Boxes that cannot be read, or that do not fit the clips.
+    /// The ground-truth boxes cannot be read, or do not fit the clips.
     #[error(transparent)]
     Boxes(#[from] BoxError),
-    /// There is nothing to look for.
+    /// There are no objects to count.
     #[error(
         "no object is to be counted in any frame after the first of `{clips}`; check --boxes, and take more \
          frames, or --images set for unrelated images"
     )]
     NoObjects {
-        /// The clips.
+        /// The names of the clips.
         clips: String,
     },
-    /// Charts cannot be drawn.
+    /// A chart cannot be drawn.
     #[error(transparent)]
     Chart(#[from] ChartError),
-    /// The user stopped it.
+    /// The user stopped the study.
     #[error("interrupted; nothing was written")]
     Cancelled,
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a study makes of what was seen: a table and charts, with notes on where they come from.
+//! The findings of a study: a table and charts, with notes about their origin.
 
 use foveate_pictures::chart::Chart;
 
@@ -7,12 +7,12 @@ use crate::study::Study;
 use crate::table::Table;
 use crate::watch::Watched;
 
-/// What a study makes of what was seen.
+/// The findings of a study.
 pub(crate) struct Findings {
     pub(crate) table: Table,
-    /// Fewer rows and columns, to be printed where the table is too large.
+    /// A smaller table, which is printed if the table is too large.
     pub(crate) shown: Option<Table>,
-    /// Tables beside it, with what follows the name of the study in the names of their files.
+    /// Further tables, each with the suffix that follows the study's name in its file name.
     pub(crate) more: Vec<(&'static str, Table)>,
     pub(crate) charts: Vec<Chart>,
     pub(crate) notes: Vec<String>,
@@ -20,7 +20,7 @@ pub(crate) struct Findings {
 }
 
 impl Findings {
-    /// Notes on the clips; charts are captioned with the first of them.
+    /// Creates findings with notes on the clips.
     pub(crate) fn new<T, G>(study: Study, watched: &[Watched<T, G>], table: Table) -> Self {
         let version = env!("CARGO_PKG_VERSION");
         let mut notes = vec![format!("foveate {version} analyze {}", study.name())];
@@ -43,9 +43,9 @@ impl Findings {
         Self { table, shown: None, more: Vec::new(), charts: Vec::new(), notes, problems }
     }
 
-    /// Adds a chart with its caption: the program, the first design, the inputs.
+    /// Adds a chart, with a caption that names the program, the first designs and the inputs.
     pub(crate) fn chart<T, G>(&mut self, mut chart: Chart, watched: &[Watched<T, G>]) {
-        // The first note, which every study has.
+        // The first note names the program; every study has it.
         let program = self.notes[0].clone();
         let mut designs: Vec<String> = watched
             .iter()

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The paper's studies as commands: activity over clips, redundancy of sets, and the effect of region
-//! size and thresholds, as CSV, SVG and PNG.
+//! The paper's studies as commands: activity over clips, redundancy of data sets, and the effect of
+//! region size and thresholds, as CSV, SVG and PNG.
 //!
-//! [`analyze`] runs a [`Study`] over inputs and writes a folder that appears complete or not at all.
-//! Every file names the design by its fingerprint and the inputs. Clips are decoded once and frame by
-//! frame for all points of a study, and the same inputs give the same bytes on any number of cores.
+//! [`analyze`] runs a [`Study`] over inputs and writes a folder that appears complete or not at
+//! all. Every file names the inputs, and the design by its fingerprint. Clips are decoded once,
+//! frame by frame, for all points of a study. The same inputs give the same bytes on any number of
+//! cores.
 
 mod error;
 mod findings;

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Shares as people and charts read them: integers until the last step, so that every machine writes the
-//! same digits.
+//! Shares as text and as coordinates of charts. They are integers until the last step, so that
+//! every machine writes the same digits.
 
-/// `part / whole` in millionths, rounded to the nearest; 0 of nothing.
+/// Returns `part / whole` in millionths, rounded to the nearest; 0 if `whole` is 0.
 fn millionths(part: u64, whole: u64) -> u32 {
     let whole = u128::from(whole.max(1));
     u32::try_from((u128::from(part) * 1_000_000 + whole / 2) / whole)
         .expect("a part is no more than the whole")
 }
 
-/// A share with six digits after the point.
+/// Formats a share with six digits after the decimal point.
 pub(crate) fn share(part: u64, whole: u64) -> String {
     let value = millionths(part, whole);
     format!("{}.{:06}", value / 1_000_000, value % 1_000_000)
 }
 
-/// A share in percent, for a chart.
+/// Returns a share in percent, for a chart.
 pub(crate) fn percent(part: u64, whole: u64) -> f64 {
     f64::from(millionths(part, whole)) / 1e4
 }
 
-/// A count as a coordinate; exact up to 2^32.
+/// Converts a count to a coordinate, exact up to 2^32.
 pub(crate) fn coordinate(value: u64) -> f64 {
     f64::from(u32::try_from(value).unwrap_or(u32::MAX))
 }
 
-/// How many regions say yes.
+/// Counts the regions with a vote.
 pub(crate) fn count(votes: &[bool]) -> u64 {
     votes.iter().map(|&vote| u64::from(vote)).sum()
 }

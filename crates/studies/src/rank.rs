@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Spearman's rank correlation.
 
-/// The correlation of the ranks of two series, -1..=1; equal values share the mean of their ranks.
-/// `None` when the series differ in length, or one of them has no two different values.
+/// Returns the correlation of the ranks of two series, -1..=1; equal values share the mean of their
+/// ranks. Returns `None` if the series differ in length, or if all values of one of them are equal.
 #[must_use]
 pub fn spearman(a: &[u64], b: &[u64]) -> Option<f64> {
     if a.len() != b.len() {
         return None;
     }
     let (a, b) = (doubled_ranks(a), doubled_ranks(b));
-    // Twice the ranks are integers, and so is their sum; the mean of n of them is n + 1.
+    // Doubled ranks are integers, and their sum is too; the mean of n doubled ranks is n + 1.
     let middle = i128::try_from(a.len()).ok()? + 1;
     let sum = |x: &[i128], y: &[i128]| -> i128 {
         x.iter().zip(y).map(|(x, y)| (x - middle) * (y - middle)).sum()
@@ -20,7 +20,7 @@ pub fn spearman(a: &[u64], b: &[u64]) -> Option<f64> {
     (own_a > 0 && own_b > 0).then_some(result)
 }
 
-/// Twice the rank of every value.
+/// Returns twice the rank of every value.
 fn doubled_ranks(values: &[u64]) -> Vec<i128> {
     let mut order: Vec<usize> = (0..values.len()).collect();
     order.sort_by_key(|&at| values[at]);

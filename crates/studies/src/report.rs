@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From a request to a folder.
+//! The run of a study: it takes a request and writes a folder.
 
 use std::path::{Path, PathBuf};
 
@@ -15,45 +15,48 @@ use crate::study::{Study, activity, histogram, recall, redundancy, sensor, sweep
 use crate::table::Table;
 use crate::watch::Watcher;
 
-/// What is studied.
+/// The request of a study.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
-    /// Which study.
+    /// The study.
     pub study: Study,
-    /// Clips and sets, one each; image files together are one clip.
+    /// The clips and data sets. Image files together are one clip; every other input is its own.
     pub inputs: &'a [PathBuf],
-    /// How they are read.
+    /// The options for reading them.
     pub input: &'a InputOptions,
     /// The design, which a study may vary.
     pub config: &'a Config,
-    /// For [`Study::Sensor`]: what the sensor sent, as CSV (`.gz` or not) with columns `t_us,x,y`.
+    /// The events of a real sensor for [`Study::Sensor`], as CSV (`.gz` or not) with the columns
+    /// `t_us,x,y`.
     pub sensor_events: Option<&'a Path>,
-    /// For [`Study::Sensor`]: the time of the first frame on the clock of the events.
+    /// The time of the first frame on the clock of the events in microseconds, for
+    /// [`Study::Sensor`].
     pub sensor_start_us: u64,
-    /// For [`Study::Recall`]: ground-truth boxes, one file or folder for all inputs, or one for each.
+    /// The ground-truth boxes for [`Study::Recall`]: one file or folder for all inputs, or one for
+    /// each.
     pub boxes: &'a [PathBuf],
 }
 
-/// What a study found, and the files that it left.
+/// The result of a study, and the files that it wrote.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct StudyReport {
-    /// Name of the study.
+    /// The name of the study.
     pub study: &'static str,
-    /// Names of the files.
+    /// The names of the files.
     pub files: Vec<String>,
-    /// Columns of the table.
+    /// The columns of the table.
     pub columns: Vec<&'static str>,
-    /// Its rows.
+    /// The rows of the table.
     pub rows: Vec<Vec<String>>,
-    /// Clips that ended before their end, and why.
+    /// The clips that ended early, with the reasons.
     pub problems: Vec<String>,
-    /// What is printed of a table that is too large.
+    /// A smaller table, which is printed if the table is too large.
     #[serde(skip)]
     shown: Option<Table>,
 }
 
 impl StudyReport {
-    /// The table as Markdown, or the most important of a large one.
+    /// Returns the table as Markdown, or the smaller table if the table is too large.
     #[must_use]
     pub fn markdown(&self) -> String {
         let whole = || Table { columns: self.columns.clone(), rows: self.rows.clone() };
@@ -64,8 +67,8 @@ impl StudyReport {
 /// Runs a study and writes `output`, which appears at the end.
 ///
 /// # Errors
-/// When an input cannot be read or does not fit the study, the folder cannot be written, or `hooks`
-/// cancels; nothing is written then.
+/// Fails if an input cannot be read or does not fit the study, the folder cannot be written, or
+/// `hooks` cancels; nothing is written then.
 pub fn analyze(
     request: &Request<'_>,
     output: &Path,
@@ -112,7 +115,7 @@ fn run(watcher: &Watcher<'_>, request: &Request<'_>) -> Result<Findings, StudyEr
     }
 }
 
-/// The folder that is written, and the only kind that it replaces.
+/// The kind of folder that a study writes, and the only kind that it replaces.
 pub const STUDY: FolderKind = FolderKind { what: "a study (its CSV)", is: is_study };
 
 fn is_study(folder: &Path) -> bool {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which studies there are.
+//! The studies.
 
 pub(crate) mod activity;
 pub(crate) mod histogram;
@@ -17,26 +17,26 @@ use crate::watch::Watched;
 /// A study.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Study {
-    /// Active, SRS and TRS share over time.
+    /// The active, SRS and TRS shares over time.
     Activity,
-    /// Shares over whole clips.
+    /// The shares over whole clips.
     Temporal,
-    /// Share of regions without relevance, per feature.
+    /// The share of irrelevant regions for each feature.
     Redundancy,
-    /// How the mean absolute deviation is distributed.
+    /// The distribution of the mean absolute deviation.
     MadHistogram,
-    /// Active share against the region size.
+    /// The active share over the region size.
     Size,
-    /// Active share against the thresholds.
+    /// The active share over the thresholds.
     Threshold,
-    /// Rank correlation with a real sensor's own events.
+    /// The rank correlation with the events of a real sensor.
     Sensor,
-    /// Share of objects whose regions are active, against bytes.
+    /// The share of objects whose regions are active, over bytes.
     Recall,
 }
 
 impl Study {
-    /// All of them, in the order of the documentation.
+    /// All studies, in the order of the documentation.
     pub const ALL: [Self; 8] = [
         Self::Activity,
         Self::Temporal,
@@ -48,7 +48,7 @@ impl Study {
         Self::Recall,
     ];
 
-    /// Its name on the command line and in files.
+    /// Returns the name on the command line and in files.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -64,7 +64,7 @@ impl Study {
     }
 }
 
-/// Refuses sets where change is studied.
+/// Refuses data sets in studies of change.
 fn clips_only<T>(study: Study, watched: &[Watched<T>]) -> Result<(), StudyError> {
     match watched.iter().find(|clip| clip.kind == Kind::Set) {
         Some(set) => Err(StudyError::Set { name: set.name.clone(), study: study.name() }),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tables as CSV for programs and Markdown for people.
+//! Tables as CSV for programs and as Markdown for people.
 
 use std::fmt::Write as _;
 
 use foveate_files::tables::plain;
 
-/// A table. Cells are text that is already rounded.
+/// A table whose cells are rounded text.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Table {
     pub(crate) columns: Vec<&'static str>,
@@ -17,8 +17,8 @@ impl Table {
         Self { columns: columns.to_vec(), rows: Vec::new() }
     }
 
-    /// CSV with `notes` in front, a comment line each; names are plain, so that readers that skip comments
-    /// leave them whole.
+    /// Returns the table as CSV. Each of the `notes` is a comment line before it. Special
+    /// characters of cells are escaped, so that readers that skip comments keep them whole.
     pub(crate) fn csv(&self, notes: &[String]) -> String {
         let mut text = String::new();
         for note in notes {
@@ -32,7 +32,7 @@ impl Table {
         text
     }
 
-    /// A Markdown table.
+    /// Returns the table as Markdown.
     pub(crate) fn markdown(&self) -> String {
         let mut text =
             format!("| {} |\n|{}\n", self.columns.join(" | "), " --- |".repeat(self.columns.len()));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums over the frames of a clip.
+//! The sums over the frames of a clip.
 
 use crate::number::count;
 use crate::watch::Seen;
 
-/// Regions of one frame, or of many.
+/// The numbers of regions in one frame, or in many.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Regions {
     pub(crate) all: u64,
@@ -25,13 +25,13 @@ impl Regions {
     }
 }
 
-/// A whole clip or set. Frame 0 of a clip has no reference, so that all of its regions have changed,
-/// which says nothing: it counts only in a clip that has no other.
+/// The sums over a whole clip or data set. Frame 0 of a clip has no reference, so all its regions
+/// count as changed. It counts only in a clip without other frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct RegionTally {
     sum: Regions,
     without_reference: Regions,
-    /// Active regions of the frame with the fewest and of the one with the most.
+    /// The smallest and the largest number of active regions of a frame.
     extremes: Option<(u64, u64)>,
 }
 

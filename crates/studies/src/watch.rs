@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clips through engines: every clip is decoded once, frame by frame, for all designs of a study.
-//! Clips run side by side in threads of their own, the engines of one clip in rayon's.
+//! The frame loop of the studies: every clip is decoded once, frame by frame, for all designs of a
+//! study. Clips run in parallel in their own threads, and the engines of one clip run in rayon's
+//! threads.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
@@ -13,20 +14,21 @@ use rayon::prelude::*;
 
 use crate::StudyError;
 
-/// What was seen of one clip: a value per design, and what its guide knows.
+/// The result of one clip: a value per design, and the guide of the clip.
 #[derive(Debug)]
 pub(crate) struct Watched<T, G = ()> {
     pub(crate) name: String,
     pub(crate) inputs: Vec<String>,
     pub(crate) kind: Kind,
     pub(crate) frames: u64,
-    /// Why it ended before its end, if it did.
+    /// The reason why the clip ended early, if it did.
     pub(crate) problem: Option<String>,
     pub(crate) points: Vec<(Design, T)>,
     pub(crate) guide: G,
 }
 
-/// Looks at every frame of a clip before the designs do, for what they have in common.
+/// A guide sees every frame of a clip before the designs do, and computes what is the same for all
+/// of them.
 pub(crate) trait Guide: Send + Sync {
     fn look(&mut self, frame: &SourceFrame, source: &dyn Source) -> Result<(), StudyError>;
 }
@@ -37,26 +39,27 @@ impl Guide for () {
     }
 }
 
-/// One frame as an engine saw it.
+/// A frame and the outcome of an engine for it.
 pub(crate) struct Seen<'a> {
-    /// The first of a clip, where every region counts as changed.
+    /// Whether this is the first frame of a clip, in which every region counts as changed.
     pub(crate) without_reference: bool,
     pub(crate) time_us: u64,
     pub(crate) outcome: &'a FrameOutcome,
 }
 
-/// The inputs of a study and its caller.
+/// The inputs of a study, and the hooks of its caller.
 pub(crate) struct Watcher<'a> {
     pub(crate) subjects: &'a [Subject],
-    /// Says how clips are opened: bits per pixel, size of scenes.
+    /// The configuration that determines how clips are opened: bits per pixel, and the size of
+    /// scenes.
     pub(crate) config: &'a Config,
     pub(crate) input: &'a InputOptions,
     pub(crate) hooks: &'a dyn BatchHooks,
 }
 
 impl Watcher<'_> {
-    /// Shows every clip to an engine of each configuration. `see` folds a frame into what `T` is.
-    /// The results are in the order of clips and configurations, whatever ran first.
+    /// Shows every clip to an engine of each configuration. `see` adds a frame to the value of a
+    /// design. The results are in the order of clips and configurations, on any number of threads.
     pub(crate) fn watch<T: Default + Send>(
         &self,
         configs: &[Config],
@@ -65,7 +68,8 @@ impl Watcher<'_> {
         self.watch_guided(configs, |_| (), |(), value, design, seen| see(value, design, seen))
     }
 
-    /// The same with a guide for every clip, by its number.
+    /// Shows every clip to an engine of each configuration, with a guide for every clip, which is
+    /// given by its number.
     pub(crate) fn watch_guided<T: Default + Send, G: Guide>(
         &self,
         configs: &[Config],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Active, SRS and TRS share over time, one line per clip.
+//! The active, SRS and TRS shares over time, with one line per clip.
 
 use std::slice::from_ref;
 
@@ -17,7 +17,7 @@ const COLUMNS: [&str; 6] = ["clip", "frame", "t_us", "active_share", "srs_share"
 
 type Series = Vec<(u64, Regions)>;
 
-/// A chart: its file, what it shows, and how to take that from a frame.
+/// A chart: its file name, the description of the regions, and their number in a frame.
 type View = (&'static str, &'static str, fn(&Regions) -> u64);
 
 const VIEWS: [View; 3] = [
@@ -45,7 +45,7 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     for (file, what, part) in VIEWS {
         let lines = watched.iter().map(|clip| Line {
             name: clip.name.clone(),
-            // Frame 0 has no reference: it would set the scale and says nothing.
+            // Frame 0 has no reference. It would set the scale of the axis and has no meaning.
             points: clip
                 .points
                 .iter()

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How the mean absolute deviation of regions is distributed, in 128 bins from 0 to half of full scale,
-//! which is its largest value; at 8 bits a bin is one grey level.
+//! The distribution of the mean absolute deviation (MAD) of regions, in 128 bins from 0 to half of
+//! full scale, which is the largest possible value. At 8 bits a bin is one grey level wide.
 
 use foveate_design::{Design, FeatureKind, SpatialConfig};
 use foveate_pictures::chart::{Chart, Line, Shape};
@@ -71,12 +71,13 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Grey levels per bin.
+/// Returns the width of a bin in grey levels.
 fn bin_width(design: &Design) -> f64 {
     coordinate(u64::from(design.pixel_max()) + 1) / 256.0
 }
 
-/// The bin of a score, which is MAD times the pixels of a region and the unit of the mean.
+/// Returns the bin of a score. The score is the MAD times the pixels of a region and the unit of
+/// the mean.
 fn bin(design: &Design, score: u64) -> usize {
     let feature = design.feature(FeatureKind::Mad);
     let fraction = feature.and_then(|mad| mad.mean()).map_or(0, |mean| mean.fraction_bits);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Spatial redundancy: the share of regions that a feature by itself calls irrelevant.
+//! Spatial redundancy: the share of regions that a single feature finds irrelevant.
 
 use foveate_design::{Config, FeatureKind, SpatialConfig};
 use foveate_pictures::chart::{Bars, Chart, Shape};
@@ -12,10 +12,10 @@ use crate::number::{percent, share};
 use crate::table::Table;
 use crate::watch::Watcher;
 
-/// Columns around those of the features.
+/// The columns before and after those of the features.
 const COLUMNS: ([&str; 3], [&str; 1]) = (["set", "images", "regions"], ["design"]);
 
-/// Regions, and those below the threshold of every feature.
+/// The number of regions, and of those below the threshold of every feature.
 #[derive(Default)]
 struct Below {
     all: u64,
@@ -68,7 +68,8 @@ pub(crate) fn run(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     Ok(findings)
 }
 
-/// Every feature that the organization takes, in the order of the columns, with the thresholds of the configuration or defaults.
+/// Returns the configuration with every feature that the organization has, in the order of the
+/// columns, with the thresholds of the configuration or their defaults.
 fn with_every_feature(config: &Config) -> Config {
     let organization = config.hardware.organization;
     let entry = |&kind: &FeatureKind| {

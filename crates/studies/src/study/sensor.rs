@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether regions are active where a real event sensor saw something: the rank correlation, over
-//! regions, of what the model counts with the events that the sensor itself sent meanwhile.
+//! The correlation of the model with a real event sensor: the rank correlation, over regions, of
+//! the model's counts with the numbers of events that the sensor sent at the same time.
 
 use std::fs::File;
 use std::io::Read;
@@ -21,7 +21,7 @@ use crate::watch::Watcher;
 
 const COLUMNS: [&str; 5] = ["count_per_region", "spearman", "regions", "sensor_events", "design"];
 
-/// Counts per region over all frames but the first, which has no reference.
+/// The counts per region over all frames but the first, which has no reference.
 #[derive(Default)]
 struct Counts {
     active: Vec<u64>,
@@ -30,7 +30,8 @@ struct Counts {
     last_us: u64,
 }
 
-/// `start` is the time of the first frame on the clock of the events.
+/// Runs the study. `start` is the time of the first frame on the clock of the events, in
+/// microseconds.
 pub(crate) fn run(
     watcher: &Watcher<'_>,
     events: Option<&Path>,
@@ -88,18 +89,18 @@ struct Event {
     y: u64,
 }
 
-/// What a recording holds for a clip.
+/// The events of a recording that belong to a clip.
 struct Recorded {
-    /// Events of every region, in rows.
+    /// The number of events of every region, in row-major order.
     per_region: Vec<u64>,
-    /// Times of the first and the last event of the recording.
+    /// The times of the first and the last event of the recording, in microseconds.
     times: Option<(u64, u64)>,
-    /// Whether any event was meanwhile, inside of the frame or not.
+    /// Whether some event falls into the time of the clip, inside of the frame or not.
     meanwhile: bool,
 }
 
 impl Recorded {
-    /// The events of every region; an error where there is nothing to compare with.
+    /// Returns the number of events of every region. Fails if no event belongs to the clip.
     fn compared(
         self,
         path: &Path,
@@ -122,8 +123,8 @@ impl Recorded {
     }
 }
 
-/// Reads a recording: events with first < t <= last count for their region; those outside the frame do
-/// not.
+/// Reads a recording. Events with first < t <= last count for their region, unless they are outside
+/// of the frame.
 fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recorded, StudyError> {
     let wrong = |problem: String| StudyError::SensorEvents { path: path.to_owned(), problem };
     let file = File::open(path).map_err(|error| wrong(error.to_string()))?;
@@ -152,7 +153,7 @@ fn read(path: &Path, design: &Design, (first, last): (u64, u64)) -> Result<Recor
     Ok(recorded)
 }
 
-/// What is wrong, and in which line.
+/// Returns the problem, with the number of its line.
 fn said(error: &csv::Error) -> String {
     match (error.kind(), error.position()) {
         (ErrorKind::Deserialize { err, .. }, Some(place)) => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Active share against one number of the design: region size, and each threshold by itself.
+//! The active share over one setting of the design: the region size, or each threshold by itself.
 
 use foveate_design::{Config, Decimal, FeatureKind, Measure};
 use foveate_footage::Kind;
@@ -20,14 +20,14 @@ const COUNTS: [u64; 9] = [1, 2, 3, 5, 8, 13, 21, 34, 55];
 const LEVELS: [u64; 10] = [0, 1, 2, 4, 6, 8, 12, 16, 24, 32];
 const SQUARES: [u64; 9] = [1, 5, 10, 25, 50, 100, 200, 400, 800];
 
-/// One number and the values that it takes.
+/// A key of the configuration, and its values.
 pub(super) struct Key {
     pub(super) name: String,
-    /// What it means, with its unit, for the axis.
+    /// The title of the axis: the meaning of the key, with its unit.
     axis: String,
-    /// Of the charts.
+    /// The file name of the charts.
     file: &'static str,
-    /// Whether it is about change, of which a set has none.
+    /// Whether the key is about change, which a data set does not have.
     pub(super) temporal: bool,
     pub(super) points: Vec<(u64, Config)>,
 }
@@ -40,7 +40,7 @@ pub(crate) fn threshold(watcher: &Watcher<'_>) -> Result<Findings, StudyError> {
     run(Study::Threshold, watcher, &thresholds(watcher.config))
 }
 
-/// Each threshold by itself.
+/// Returns the keys of the three thresholds.
 pub(super) fn thresholds(config: &Config) -> [Key; 3] {
     [min_score(config), level(config), min_count(config)]
 }
@@ -50,7 +50,7 @@ pub(super) fn region_size(config: &Config) -> Key {
         let mut other = config.clone();
         other.camera.region.size = size;
         if size != config.camera.region.size {
-            // Fewer regions may not fill the lanes, and how many share one changes no result.
+            // Fewer regions may not fill the lanes; the fold does not change any result.
             other.hardware.fold = 1;
         }
         (u64::from(size), other)
@@ -64,7 +64,7 @@ pub(super) fn region_size(config: &Config) -> Key {
     }
 }
 
-/// Of the first feature; the others keep theirs.
+/// Varies the minimum score of the first feature; the other features keep theirs.
 fn min_score(config: &Config) -> Key {
     let n = pixels(config);
     let kind = config.camera.spatial.first().map_or(FeatureKind::default(), |entry| entry.feature);
@@ -92,7 +92,7 @@ fn level(config: &Config) -> Key {
         config.camera.temporal.level = Some(u32::try_from(value).expect("at most a pixel"));
         (value, config)
     };
-    // A level of the largest pixel or more is no design: nothing differs by more.
+    // A level of the largest pixel value or more is not valid, because no pixel differs by more.
     let max = (1_u64 << config.camera.frame.pixel_bits.min(16)) - 1;
     let reachable = scaled(&LEVELS, config).into_iter().filter(|&value| value < max);
     Key {
@@ -127,7 +127,8 @@ fn within(values: &[u64], most: u64) -> Vec<u64> {
     values.iter().copied().filter(|&value| value <= most).collect()
 }
 
-/// Grey levels of 8 bits, in those of the design; few bits leave few of them.
+/// Converts grey levels of 8 bits to those of the design, and leaves out values above the largest
+/// pixel.
 fn scaled(values: &[u64], config: &Config) -> Vec<u64> {
     let bits = config.camera.frame.pixel_bits;
     let max = (1_u64 << bits.min(16)) - 1;
@@ -138,7 +139,7 @@ fn scaled(values: &[u64], config: &Config) -> Vec<u64> {
 }
 
 fn run(study: Study, watcher: &Watcher<'_>, keys: &[Key]) -> Result<Findings, StudyError> {
-    // The design as it is comes first, for the notes.
+    // The unchanged design comes first, for the notes.
     let points = keys.iter().flat_map(|key| key.points.iter().map(|(_, config)| config.clone()));
     let configs: Vec<Config> = std::iter::once(watcher.config.clone()).chain(points).collect();
     let watched = watcher.watch(&configs, |tally: &mut RegionTally, _, seen| tally.add(seen))?;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Shares over whole clips: a row per clip.
+//! The shares over whole clips, with a row per clip.
 
 use std::slice::from_ref;
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Inputs that do not fit a study, that end early, or that are a sensor's recording.
+//! Inputs that do not fit a study or end early, and recordings of a sensor.
 
 use std::fs;
 
@@ -48,7 +48,7 @@ fn sets_have_no_change_to_study() {
 #[test]
 fn a_sensor_that_sees_the_same_correlates_fully() {
     let dir = tempfile::tempdir().unwrap();
-    // The region on the left changes in every frame, the middle one once, the right one never.
+    // The region on the left changes in every frame, the middle one once, and the right one never.
     for (frame, values) in [[0, 0, 0], [200, 200, 0], [0, 200, 0], [200, 200, 0]].iter().enumerate()
     {
         let row: Vec<u8> = values.iter().flat_map(|&value| [value; 8]).collect();
@@ -70,10 +70,10 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     };
     let out = dir.path().join("out");
     let report = analyze(&request, &out, true, &Silent).unwrap();
-    // What comes before the first frame and after the last is left out.
+    // Events before the first frame and after the last are left out.
     assert_eq!(cells(&report, "sensor_events"), ["3"; 3]);
     assert_eq!(cells(&report, "spearman"), ["undefined", "1.0000", "1.0000"]);
-    // A start on another clock, no event at all, and none inside of the frame.
+    // The recordings below have another clock, no event, or no event inside of the frame.
     let late = Request { sensor_start_us: 5_000_000, ..request.clone() };
     let refused = analyze(&late, &out, true, &Silent).unwrap_err().to_string();
     for part in ["events.csv", "5000000 to 5100000 us", "from 500 to 900000 us", "--sensor-start"] {
@@ -91,7 +91,7 @@ fn a_sensor_that_sees_the_same_correlates_fully() {
     assert!(refused.contains("line 2") && refused.contains("events.csv"), "{refused}");
 }
 
-/// Stops at once.
+/// Hooks that cancel at once.
 struct Stopped;
 
 impl BatchHooks for Stopped {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every study over small scenes whose answers are known.
+//! Every study over small scenes with known results.
 
 use std::fs;
 
@@ -12,8 +12,8 @@ fn the_temporal_table_of_known_scenes_is_golden() {
     let dir = tempfile::tempdir().unwrap();
     let out = dir.path().join("out");
     let config = config("region.size=8");
-    // Independent pixels are always active. A frame of one grey level is never relevant, and a fade
-    // of one level per frame never changes, however far it goes.
+    // Independent pixels are always active. A frame of one grey level is never relevant. A fade of
+    // one level per frame never changes, however long it lasts.
     let report =
         run(Study::Temporal, &["scene:random", "scene:zero", "scene:fade"], &config, &out).unwrap();
     assert_eq!(report.files, ["temporal.csv", "temporal.svg", "temporal.png"]);
@@ -61,7 +61,7 @@ fn redundancy_and_histogram_of_plain_and_striped_frames() {
     assert_eq!(cells(&report, "edge")[0], "1.000000");
     let report = run(Study::MadHistogram, &inputs, &config, &out).unwrap();
     let full: Vec<&Vec<String>> = report.rows.iter().filter(|row| row[4] == "1.000000").collect();
-    // Half of the pixels at 0, half at 255: the deviation is 127.5.
+    // Half of the pixels are 0 and half are 255, so the deviation is 127.5.
     assert_eq!(full.len(), 2);
     assert_eq!((full[0][0].as_str(), full[0][1].as_str()), ("zero", "0"));
     assert_eq!((full[1][0].as_str(), full[1][1].as_str()), ("checkerboard", "127"));
@@ -78,7 +78,7 @@ fn sweeps_vary_one_number_and_keep_the_rest() {
         let wanted = |row: &&Vec<String>| row[0] == clip && row[1] == key && row[2] == value;
         report.rows.iter().find(wanted).unwrap()[5].clone()
     };
-    // Flicker is one level: more than 0, not more than 1.
+    // The flicker is one level: more than 0, and not more than 1.
     assert_eq!(share("flicker", "temporal.level", "0"), "1.000000");
     assert_eq!(share("flicker", "temporal.level", "1"), "0.000000");
     assert_eq!(share("random", "temporal.min_count", "1"), "1.000000");
@@ -111,7 +111,7 @@ fn charts_are_well_formed_labelled_and_the_same_every_time() {
     }
 }
 
-/// Real clips, where the environment variable FOVEATE_DATA names their folder.
+/// The real clips are in the folder that the environment variable FOVEATE_DATA names.
 #[test]
 fn real_clips_are_studied() {
     let Some(data) = foveate_toolchain::testing::data_folder() else { return };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The charts of the study, of all clips together: recall against bytes, and recall by class.
+//! The charts of the study over all clips: recall over bytes, and recall by class.
 
 use foveate_pictures::chart::{Bars, Chart, Line, Shape};
 use foveate_pictures::palette::SERIES;
@@ -8,11 +8,11 @@ use super::class::{CLASSES, UNKNOWN};
 use super::{Key, PointResult};
 use crate::number::{coordinate, percent};
 
-/// Names of the levels of a count, in its order.
+/// The names of the levels of `Shares::at_least`, in their order.
 const LEVELS: [&str; 3] = ["at least a quarter", "at least half", "all"];
 const HALF: usize = 1;
 
-/// Groups with a chart, and what their classes are of.
+/// The groups that have a chart, each with the title of its axis.
 const GROUPS: [(&str, &str); 3] = [
     ("size", "size: below 32², below 96², above [pixels]"),
     ("speed", "speed: below 0.5, below 2, below 8, above [pixels per frame]"),
@@ -28,7 +28,7 @@ pub(super) fn all(keys: &[Key], results: &[PointResult]) -> Vec<Chart> {
     std::iter::once(against_bytes(keys, &together)).chain(by_class).collect()
 }
 
-/// A line for every number that is varied.
+/// Draws a line for every setting that is varied.
 fn against_bytes(keys: &[Key], together: &[&PointResult]) -> Chart {
     let mut first = 1;
     let mut lines = Vec::new();
@@ -56,7 +56,8 @@ fn against_bytes(keys: &[Key], together: &[&PointResult]) -> Chart {
     }
 }
 
-/// Recall of every class of a group that has an object, unless nothing is known.
+/// Draws the recall of every class of a group that has an object, unless all its objects are of the
+/// unknown class.
 fn bars(own: &PointResult, (group, axis): (&str, &str)) -> Option<Chart> {
     let classes = CLASSES.iter().enumerate().filter(|(_, class)| class.0 == group);
     let counted = classes.map(|(at, class)| (class.1, own.sums.count(at)));
@@ -75,7 +76,7 @@ fn bars(own: &PointResult, (group, axis): (&str, &str)) -> Option<Chart> {
         y: "share of objects [%]".to_owned(),
         caption: String::new(),
         shape: Shape::Bars {
-            // A share of few objects says little.
+            // A share of few objects is uncertain, so the labels give their number.
             groups: counted.iter().map(|(name, c)| format!("{name} (n = {})", c.objects)).collect(),
             series: LEVELS.iter().enumerate().map(series).collect(),
         },

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Classes of objects: by size as COCO has them, by speed, and by contrast.
+//! The classes of objects: by size, with the limits of COCO, by speed, and by contrast.
 
 use foveate_frame::Rect;
 
-/// Group and name of every class. The first holds every object, the others those of one kind.
+/// The group and name of every class. The first class holds every object.
 pub(super) const CLASSES: [(&str, &str); 13] = [
     (ALL, "all"),
     ("size", "small"),
@@ -21,17 +21,18 @@ pub(super) const CLASSES: [(&str, &str); 13] = [
 ];
 /// The group of the class that holds every object.
 pub(super) const ALL: &str = "all";
-/// The class of objects of which a group says nothing.
+/// The class of the objects whose speed or contrast is unknown.
 pub(super) const UNKNOWN: &str = "unknown";
 
-/// Areas from which an object is medium and large, in pixels of the frame that is seen.
+/// The least areas of medium and large objects, in pixels of the frame that the camera sees.
 const AREAS: [f64; 2] = [32.0 * 32.0, 96.0 * 96.0];
-/// Pixels per frame from which an object is slow, medium and fast.
+/// The least speeds of slow, medium and fast objects, in pixels per frame.
 const SPEEDS: [f64; 3] = [0.5, 2.0, 8.0];
-/// Grey levels of 8 bits from which contrast is medium and high.
+/// The least contrasts of medium and high contrast, in grey levels of 8 bits.
 const CONTRASTS: [f64; 2] = [8.0, 32.0];
 
-/// The classes of an object, as places in [`CLASSES`]. What is not known has a class of its own.
+/// Returns the classes of an object, as indices into [`CLASSES`]. An unknown speed or contrast has
+/// its own class.
 pub(super) fn classes_of(rect: &Rect, speed: Option<f64>, contrast: Option<f64>) -> [usize; 4] {
     let size = 1 + steps(rect.area(), &AREAS);
     let speed = 4 + speed.map_or(SPEEDS.len() + 1, |speed| steps(speed, &SPEEDS));
@@ -39,7 +40,7 @@ pub(super) fn classes_of(rect: &Rect, speed: Option<f64>, contrast: Option<f64>)
     [0, size, speed, contrast]
 }
 
-/// How many of the limits a value reaches.
+/// Counts the limits that a value reaches.
 fn steps(value: f64, limits: &[f64]) -> usize {
     limits.iter().filter(|limit| value >= **limit).count()
 }

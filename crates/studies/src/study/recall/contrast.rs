@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far an object stands out: the mean of the pixels in its box against the mean of a ring around it.
+//! The contrast of an object: the mean of the pixels in its box against the mean of a ring around
+//! it.
 
 use foveate_frame::Raster;
 use foveate_frame::Rect;
 
-/// Sums of all pixels above and to the left of every corner, so that any mean takes four of them.
+/// The summed-area table of a frame: the sum of all pixels above and to the left of every corner.
+/// The sum of any rectangle takes four of its entries.
 pub(super) struct Sums {
     width: u32,
     height: u32,
@@ -13,7 +15,7 @@ pub(super) struct Sums {
     sums: Vec<u64>,
 }
 
-/// Whole pixels, from the first to before the last.
+/// A rectangle of whole pixels; `x1` and `y1` are not part of it.
 #[derive(Clone, Copy)]
 struct Part {
     x0: u32,
@@ -45,8 +47,9 @@ impl Sums {
         Self { width, height, max: (1 << frame.bits()) - 1, sums }
     }
 
-    /// The difference of the means in grey levels of 8 bits. The ring is a quarter of the shorter side wide, at
-    /// least a pixel, and ends at the frame. `None` if nothing is left of it.
+    /// Returns the difference of the means in grey levels of 8 bits. The ring is a quarter of the
+    /// shorter side wide, at least one pixel, and ends at the border of the frame. Returns `None`
+    /// if the ring is empty.
     pub(super) fn contrast(&self, rect: &Rect) -> Option<f64> {
         let (x0, x1) = pixels(rect.x0, rect.x1, self.width);
         let (y0, y1) = pixels(rect.y0, rect.y1, self.height);
@@ -78,7 +81,8 @@ fn mean(sum: u64, count: u64) -> f64 {
     sum as f64 / count as f64
 }
 
-/// The pixels of a side, rounded, but at least one, in a frame of this size.
+/// Rounds the ends of a side to whole pixels within a frame of `size` pixels; the side has at least
+/// one pixel.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the frame")]
 fn pixels(from: f64, to: f64, size: u32) -> (u32, u32) {
     let first = (from.round() as u32).min(size - 1);
@@ -89,7 +93,7 @@ fn pixels(from: f64, to: f64, size: u32) -> (u32, u32) {
 mod tests {
     use super::*;
 
-    /// The same from the pixels themselves.
+    /// Computes the contrast from the pixels themselves.
     fn naive(frame: &Raster, [x0, y0, x1, y1]: [u32; 4], wide: u32) -> f64 {
         let (mut inside, mut ring) = ((0, 0), (0, 0));
         for y in y0.saturating_sub(wide)..(y1 + wide).min(frame.height()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How many objects a design sends, in whole and in part, over the frames of a clip.
+//! The numbers of objects that a design sends, in whole and in part, over the frames of a clip.
 
 use std::collections::BTreeMap;
 
@@ -10,48 +10,51 @@ use super::class::CLASSES;
 use super::truth::{Object, Truth};
 use crate::watch::Seen;
 
-/// Objects of one class by how many of their regions say yes.
+/// The numbers of objects of one class by the share of their regions that have a vote.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Shares {
-    /// None of their regions.
+    /// The number of objects without such a region.
     pub(super) none: u64,
-    /// At least a quarter, a half, all.
+    /// The numbers of objects with at least a quarter, at least half, and all of their regions.
     pub(super) at_least: [u64; 3],
 }
 
-/// Objects of one class.
+/// The counts of the objects of one class.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Count {
     pub(super) objects: u64,
-    /// Of which regions are active.
+    /// The objects by their active regions.
     pub(super) active: Shares,
-    /// Of which regions are relevant (SRS), sent or not.
+    /// The objects by their relevant regions (SRS), sent or not.
     pub(super) relevant: Shares,
 }
 
-/// One object over the frames that count.
+/// The counts of one object over the frames that count.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Track {
     pub(super) frames: u64,
-    /// Frames in which some regions, a quarter, a half, all of them are active.
+    /// The number of frames in which some of its regions are active; `at_least` has the frames with
+    /// at least a quarter, at least half, and all of them.
     pub(super) some: u64,
     pub(super) at_least: [u64; 3],
-    /// Frames since at least half was active, and the most there have been.
+    /// The number of frames since at least half of its regions were active; `longest_gap` is the
+    /// largest such number.
     gap: u64,
     pub(super) longest_gap: u64,
 }
 
-/// Sums over frames.
+/// The sums over frames.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Sums {
     frames: u64,
     bits: u64,
-    /// One per class.
+    /// The counts, one per class.
     counts: Vec<Count>,
     pub(super) tracks: BTreeMap<u64, Track>,
 }
 
-/// What a design makes of a clip. Frame 0 has no reference: it counts only in a clip that has no other.
+/// The sums of a design over a clip. Frame 0 has no reference, so it counts only in a clip without
+/// other frames.
 #[derive(Default)]
 pub(super) struct ObjectTally {
     first: Sums,
@@ -92,7 +95,7 @@ impl Sums {
         }
     }
 
-    /// Adds another clip. Its tracks are other objects, so they are not kept.
+    /// Adds another clip without its tracks, because they are other objects.
     pub(super) fn merge(&mut self, other: &Self) {
         self.frames += other.frames;
         self.bits += other.bits;
@@ -108,7 +111,7 @@ impl Sums {
         self.counts.get(class).copied().unwrap_or_default()
     }
 
-    /// Bytes per frame, rounded to the nearest.
+    /// Returns the bytes per frame, rounded to the nearest.
     pub(super) fn bytes(&self) -> u64 {
         let eighths = 8 * self.frames.max(1);
         (self.bits + eighths / 2) / eighths
@@ -138,7 +141,7 @@ impl Track {
     }
 }
 
-/// Whether that is a quarter, a half, all of the regions.
+/// Returns whether `yes` regions are at least a quarter, at least half, and all of them.
 fn levels(yes: u64, regions: u64) -> [bool; 3] {
     [4 * yes >= regions, 2 * yes >= regions, yes == regions]
 }
@@ -147,7 +150,8 @@ fn add(sums: &mut [u64; 3], more: [u64; 3]) {
     sums.iter_mut().zip(more).for_each(|(sum, more)| *sum += more);
 }
 
-/// Tracks as objects: what each had at least once.
+/// Counts tracks as objects by what each reached in at least one frame, and returns the longest gap
+/// of all tracks.
 pub(super) fn once<'a>(tracks: impl Iterator<Item = &'a Track>) -> (Count, Option<u64>) {
     let (mut count, mut longest) = (Count::default(), None);
     for track in tracks {

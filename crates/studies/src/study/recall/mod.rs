@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether objects survive: of how many ground-truth boxes a design sends some regions, a quarter, half, or all,
-//! by size, speed and contrast, and what that costs in bytes, over thresholds and region sizes.
+//! The recall of objects: the share of ground-truth boxes of which a design sends some regions, a
+//! quarter, half, or all, by size, speed and contrast, and its cost in bytes, over thresholds and
+//! region sizes.
 
 mod charts;
 mod class;
@@ -25,27 +26,27 @@ use crate::watch::{Watched, Watcher};
 use count::{Count, ObjectTally, Sums, once};
 use truth::Truth;
 
-/// A clip with what every design made of it.
+/// A clip with the counts of every design.
 type Seen = Watched<ObjectTally, Truth>;
 
-/// A design of the study.
+/// A point of the study: a design.
 struct Point {
-    /// The number of the design that is varied, or that none is.
+    /// The key of the configuration that is varied, or `design` for the unchanged design.
     key: String,
     value: String,
-    /// Whether it is about change, of which a set has none.
+    /// Whether the key is about change, which a data set does not have.
     temporal: bool,
 }
 
-/// What one design makes of one clip, or of all together.
+/// The result of one design over one clip, or over all clips.
 struct PointResult {
     clip: String,
     /// The number of its point.
     point: usize,
     sums: Sums,
-    /// Tracks by what they had at least once, and the longest gap of any.
+    /// The tracks by what they reached in at least one frame, and the longest gap of all tracks.
     tracks: (Count, Option<u64>),
-    /// Empty where clips of different sizes are different designs.
+    /// The fingerprint of the design; empty if clips of different sizes give different designs.
     design: String,
 }
 
@@ -77,17 +78,19 @@ pub(crate) fn run(watcher: &Watcher<'_>, files: &[PathBuf]) -> Result<Findings, 
     Ok(findings)
 }
 
-/// What is varied. Values that are no design, such as a count above the pixels of a small region, are left out.
+/// Returns the keys that are varied. Invalid values, such as a count above the pixels of a small
+/// region, are left out.
 fn keys(config: &Config) -> Vec<Key> {
     let mut keys: Vec<Key> = thresholds(config).into_iter().chain([region_size(config)]).collect();
     for key in &mut keys {
-        // What computes it depends on the size of the frame, which is not known yet.
+        // Only the camera is checked, because the hardware depends on the frame size, which is not
+        // known yet.
         key.points.retain(|(_, config)| config.camera.validate().is_ok());
     }
     keys
 }
 
-/// Refuses boxes that have nothing to do with a clip, and clips without anything to look for.
+/// Refuses boxes that do not belong to their clip, and clips without objects.
 fn check(watched: &[Seen]) -> Result<(), StudyError> {
     for clip in watched {
         clip.guide.check(&clip.name)?;
@@ -100,7 +103,7 @@ fn check(watched: &[Seen]) -> Result<(), StudyError> {
     Err(StudyError::NoObjects { clips: names.join(", ") })
 }
 
-/// The design as it is, and every value of every key.
+/// Returns the unchanged design, and every value of every key.
 fn points(keys: &[Key]) -> Vec<Point> {
     let own = Point { key: "design".to_owned(), value: String::new(), temporal: false };
     let varied = keys.iter().flat_map(|key| {
@@ -113,7 +116,8 @@ fn points(keys: &[Key]) -> Vec<Point> {
     std::iter::once(own).chain(varied).collect()
 }
 
-/// Every point of every clip, then of all clips together if there are several.
+/// Returns the results of every point for every clip, and then for all clips together if there are
+/// several.
 fn results(watched: &[Seen], points: &[Point]) -> Vec<PointResult> {
     let alone = watched.iter().map(|clip| (clip.name.clone(), from_ref(clip)));
     let together = (watched.len() > 1).then(|| ("all clips".to_owned(), watched));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The tables of the study: one with everything, one to be printed, one of tracks.
+//! The tables of the study: the whole table, a smaller one to print, and one of tracks.
 
 use super::class::{ALL, CLASSES, UNKNOWN};
 use super::count::{Count, Shares};
@@ -38,7 +38,7 @@ const SHOWN: [&str; 10] = [
 const TRACKS: [&str; 8] =
     ["clip", "track", "frames", "some", "quarter", "half", "all", "longest_gap"];
 
-/// A row for every clip, point, vote and class that has an object.
+/// Returns a row for every clip, point, vote and class that has an object.
 pub(super) fn whole(points: &[Point], results: &[PointResult]) -> Table {
     let mut table = Table::new(&COLUMNS);
     for result in results {
@@ -65,7 +65,7 @@ pub(super) fn whole(points: &[Point], results: &[PointResult]) -> Table {
     table
 }
 
-/// The design as it is: every clip, and the classes of all clips together.
+/// Returns the rows of the unchanged design: every clip, and the classes of all clips together.
 pub(super) fn shown(results: &[PointResult]) -> Table {
     let mut table = Table::new(&SHOWN);
     let own: Vec<&PointResult> = results.iter().filter(|result| result.point == 0).collect();
@@ -98,7 +98,7 @@ pub(super) fn shown(results: &[PointResult]) -> Table {
     table
 }
 
-/// Every track of every clip under the design as it is; `None` if there are none.
+/// Returns every track of every clip for the unchanged design; `None` without tracks.
 pub(super) fn tracks(watched: &[Seen]) -> Option<Table> {
     let mut table = Table::new(&TRACKS);
     for clip in watched {
@@ -113,13 +113,13 @@ pub(super) fn tracks(watched: &[Seen]) -> Option<Table> {
     (!table.rows.is_empty()).then_some(table)
 }
 
-/// The classes that have an object.
+/// Returns the classes that have an object.
 fn counted(result: &PointResult) -> impl Iterator<Item = ((&'static str, &'static str), Count)> {
     let counts = CLASSES.into_iter().enumerate().map(|(at, class)| (class, result.sums.count(at)));
     counts.filter(|(_, count)| count.objects > 0)
 }
 
-/// How many objects, and which shares of them are missed and sent.
+/// Returns the number of objects, and the shares of them that are missed and sent.
 fn cells(objects: u64, shares: &Shares, text: fn(u64, u64) -> String) -> Vec<String> {
     let parts = [shares.none].into_iter().chain(shares.at_least);
     let parts = parts.map(|part| text(part, objects));

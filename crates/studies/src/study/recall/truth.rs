@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The objects of every frame of a clip, the same for all designs: where they are in the frame that is seen, and
-//! of which classes they are.
+//! The objects of every frame of a clip, which are the same for all designs: their places in the
+//! frame that the camera sees, and their classes.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -16,23 +16,23 @@ use crate::watch::Guide;
 
 /// An object of the current frame.
 pub(super) struct Object {
-    /// In the frame that is seen, without what lies outside of it.
+    /// The box in the frame that the camera sees, cut off at its border.
     pub(super) rect: Rect,
     pub(super) track: Option<u64>,
-    /// Places in [`CLASSES`](super::class::CLASSES).
+    /// The classes, as indices into [`CLASSES`](super::class::CLASSES).
     pub(super) classes: [usize; 4],
 }
 
-/// The boxes of a clip, and the objects of the frame that is seen.
+/// The boxes of a clip, and the objects of the current frame.
 pub(super) struct Truth {
     boxes: Arc<Boxes>,
     crop: Option<Crop>,
-    /// Frames in all, and those with an entry.
+    /// The number of frames; `found` counts those with an entry in the boxes.
     frames: u64,
     found: u64,
-    /// Boxes that lie mostly outside of the frame, over all frames.
+    /// The number of boxes that lie mostly outside of the frame, over all frames.
     outside: u64,
-    /// Centres of the tracks in the frame before.
+    /// The centres of the tracks in the frame before.
     before: HashMap<u64, (f64, f64)>,
     objects: Vec<Object>,
 }
@@ -47,12 +47,12 @@ impl Truth {
         &self.objects
     }
 
-    /// An error where the boxes have nothing to do with the clip.
+    /// Fails if no frame of the clip has an entry in the boxes.
     pub(super) fn check(&self, clip: &str) -> Result<(), BoxError> {
         if self.found > 0 { Ok(()) } else { Err(self.boxes.none_fit(clip)) }
     }
 
-    /// Where the objects are from.
+    /// Returns a note on the origin of the objects.
     pub(super) fn note(&self, clip: &str) -> String {
         let (path, format) = (self.boxes.path().display(), self.boxes.format().name());
         let Self { outside, frames, found, .. } = self;
@@ -72,7 +72,7 @@ impl Guide for Truth {
         self.frames += 1;
         self.found += u64::from(labelled.is_some());
         let labelled = labelled.unwrap_or_default();
-        // In a set an object is in one image.
+        // An object of a data set is in a single frame, so it has no track.
         let has_tracks = source.kind() == Kind::Clip;
         let view = View::of(frame, &origin, self.crop);
         let sums = (!labelled.is_empty()).then(|| Sums::of(&frame.frame));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Objects counted by hand, or by a naive count.
+//! Objects that are counted by hand, or by a naive count.
 
 use std::fs;
 use std::path::PathBuf;
@@ -32,7 +32,7 @@ fn objects_of_a_known_clip_are_counted() {
         clip.join("gt.txt").display()
     )));
     assert!(notes.contains("0 of 4 frames have no entry"), "{notes}");
-    // Every threshold and region size, and no class twice.
+    // Every threshold and region size is there, and no class occurs twice.
     for (key, points) in [
         ("spatial.0.min_score", 9),
         ("temporal.level", 10),
@@ -61,7 +61,7 @@ fn several_clips_have_boxes_of_their_own_and_a_sum() {
         images(clip, 1, 0);
     }
     fs::write(clips[0].join("gt.txt"), mot(1, 0)).unwrap();
-    // The second clip has one object, seen once in its three frames.
+    // The second clip has one object, which is active in one of its three counted frames.
     let second: String = mot(1, 0)
         .lines()
         .filter(|row| row.contains(",2,17,"))
@@ -78,7 +78,8 @@ fn several_clips_have_boxes_of_their_own_and_a_sum() {
     assert_eq!(row(&swapped, "b", "active", ("all", "all"))[3], "0.444444");
 }
 
-/// Regions of a side that a span of whole pixels has, by counting pixels.
+/// Returns the rows or columns of regions that a span of pixels belongs to, by counting pixels.
+/// `side` is the side of a region, and `size` that of the frame.
 fn lines(from: u32, to: u32, side: u32, size: u32) -> Vec<u32> {
     let count = |line: u32, wanted: &dyn Fn(u32) -> bool| {
         (line * side..((line + 1) * side).min(size)).filter(|&at| wanted(at)).count()
@@ -151,7 +152,7 @@ fn a_naive_count_of_random_boxes_agrees() {
     assert!(sums.iter().all(|&sum| sum > 10 && sum < objects - 10), "it shows nothing: {sums:?}");
 }
 
-/// Real sequences, where the environment variable FOVEATE_DATA names their folder.
+/// The real sequences are in the folder that the environment variable FOVEATE_DATA names.
 #[test]
 fn real_pedestrians_are_counted() {
     let Some(data) = foveate_toolchain::testing::data_folder() else { return };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Boxes follow the frames that are seen, whatever the input is.
+//! Boxes follow the frames that the camera sees, for every kind of input.
 
 use std::fs;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ fn boxes_are_cropped_and_scaled_with_the_frames() {
     let (clip, out) = (dir.path().join("clip"), dir.path().join("out"));
     let gt = clip.join("gt.txt");
     images(&clip, 2, 24);
-    // An object outside of the crop, by more than three quarters, is no object.
+    // An object that lies outside of the crop by more than three quarters does not count.
     fs::write(&gt, mot(2, 24) + "2,9,5,25,24,16,1,1,1\n").unwrap();
     let crop = Some(Crop { size: (64, 32), at: (24, 24) });
     let input = InputOptions { crop, resize: Some((32, 16)), ..InputOptions::default() };
@@ -36,8 +36,8 @@ fn boxes_follow_the_frames_that_are_seen() {
         stream.extend([b"FRAME\n".as_slice(), &frame(number, 1, 0).2].concat());
     }
     fs::write(&clip, stream).unwrap();
-    // Region 0 changes from the third to the fourth frame. The object moves 0.4 pixels per frame, and stays in
-    // that region by more than a half.
+    // Region 0 changes from the third to the fourth frame. The object moves 0.4 pixels per frame,
+    // and more than half of it stays in that region.
     let rows =
         (1..=6).map(|frame| format!("{frame},1,{},1,8,8,1,1,1\n", 0.4 * f64::from(frame) + 0.6));
     fs::write(&gt, rows.collect::<String>()).unwrap();
@@ -52,14 +52,15 @@ fn boxes_follow_the_frames_that_are_seen() {
         });
         (row(&report, "a", "active", ("all", "all"))[..5].join(" "), speed)
     };
-    // 5 frames after the first, and in one of them it is active; from the third frame on one of 3; every second
-    // frame one of 2, and it moves twice as far.
+    // All frames: 5 frames after the first, and the object is active in one of them. From the third
+    // frame on: one of 3. Every second frame: one of 2, and the object moves twice as far.
     assert_eq!(of(None, None), ("5 0.800000 0.200000 0.200000 0.200000".to_owned(), Some("still")));
     let late = "3 0.666667 0.333333 0.333333 0.333333".to_owned();
     assert_eq!(of(Some(200_000), None), (late, Some("still")));
     let sparse = "2 0.500000 0.500000 0.500000 0.500000".to_owned();
     assert_eq!(of(None, Some(5)), (sparse, Some("slow")));
-    // Boxes of the frames before the start would not do: there is a box only in the fourth frame.
+    // Boxes belong to the frames of the input, also if the clip starts later: only the fourth frame
+    // has a box.
     fs::write(&gt, "4,1,1,1,8,8,1,1,1\n").unwrap();
     let one = "1 0.000000 1.000000 1.000000 1.000000".to_owned();
     assert_eq!(of(Some(200_000), None), (one, None));
@@ -72,7 +73,8 @@ fn a_design_of_few_sizes_is_studied_in_those() {
         (dir.path().join("clip"), [dir.path().join("gt.txt")], dir.path().join("out"));
     images(&clip, 1, 0);
     fs::write(&gt[0], mot(1, 0)).unwrap();
-    // 20 pixels are more than a region of 4 x 4 has, and 8 regions are more than there are of 32 x 32.
+    // A region of 4x4 pixels has fewer than 20 pixels, and a frame has fewer than 8 regions of
+    // 32x32.
     let built = ["temporal.min_count=20", "hardware.organization=\"serial\"", "hardware.fold=8"];
     let config = Config::from_toml_with("", &built).unwrap();
     let report = recall_of(&config, from_ref(&clip), &gt, &InputOptions::default(), &out).unwrap();
@@ -103,7 +105,7 @@ fn sets_have_boxes_by_name_and_count_what_is_relevant() {
     let mut tables = Vec::new();
     for boxes in [csv.clone(), coco, yolo] {
         let report = recall(from_ref(&set), &[boxes], &input, &out).unwrap();
-        // All regions of all images have an edge, and every image counts.
+        // All regions of all frames have an edge, and every frame counts.
         let all = ["2", "0.000000", "1.000000", "1.000000", "1.000000", "", "514"];
         assert_eq!(row(&report, "set", "active", ("all", "all")), all);
         assert!(!report.files.contains(&"recall-tracks.csv".to_owned()));
@@ -111,7 +113,7 @@ fn sets_have_boxes_by_name_and_count_what_is_relevant() {
         tables.push(report.rows);
     }
     assert!(tables[0] == tables[1] && tables[1] == tables[2]);
-    // An image alone is a clip of one frame, which counts because there is no other.
+    // A single image is a clip of one frame, which counts because there is no other.
     let image = set.join("000002.pgm");
     let report = recall(&[image], &[csv], &InputOptions::default(), &out).unwrap();
     assert_eq!(row(&report, "000002", "active", ("all", "all"))[..2], ["1", "0.000000"]);

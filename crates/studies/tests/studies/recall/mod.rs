@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A known clip with known objects, and what the study says of it.
+//! A known clip with known objects, and their counts in the study.
 
 mod counted;
 mod inputs;
@@ -13,12 +13,15 @@ use foveate_design::Config;
 use foveate_footage::InputOptions;
 use foveate_studies::{Request, Study, StudyError, StudyReport, analyze};
 
-/// Objects of regions 0 and 1, 6, and 3, in frames of 4 x 2 regions.
+/// The tracks and boxes of the objects, in frames of 4x2 regions: regions 0 and 1, region 6, and
+/// region 3.
 const MOT: [(u32, [u32; 4]); 3] = [(1, [0, 0, 16, 8]), (2, [16, 8, 8, 8]), (3, [24, 0, 8, 8])];
-/// What region 0, 6 and all others show in each frame: 0 and 1 are edges with light and dark swapped.
+/// The patterns of region 0, of region 6 and of all other regions in each frame: 0 and 1 are edges
+/// with light and dark swapped.
 const SHOWN: [[u8; 3]; 4] = [[0, 0, 0], [1, 0, 0], [0, 0, 0], [1, 1, 0]];
 
-/// Every region of a frame has an edge in its middle; `zoom` enlarges pixels, `edge` surrounds them.
+/// Draws a frame in which every region has an edge in its middle; `zoom` enlarges pixels, and
+/// `edge` is the width of a border.
 fn frame(number: usize, zoom: usize, edge: usize) -> (usize, usize, Vec<u8>) {
     let (width, height) = (32 * zoom + 2 * edge, 16 * zoom + 2 * edge);
     let mut pixels = vec![90; width * height];
@@ -45,7 +48,7 @@ fn images(folder: &Path, zoom: usize, edge: usize) {
     }
 }
 
-/// Rows of all objects in all frames.
+/// Returns the rows of all objects in all frames, in the format of MOT.
 fn mot(zoom: u32, edge: u32) -> String {
     let mut text = String::new();
     for (frame, (track, [x, y, w, h])) in
@@ -84,7 +87,7 @@ fn recall_of(
     analyze(&request, out, true, &Silent)
 }
 
-/// Cells of a row of the design as it is.
+/// Returns the cells of a row of the unchanged design.
 fn row<'a>(report: &'a StudyReport, clip: &str, vote: &str, class: (&str, &str)) -> &'a [String] {
     let wanted = [clip, "design", "", vote, class.0, class.1];
     let mut rows = report.rows.iter().filter(|row| row[..6] == wanted);
@@ -93,7 +96,8 @@ fn row<'a>(report: &'a StudyReport, clip: &str, vote: &str, class: (&str, &str))
     &row[6..13]
 }
 
-/// What all ways to show the known clip have in common: by hand, frames 1 to 3 of three objects each.
+/// Checks the counts of the known clip, in whatever form it was given. They were found by hand in
+/// frames 1 to 3, with three objects each.
 fn check_known(report: &StudyReport, clip: &str, folder: &Path) {
     let known = ["9", "0.555556", "0.444444", "0.444444", "0.111111", "", "87"];
     assert_eq!(row(report, clip, "active", ("all", "all")), known);

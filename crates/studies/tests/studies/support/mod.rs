@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs studies of scenes.
+//! Runs of studies over scenes.
 
 use std::path::{Path, PathBuf};
 
