@@ -58,7 +58,8 @@ impl<'a> Recording<'a> {
     /// Creates the files of all outputs.
     ///
     /// # Errors
-    /// Fails if a file cannot be written, or if pictures are wanted and no output can be shown as one.
+    /// Fails if a file cannot be written, or if pictures are wanted and no output can be shown as
+    /// one.
     pub(crate) fn new(
         staging: &'a StagedFolder,
         network: &Network,

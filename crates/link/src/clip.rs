@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One clip, read once: what every camera makes of it, and its frames in a file for the codecs.
+//! A clip that is read once: every camera sees its frames, and they go to a file for the codecs.
 
 use std::fs::File;
 use std::io::{BufWriter, Write as _};
@@ -16,10 +16,10 @@ use crate::encoder::scratch;
 use crate::sweep::{Swept, swept};
 use crate::{Footage, LinkError, Quality, Sent};
 
-/// What was seen of a clip.
+/// The results of one clip.
 pub(crate) struct Seen {
     pub(crate) inputs: Vec<String>,
-    /// Why it ended before its end, if it did.
+    /// The reason why the clip ended early, if it did.
     pub(crate) problem: Option<String>,
     pub(crate) design: Design,
     pub(crate) times_us: Vec<u64>,
@@ -29,14 +29,14 @@ pub(crate) struct Seen {
     pub(crate) footage: Footage,
 }
 
-/// A design of a curve with what came of it.
+/// A swept design of a curve, and its results.
 pub(crate) struct Measured {
     pub(crate) swept: Swept,
     pub(crate) pixels: u64,
     pub(crate) quality: Quality,
 }
 
-/// A camera, and how its screen compares.
+/// A camera, and the comparison of its screen with the input.
 struct Watch {
     engine: Engine,
     likeness: Likeness,
@@ -57,7 +57,8 @@ impl Watch {
     }
 }
 
-/// Reads a clip. Its frames go into a file of `folder`; `tick` is called for each, and says whether to stop.
+/// Reads a clip, and writes its frames to a file in `folder`. `tick` is called for each frame, and
+/// returns whether to stop.
 pub(crate) fn watch(
     subject: &Subject,
     config: &Config,
@@ -99,7 +100,7 @@ pub(crate) fn watch(
         pixels.step(&current.frame.to_frame()?, |event| events[event.y as usize] += 1);
         sent.push(Sent::of(&design, camera.step(frame, width)?, events));
         for (other, pixels, _) in &mut others {
-            // The regions are those of the design; only thresholds differ.
+            // Only thresholds differ from the design, so the regions are the same.
             *pixels += design.values_of(other.step(frame, width)?);
         }
         times_us.push(current.time_us);

@@ -1,36 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The codecs that are compared, and how ffmpeg is asked for them: grey frames with a constant quantizer on
-//! one thread, so that the same frames give the same bytes; no B frames and no look-ahead, so that a
-//! frame leaves before the next one comes. What is said beside the pictures (SEI) is taken out.
+//! The codecs that are compared, and their options for ffmpeg. Frames are grey. A constant
+//! quantizer and one thread give the same bytes for the same frames. There are no B frames and no
+//! look-ahead, so that a frame leaves before the next one comes. Supplemental messages (SEI) are
+//! removed from the stream.
 
 use std::ops::RangeInclusive;
 
-/// A codec with what frames may refer to.
+/// A codec, and the frames that its frames may refer to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Codec {
-    /// Motion JPEG: every frame by itself. The encoder knows no grey, so two empty colour planes go along.
+    /// Motion JPEG; every frame stands alone. The encoder has no grey format, so two empty colour
+    /// planes are added.
     Mjpeg,
-    /// H.264, every frame by itself.
+    /// H.264; every frame stands alone.
     H264Intra,
-    /// H.264, frames that refer to those before them; the first frame alone is by itself.
+    /// H.264; every frame but the first may refer to earlier frames.
     H264,
-    /// H.265, every frame by itself.
+    /// H.265; every frame stands alone.
     H265Intra,
-    /// H.265, as [`Codec::H264`].
+    /// H.265; every frame but the first may refer to earlier frames.
     H265,
 }
 
-/// How much work x264 and x265 do for a frame: their preset.
+/// The preset of x264 and x265, which sets their work for a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Effort {
-    /// Preset `veryfast`.
+    /// The preset `veryfast`.
     Veryfast,
-    /// Preset `medium`.
+    /// The preset `medium`.
     Medium,
 }
 
 impl Effort {
-    /// The name of the preset.
+    /// Returns the name of the preset.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -41,11 +43,11 @@ impl Effort {
 }
 
 impl Codec {
-    /// All of them.
+    /// All codecs.
     pub const ALL: [Self; 5] =
         [Self::Mjpeg, Self::H264Intra, Self::H264, Self::H265Intra, Self::H265];
 
-    /// Its name on the command line and in tables.
+    /// Returns the name on the command line and in tables.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -57,7 +59,7 @@ impl Codec {
         }
     }
 
-    /// ffmpeg's encoder.
+    /// Returns the name of ffmpeg's encoder.
     #[must_use]
     pub fn encoder(self) -> &'static str {
         match self {
@@ -67,7 +69,7 @@ impl Codec {
         }
     }
 
-    /// ffmpeg's name of the stream.
+    /// Returns ffmpeg's name of the stream format.
     pub(crate) fn format(self) -> &'static str {
         match self {
             Self::Mjpeg => "mjpeg",
@@ -76,7 +78,7 @@ impl Codec {
         }
     }
 
-    /// Its quantizers: the first is the finest.
+    /// Returns the range of quantizers; the first is the finest.
     #[must_use]
     pub fn quantizers(self) -> RangeInclusive<u32> {
         match self {
@@ -85,7 +87,7 @@ impl Codec {
         }
     }
 
-    /// Those of a curve.
+    /// Returns the quantizers of a curve.
     pub(crate) fn steps(self) -> &'static [u32] {
         match self {
             Self::Mjpeg => &[1, 2, 4, 8, 16, 31],
@@ -95,7 +97,7 @@ impl Codec {
         }
     }
 
-    /// ffmpeg's options for it.
+    /// Returns ffmpeg's options for this codec.
     pub(crate) fn options(self, quantizer: u32, effort: Effort) -> Vec<String> {
         let preset = effort.name();
         let text = match self {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From a request to a report: every clip through the cameras, then through the codecs at equal quality.
+//! The comparison: every clip goes through the cameras, and then through the codecs at equal
+//! quality.
 
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -21,30 +22,31 @@ use crate::{
 };
 use foveate_design::DECISION_BITS;
 
-/// What is compared.
+/// The request of a comparison.
 #[derive(Clone, Debug)]
 pub struct Request<'a> {
-    /// Clips, one each; image files together are one clip.
+    /// The clips. Image files together are one clip; every other input is a clip of its own.
     pub inputs: &'a [PathBuf],
-    /// How they are read.
+    /// The options for reading them.
     pub input: &'a InputOptions,
     /// The design.
     pub config: &'a Config,
-    /// Codecs, in the order of the table.
+    /// The codecs, in the order of the table.
     pub codecs: &'a [Codec],
-    /// How much work they do.
+    /// The preset of the encoders.
     pub effort: Effort,
-    /// Bits per second of the link.
+    /// The rate of the link in bits per second.
     pub link: u64,
-    /// Clock of the array in Hz. Without it times have none of the array's clocks in them, which the report states.
+    /// The clock of the array in Hz. Without it the array takes no time, and the report states the
+    /// clocks that are left out.
     pub clock_hz: Option<u64>,
 }
 
-/// Compares and writes `output`, which appears at the end.
+/// Compares the senders and writes `output`, which appears at the end.
 ///
 /// # Errors
-/// When an input cannot be read or is no clip, ffmpeg is missing or fails, the folder cannot be written, or
-/// `hooks` cancels; nothing is written then.
+/// Fails if an input cannot be read or is not a clip, ffmpeg is missing or fails, the folder cannot
+/// be written, or `hooks` cancels; nothing is written then.
 pub fn compare(
     request: &Request<'_>,
     tools: &Toolchain,
@@ -157,7 +159,7 @@ fn of_cameras(
         .collect()
 }
 
-/// In what a codec is to equal the region camera.
+/// The figure in which a codec must equal the region camera.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Equal {
     Psnr,
@@ -174,7 +176,8 @@ impl Equal {
         }
     }
 
-    /// The coarsest quantizer that is as good, or the finest where none is; and which of the two.
+    /// Finds the coarsest quantizer that is at least as good as the region camera, or returns the
+    /// finest one if none is. Also returns which case it is: `finest`, `coarsest` or `equal`.
     fn search(
         self,
         encoder: &mut Encoder<'_>,
@@ -223,7 +226,7 @@ fn codec_point(
     }
 }
 
-/// The folder that is written, and the only kind that it replaces.
+/// The kind of folder that a comparison writes, and the only kind that it replaces.
 pub const LINK: FolderKind =
     FolderKind { what: "a comparison of links (its link.json)", is: is_link };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A clip through a codec and back: bytes of every frame, as ffprobe finds them in the stream, and what
-//! the receiver sees.
+//! A clip that goes through a codec and back: the bytes of every frame, as ffprobe finds them in
+//! the stream, and the quality of the decoded frames.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -12,49 +12,50 @@ use foveate_toolchain::{Invocation, Stream, Tool, ToolError, Toolchain};
 
 use crate::{Codec, Effort, LinkError, Quality};
 
-/// The rate that encoders are told. With a constant quantizer it changes no picture.
+/// The frame rate that the encoders are given. With a constant quantizer it does not change any
+/// frame.
 const RATE: &str = "30";
 
-/// Frames as grey bytes in a file, one after the other.
+/// The frames of a clip as grey bytes in a file, one after the other.
 #[derive(Clone, Debug)]
 pub struct Footage {
     /// The name of the clip.
     pub clip: String,
-    /// The file.
+    /// The path of the file.
     pub path: PathBuf,
-    /// Width in pixels.
+    /// The width in pixels.
     pub width: u32,
-    /// Height in pixels.
+    /// The height in pixels.
     pub height: u32,
-    /// How many frames there are.
+    /// The number of frames.
     pub frames: u64,
 }
 
-/// What came of a clip.
+/// A clip after encoding and decoding.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Encoded {
-    /// Bytes of every frame.
+    /// The bytes of every frame.
     pub packets: Vec<u64>,
-    /// What the receiver sees.
+    /// The quality of the decoded frames.
     pub quality: Quality,
 }
 
-/// Encodes one clip with one codec, each quantizer once.
+/// An encoder of one clip with one codec. It encodes each quantizer once.
 pub struct Encoder<'a> {
     tools: &'a Toolchain,
     footage: &'a Footage,
     codec: Codec,
     effort: Effort,
-    /// The stream, beside the footage.
+    /// The path of the stream, next to the footage.
     stream: PathBuf,
     known: BTreeMap<u32, Encoded>,
-    /// Called for every frame that came back; whether to stop.
+    /// A callback for every decoded frame, which returns whether to stop.
     tick: &'a dyn Fn() -> bool,
 }
 
 impl<'a> Encoder<'a> {
-    /// An encoder that has seen nothing. `tick` is called for every frame that comes back, and says
-    /// whether to stop.
+    /// Creates an encoder that has encoded nothing. `tick` is called for every decoded frame, and
+    /// returns whether to stop.
     #[must_use]
     pub fn new(
         tools: &'a Toolchain,
@@ -66,10 +67,10 @@ impl<'a> Encoder<'a> {
         Self { tools, footage, codec, effort, stream, known: BTreeMap::new(), tick }
     }
 
-    /// The clip with this quantizer.
+    /// Returns the clip after encoding with this quantizer.
     ///
     /// # Errors
-    /// When ffmpeg fails or loses frames.
+    /// Fails if ffmpeg fails or loses frames, or if `tick` says to stop.
     pub fn at(&mut self, quantizer: u32) -> Result<&Encoded, LinkError> {
         if !self.known.contains_key(&quantizer) {
             let encoded = self.encode(quantizer)?;
@@ -78,13 +79,13 @@ impl<'a> Encoder<'a> {
         Ok(&self.known[&quantizer])
     }
 
-    /// Everything so far, by quantizer.
+    /// Returns the results so far, by quantizer.
     #[must_use]
     pub fn known(&self) -> &BTreeMap<u32, Encoded> {
         &self.known
     }
 
-    /// Where the stream of the last quantizer lies.
+    /// Returns the path of the stream of the last quantizer.
     #[must_use]
     pub fn stream(&self) -> &Path {
         &self.stream
@@ -109,7 +110,7 @@ impl<'a> Encoder<'a> {
         Ok(Encoded { packets: self.packets(quantizer)?, quality: self.quality(quantizer)? })
     }
 
-    /// What went wrong, in one line if the encoder said what.
+    /// Converts an error of ffmpeg to an error in one line, if the encoder printed a reason.
     fn refused(&self, error: ToolError) -> LinkError {
         let (encoder, codec) = (self.codec.encoder(), self.codec.name());
         let ToolError::Failed { full, .. } = &error else { return error.into() };
@@ -132,7 +133,7 @@ impl<'a> Encoder<'a> {
         }
     }
 
-    /// Bytes of every frame.
+    /// Returns the bytes of every frame.
     fn packets(&self, quantizer: u32) -> Result<Vec<u64>, LinkError> {
         let ask = self
             .tools
@@ -149,7 +150,7 @@ impl<'a> Encoder<'a> {
         Ok(sizes)
     }
 
-    /// What the receiver sees of it.
+    /// Returns the quality of the decoded frames.
     fn quality(&self, quantizer: u32) -> Result<Quality, LinkError> {
         let mut decoder = Stream::start(&self.decoding()?, &self.tools.interrupt())?;
         let path = &self.footage.path;
@@ -173,7 +174,7 @@ impl<'a> Encoder<'a> {
 
     fn decoding(&self) -> Result<Invocation, LinkError> {
         let ffmpeg = self.tools.find(Tool::Ffmpeg)?;
-        // The option had another name before ffmpeg 5.1; builds between releases have no version.
+        // The option had another name before ffmpeg 5.1. Builds between releases have no version.
         let renamed = ffmpeg.version.as_ref().is_none_or(|version| version.reaches(5, 1));
         Ok(Invocation::new(ffmpeg.path)
             .args(["-hide_banner", "-nostdin", "-loglevel", "error"])
@@ -197,10 +198,10 @@ impl<'a> Encoder<'a> {
     }
 }
 
-/// Refuses codecs whose encoder ffmpeg lacks.
+/// Checks that ffmpeg has the encoders of all codecs.
 ///
 /// # Errors
-/// When ffmpeg is missing or lacks one.
+/// Fails if ffmpeg is missing or lacks an encoder.
 pub fn check_encoders(tools: &Toolchain, codecs: &[Codec]) -> Result<(), LinkError> {
     let ask = tools.invocation(Tool::Ffmpeg)?.args(["-hide_banner", "-encoders"]);
     let listed = tools.run_checked(&ask)?.stdout;
@@ -212,7 +213,7 @@ pub fn check_encoders(tools: &Toolchain, codecs: &[Codec]) -> Result<(), LinkErr
     }
 }
 
-/// Names a temporary file in an error of the operating system.
+/// Returns a function that adds a temporary file's path to an error of the system.
 pub(crate) fn scratch(
     action: &'static str,
     path: &Path,

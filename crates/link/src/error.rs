@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong. Every message names the thing and says what would be right.
+//! The errors of comparisons. Every message names its subject and says what would be right.
 
 use std::io;
 use std::path::PathBuf;
@@ -15,7 +15,7 @@ use foveate_staging::StagingError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-/// A comparison that cannot be started or finished; nothing is written then.
+/// An error that keeps a comparison from starting or finishing; nothing is written then.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum LinkError {
@@ -28,19 +28,19 @@ pub enum LinkError {
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// A frame of another size.
+    /// A frame has another size than the camera.
     #[error(transparent)]
     Frame(#[from] FrameError),
-    /// A decoded frame of another size.
+    /// A decoded frame has another size than the input.
     #[error(transparent)]
     Fidelity(#[from] FidelityError),
-    /// The pixel camera cannot be made.
+    /// The pixel camera cannot be created.
     #[error(transparent)]
     Simulator(#[from] SimulatorError),
     /// The folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
-    /// ffmpeg is missing or failed.
+    /// The tool ffmpeg is missing or failed.
     #[error(transparent)]
     Tool(ToolError),
     /// A chart cannot be drawn.
@@ -49,121 +49,121 @@ pub enum LinkError {
     /// A table cannot be written.
     #[error("cannot write the table `{name}`: {source}")]
     Table {
-        /// The file.
+        /// The name of the file.
         name: &'static str,
-        /// Why.
+        /// The reason.
         source: io::Error,
     },
     /// A temporary file cannot be used.
     #[error("cannot {action} `{}`: {source}; check free space, or set TMPDIR to another folder", path.display())]
     Scratch {
-        /// What was tried.
+        /// The action that failed, as a verb.
         action: &'static str,
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
-        /// Why.
+        /// The reason.
         source: io::Error,
     },
-    /// Images without order.
+    /// An input is a data set, whose frames have no order.
     #[error(
         "`{name}` is a set of unrelated images, which have no rate; `link` needs clips, for example with --images clip"
     )]
     Set {
-        /// The input.
+        /// The name of the input.
         name: String,
     },
-    /// A clip without an interval.
+    /// A clip has fewer than two frames.
     #[error("`{clip}` has {frames} frame, which makes no rate; at least 2 are needed")]
     OneFrame {
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// How many it has.
+        /// The number of its frames.
         frames: u64,
     },
-    /// Frames that do not follow each other.
+    /// The times of the frames do not rise.
     #[error(
         "frame {frame} of `{clip}` is at {time_us} us, not after the frame before it; give times that rise, for example with --input-fps"
     )]
     Times {
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// The frame.
+        /// The number of the frame.
         frame: usize,
-        /// Its time.
+        /// The time of the frame in microseconds.
         time_us: u64,
     },
-    /// Pixels that codecs do not take.
+    /// The codecs do not support this depth.
     #[error(
         "the design has {bits} bits per pixel, but codecs are compared with 8; set frame.pixel_bits = 8"
     )]
     Depth {
-        /// Bits per pixel.
+        /// The number of bits per pixel.
         bits: u32,
     },
-    /// A design that sends nothing.
+    /// The design sends no pixels.
     #[error(
         "no pixels leave a design with hardware.forward = false, so it sends nothing over a link; leave the key out"
     )]
     NoPixels,
-    /// A design that cannot follow its frames.
+    /// The design is too slow for the frame rate.
     #[error(
         "`{clip}` has a frame every {interval_ns} ns, but the design needs {needed_ns} ns for one at {clock_hz} Hz; give a faster --clock, or a design that takes fewer clocks"
     )]
     TooSlow {
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// The shortest time between two frames.
+        /// The shortest time between two frames, in nanoseconds.
         interval_ns: u64,
-        /// What the design needs.
+        /// The time that the design needs for a frame, in nanoseconds.
         needed_ns: u64,
-        /// The clock.
+        /// The clock in Hz.
         clock_hz: u64,
     },
-    /// ffmpeg was built without an encoder.
+    /// The build of ffmpeg lacks an encoder.
     #[error(
         "ffmpeg has no encoder `{encoder}`; install a build that has it, or leave `{codec}` out of --codecs"
     )]
     NoEncoder {
-        /// The encoder.
+        /// The name of the encoder.
         encoder: &'static str,
         /// The codec that needs it.
         codec: &'static str,
     },
-    /// An encoder does not take the frames.
+    /// An encoder does not support the frames.
     #[error(
         "the encoder `{encoder}` does not take `{clip}` of {width}x{height} pixels: {said}; give frames of another size with --resize, or leave `{codec}` out of --codecs"
     )]
     Refused {
-        /// The encoder.
+        /// The name of the encoder.
         encoder: &'static str,
         /// The codec that needs it.
         codec: &'static str,
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// Width in pixels.
+        /// The width in pixels.
         width: u32,
-        /// Height in pixels.
+        /// The height in pixels.
         height: u32,
-        /// What the encoder said.
+        /// The message of the encoder.
         said: String,
     },
     /// An encoder or decoder lost frames.
     #[error("{codec} at {quantizer} gave {found} of {expected} frames of `{clip}`; {said}")]
     Frames {
-        /// The codec.
+        /// The name of the codec.
         codec: &'static str,
-        /// Its quantizer.
+        /// The quantizer.
         quantizer: u32,
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// Frames that came.
+        /// The number of frames that came.
         found: u64,
-        /// Frames that should have come.
+        /// The number of frames that should have come.
         expected: u64,
-        /// What ffmpeg said.
+        /// The message of ffmpeg.
         said: String,
     },
-    /// The user stopped it.
+    /// The user stopped the comparison.
     #[error("interrupted; nothing was written")]
     Cancelled,
 }

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A link of one rate behind a buffer that loses nothing, in integers: bits leave in the order in which
-//! they came, one after the other, at the rate of the link. Nothing is added for framing, and nothing for
-//! the way.
+//! A link with one rate behind a buffer that loses nothing, in integers. Bits leave in the order in
+//! which they came, one after the other, at the rate of the link. Framing and the length of the
+//! link take no time.
 
 use crate::Unit;
 
-/// Nanoseconds of a second.
+/// The number of nanoseconds of a second.
 const NANO: u128 = 1_000_000_000;
 
-/// What the link makes of some units.
+/// The result of sending some units over a link.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Served {
-    /// When the last bit of every unit has left, in ns, rounded up; in the order of the units.
+    /// The time at which the last bit of every unit has left, in ns, rounded up; in the order of
+    /// the units.
     pub finished: Vec<u64>,
-    /// The most bits that wait or are under way at a time, rounded up.
+    /// The most bits that wait or are on the link at a time, rounded up.
     pub backlog: u64,
 }
 
 /// Sends units over a link of `rate` bits per second.
 ///
 /// # Panics
-/// When the units are not sorted by the time at which they are sent, or the rate is 0.
+/// Panics if the units are not sorted by the time at which they are sent, or if the rate is 0.
 #[must_use]
 pub fn serve(units: &[Unit], rate: u64) -> Served {
     assert!(units.is_sorted_by_key(|unit| unit.sent), "a queue is served in the order of time");

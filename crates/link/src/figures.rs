@@ -1,48 +1,50 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The figures of what one sender gives to a link.
+//! The figures of the load that one sender puts on a link.
 
 use serde::Serialize;
 
 use crate::windows::nearest_rank;
 use crate::{Rates, Timeline, Unit, serve};
 
-/// Lengths of the windows in ms.
+/// The lengths of the windows in ms.
 pub(crate) const WINDOWS_MS: [u64; 3] = [1, 10, 100];
 
-/// What a sender asks of a link. Times are in ns.
+/// The load that a sender puts on a link. Times are in ns.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Figures {
-    /// Bytes of the clip; bits are rounded up once.
+    /// The bytes of the clip; bits are rounded up once.
     pub bytes: u64,
-    /// Bytes per second over the clip, rounded to the nearest.
+    /// The bytes per second over the clip, rounded to the nearest.
     pub bytes_per_second: u64,
-    /// In windows of 1, 10 and 100 ms.
+    /// The rates in windows of 1, 10 and 100 ms.
     pub windows: [Rates; 3],
-    /// Bytes of the largest frame.
+    /// The bytes of the largest frame.
     pub largest_frame_bytes: u64,
-    /// From reading the oldest pixel of a unit to the decision; the longest.
+    /// The longest time from reading the oldest pixel of a unit to its decision.
     pub decision_ns: u64,
-    /// From reading the oldest pixel of a unit to its last bit at the other end of the link.
+    /// The times from reading the oldest pixel of a unit to its last bit at the other end of the
+    /// link.
     pub delivery_ns: Delivery,
-    /// Bytes of the buffer in front of the link that loses nothing of this clip.
+    /// The size in bytes of the buffer in front of the link that loses nothing of this clip.
     pub buffer_bytes: u64,
-    /// Whether the clip needs more than the link carries: then the buffer grows with the clip.
+    /// Whether the clip needs more than the link carries, so that the buffer grows with the length
+    /// of the clip.
     pub overloaded: bool,
 }
 
-/// Over the units of a sender.
+/// The delivery times over the units of a sender, in ns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Delivery {
     /// The median (nearest rank).
     pub median: u64,
-    /// 99 of 100 take this long or less (nearest rank).
+    /// The time that 99 of 100 units do not exceed (nearest rank).
     pub p99: u64,
-    /// The longest.
+    /// The longest time.
     pub longest: u64,
 }
 
 impl Figures {
-    /// Of units in any order over a link of `rate` bits per second.
+    /// Computes the figures of units, in any order, over a link of `rate` bits per second.
     #[must_use]
     pub fn of(mut units: Vec<Unit>, timeline: &Timeline, rate: u64) -> Self {
         units.sort_by_key(|unit| (unit.sent, unit.frame, unit.read));
@@ -69,12 +71,12 @@ impl Figures {
     }
 }
 
-/// The number of a unit's frame.
+/// Returns the frame of a unit as an index.
 fn number(unit: &Unit) -> usize {
     usize::try_from(unit.frame).expect("frames are in memory")
 }
 
-/// Bytes per second, rounded to the nearest.
+/// Returns the rate in bytes per second, rounded to the nearest.
 pub(crate) fn per_second(bits: u64, duration_ns: u64) -> u64 {
     let duration = 8 * u128::from(duration_ns.max(1));
     let rate = (u128::from(bits) * 1_000_000_000 + duration / 2) / duration;

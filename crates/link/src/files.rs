@@ -7,7 +7,7 @@ use foveate_staging::StagedFolder;
 use crate::picture::charts;
 use crate::{ClipReport, LinkError, LinkReport, Point, Quality, SenderReport};
 
-/// Writes them all.
+/// Writes all files.
 pub(crate) fn write(staging: &StagedFolder, report: &LinkReport) -> Result<(), LinkError> {
     let senders = |clip: &ClipReport| -> Vec<Cells> {
         clip.senders.iter().map(|sender| sender_row(clip, sender)).collect()
@@ -24,7 +24,7 @@ pub(crate) fn write(staging: &StagedFolder, report: &LinkReport) -> Result<(), L
     let json = serde_json::to_vec_pretty(report).expect("a report has no keys that are not text");
     staging.write("link.json", &json)?;
     for (number, clip) in report.clips.iter().enumerate() {
-        // Names of clips may be no names of files.
+        // The name of a clip may not be usable in a file name, so the files are numbered.
         let of_clip = if report.clips.len() == 1 { String::new() } else { format!("-{number}") };
         for chart in charts(clip, &of_clip) {
             let notes = [chart.caption.clone(), format!("inputs {}", clip.inputs.join(" "))];

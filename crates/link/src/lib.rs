@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a region camera sends over a link, beside what people use today: pixel events, raw frames, and
-//! MJPEG, H.264 and H.265 at the same quality.
+//! A comparison of what a region camera sends over a link with common senders: pixel events, raw
+//! frames, and MJPEG, H.264 and H.265 at the same quality.
 //!
-//! A sender is a list of [`Unit`]s: bits with the times at which their pixels were read, they were decided
-//! and they were given to the link. [`Figures`] says what they ask of a link: rates in windows, latency and
-//! the buffer. [`compare`] runs clips through the cameras and the codecs, and writes a folder that appears
-//! complete or not at all. Times and rates are integers.
+//! A sender is a list of [`Unit`]s: bits with the times at which their pixels were read, at which
+//! they were decided, and at which they were given to the link. [`Figures`] has the load on a link:
+//! rates in windows, latency and the buffer. [`compare`] runs clips through the cameras and the
+//! codecs, and writes a folder that appears complete or not at all. Times and rates are integers.
 
 mod clip;
 mod codec;

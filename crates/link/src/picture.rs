@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Bytes against quality as charts: the design's thresholds and the codecs' quantizers.
+//! Charts of bytes against quality: for the design's thresholds and the codecs' quantizers.
 
 use foveate_pictures::chart::{Chart, Line, Look, Shape};
 
 use crate::report::QUANTIZER;
 use crate::{ClipReport, Point, Quality};
 
-/// What is above the bytes: the file, the axis, and how it is taken from a quality.
+/// A chart: its file name, the title of its y axis, and the figure of a quality on that axis.
 type View = (&'static str, &'static str, fn(&Quality) -> Option<f64>);
 
 const VIEWS: [View; 2] = [
@@ -14,7 +14,7 @@ const VIEWS: [View; 2] = [
     ("rate-distortion-ssim", "SSIM of what the receiver sees", |quality| Some(quality.ssim)),
 ];
 
-/// The charts of a clip; `suffix` goes behind the names of their files.
+/// Draws the charts of a clip; `suffix` is added to their file names.
 pub(crate) fn charts(clip: &ClipReport, suffix: &str) -> Vec<Chart> {
     let chart = |&(file, y, part): &View| Chart {
         file: format!("{file}{suffix}"),
@@ -39,8 +39,9 @@ fn caption(clip: &ClipReport) -> String {
     )
 }
 
-/// A line for each codec and each threshold in the order of the points, and the design in front of all. Pictures without
-/// any difference have no PSNR, and no point there.
+/// Returns a line for each codec and each threshold, in the order of the points, and the design as
+/// the last line, drawn above all others. Identical frames have no PSNR, and so no point in that
+/// chart.
 fn lines(clip: &ClipReport, part: fn(&Quality) -> Option<f64>) -> Vec<Line> {
     let place = |bytes: u64, quality: &Quality| Some((coordinate(bytes), part(quality)?));
     let own = clip.senders.iter().find(|sender| sender.sender.starts_with("region"));
@@ -68,7 +69,7 @@ fn name(point: &Point) -> String {
     }
 }
 
-/// A rate as a coordinate; a logarithm has no 0.
+/// Converts a rate to a coordinate above 0, because the axis is logarithmic.
 #[allow(clippy::cast_precision_loss, reason = "a coordinate of a chart")]
 fn coordinate(rate: u64) -> f64 {
     rate.max(1) as f64

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How near the pictures of a receiver are to the original.
+//! The quality of a receiver's frames compared with the original.
 
 use foveate_fidelity::Likeness;
 use serde::Serialize;
 
-/// PSNR and SSIM over the frames of a clip, rounded to four digits.
+/// The PSNR and SSIM over the frames of a clip, rounded to four digits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quality {
-    /// In dB; none where every pixel is equal.
+    /// The PSNR in dB; `None` if every pixel is equal.
     pub psnr: Option<f64>,
-    /// At most 1.
+    /// The SSIM, at most 1.
     pub ssim: f64,
 }
 
@@ -21,12 +21,12 @@ impl Quality {
         Self { psnr: likeness.psnr().map(rounded), ssim: rounded(likeness.ssim()) }
     }
 
-    /// Whether the PSNR is at least that of `other`.
+    /// Returns whether the PSNR is at least that of `other`.
     pub(crate) fn has_psnr_of(self, other: Self) -> bool {
         self.psnr.unwrap_or(f64::INFINITY) >= other.psnr.unwrap_or(f64::INFINITY)
     }
 
-    /// Whether the SSIM is at least that of `other`.
+    /// Returns whether the SSIM is at least that of `other`.
     pub(crate) fn has_ssim_of(self, other: Self) -> bool {
         self.ssim >= other.ssim
     }

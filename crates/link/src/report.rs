@@ -1,99 +1,102 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a comparison found, as JSON has it.
+//! The report of a comparison, as it is in the JSON file.
 
 use serde::Serialize;
 
 use crate::{Figures, Quality};
 
-/// Changes when a key changes its meaning or goes.
+/// The version of the JSON format; it changes if a key changes its meaning or is removed.
 pub(crate) const FORMAT_VERSION: u32 = 2;
 
-/// The knob of a codec.
+/// The name of the setting that a codec's curve varies.
 pub(crate) const QUANTIZER: &str = "quantizer";
 
-/// A comparison.
+/// The report of a comparison.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LinkReport {
-    /// Version of this format.
+    /// The version of the JSON format.
     pub format_version: u32,
-    /// Version of the program.
+    /// The version of the program.
     pub foveate_version: &'static str,
-    /// What ffmpeg says of itself.
+    /// The version banner of ffmpeg.
     pub ffmpeg: String,
     /// The preset of x264 and x265.
     pub effort: &'static str,
-    /// Bits per second of the link.
+    /// The rate of the link in bits per second.
     pub link_bits_per_second: u64,
-    /// Clock of the array in Hz. Without one, times have none of the array's clocks in them.
+    /// The clock of the array in Hz. Without one, the array takes no time.
     pub clock_hz: Option<u64>,
-    /// In the order of the inputs.
+    /// The clips, in the order of the inputs.
     pub clips: Vec<ClipReport>,
 }
 
-/// One clip.
+/// The report of one clip.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ClipReport {
-    /// Its name.
+    /// The name of the clip.
     pub name: String,
-    /// Inputs as they were given.
+    /// The inputs as the user named them.
     pub inputs: Vec<String>,
-    /// Why it ended before its end, if it did.
+    /// The reason why the clip ended early, if it did.
     pub problem: Option<String>,
-    /// Fingerprint of the design.
+    /// The fingerprint of the design.
     pub design: String,
-    /// Width in pixels.
+    /// The width in pixels.
     pub width: u32,
-    /// Height in pixels.
+    /// The height in pixels.
     pub height: u32,
-    /// Number of frames.
+    /// The number of frames.
     pub frames: u64,
-    /// From the first frame to the end of the last, in ns.
+    /// The time from the first frame to the end of the last frame, in ns.
     pub duration_ns: u64,
-    /// The most clocks that the array adds to a time, once what it waits for has been read.
+    /// The most clocks that the array adds to a time after the pixels that it waits for have been
+    /// read.
     pub array_clocks: u64,
-    /// The slowest clock at which the array keeps up with the frames.
+    /// The slowest clock in Hz at which the array keeps up with the frames.
     pub needed_clock_hz: u64,
-    /// Cameras, then codecs.
+    /// The senders: cameras, then codecs.
     pub senders: Vec<SenderReport>,
-    /// Bytes against quality.
+    /// The points of bytes against quality.
     pub curves: Vec<Point>,
 }
 
-/// One sender of a clip.
+/// The report of one sender of a clip.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SenderReport {
-    /// Its name.
+    /// The name of the sender.
     pub sender: &'static str,
-    /// For a codec: in what it is to equal the region camera, `psnr` or `ssim`.
+    /// The figure in which a codec must equal the region camera, `psnr` or `ssim`; `None` for a
+    /// camera.
     pub equal: Option<&'static str>,
-    /// For a codec: its quantizer.
+    /// The quantizer of a codec.
     pub quantizer: Option<u32>,
-    /// For a codec: whether a coarser quantizer would be too coarse. `finest` did not reach the region
-    /// camera; `coarsest` is still better.
+    /// The result of the search for a codec's quantizer. `equal` is the coarsest quantizer that is
+    /// good enough; `finest` did not reach the quality of the region camera; `coarsest` is still
+    /// better.
     pub found: Option<&'static str>,
-    /// What the receiver sees; none of a sender without pictures.
+    /// The quality of the receiver's frames; `None` for a sender without frames.
     pub quality: Option<Quality>,
-    /// What it asks of the link.
+    /// The load on the link.
     pub figures: Figures,
 }
 
 /// A point of a curve.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Point {
-    /// The sender.
+    /// The name of the sender.
     pub sender: &'static str,
-    /// What differs from point to point: a key of the design, or the quantizer.
+    /// The setting that differs from point to point: a key of the design, or the quantizer.
     pub knob: &'static str,
-    /// Its value.
+    /// The value of the setting.
     pub value: u64,
-    /// Bytes per second.
+    /// The bytes per second.
     pub bytes_per_second: u64,
-    /// What the receiver sees.
+    /// The quality of the receiver's frames.
     pub quality: Quality,
 }
 
 impl LinkReport {
-    /// Why clips ended before their end.
+    /// Returns the reasons why clips ended early, with their names.
     #[must_use]
     pub fn problems(&self) -> Vec<String> {
         let problem = |clip: &ClipReport| {

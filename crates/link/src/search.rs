@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The coarsest quantizer that is good enough, by bisection: quality falls as the quantizer rises.
+//! The search for the coarsest quantizer that is good enough, by bisection: quality falls as the
+//! quantizer rises.
 
 use std::ops::RangeInclusive;
 
-/// The largest quantizer for which `is_good` says yes; none if even the first is not good enough.
+/// Returns the largest quantizer for which `is_good` returns `true`; `None` if even the first one
+/// is not good enough.
 ///
 /// # Errors
-/// When `is_good` fails.
+/// Fails if `is_good` fails.
 pub fn coarsest<E>(
     quantizers: RangeInclusive<u32>,
     mut is_good: impl FnMut(u32) -> Result<bool, E>,

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cameras that are compared, and when each gives what to the link.
+//! The cameras that are compared, and the times at which each gives its bits to the link.
 //!
 //! | sender | a unit | is given to the link |
 //! | --- | --- | --- |
 //! | raw | a row | when it has been read |
 //! | pixel | the events of a row | when the row has been read |
-//! | region by rows | two bits and what is sent of a row of regions | when its decisions fall |
-//! | region array | two bits of the regions of a slot, or of a row of regions; the pixels and means that are sent | when they leave the array |
+//! | region by rows | the decisions and the sent values of a row of regions | when its decisions fall |
+//! | region array | the decisions of a slot or of a row of regions; the pixels and means that are sent | when they leave the array |
 //!
-//! *By rows*, every row of regions is an array of its own that takes pixels as they are read, and its
-//! pixels are at hand when the decision falls. *Array* is the generated `rcm`. [`Departure`] says what it does. It
-//! takes a frame when all of it has been read, and gives decisions and pixels slot by slot. Or it takes pixels as they
-//! are read, and gives those of one row of regions after the other: bits of a row when its last decision falls, pixels
-//! when its last word is out.
+//! *By rows* means that every row of regions is an array of its own. It takes pixels as they are
+//! read, and its pixels are available when the decision falls. *Array* is the generated `rcm`,
+//! whose times [`Departure`] describes. It may take a frame when all of it has been read, and send
+//! decisions and pixels slot by slot. Or it takes pixels as they are read, and sends one row of
+//! regions after the other: the decisions of a row when the last of them falls, and the pixels when
+//! the last word is out. A decision has two bits.
 
 use foveate_design::{Action, DECISION_BITS, Departure, Design, Hardware, RasterTiming};
 use foveate_simulator::PIXEL_EVENT_BYTES;
@@ -20,21 +21,22 @@ use foveate_simulator::PIXEL_EVENT_BYTES;
 use crate::stream::{Leaving, Streamed, own_clocks};
 use crate::{LinkError, Timeline, Unit};
 
-/// What the region camera sends of one frame, and what a pixel camera does.
+/// The values that a region camera sends for one frame, and the events of a pixel camera.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Sent {
-    /// Pixels and means that are sent of every row of regions.
+    /// The number of pixels and means that are sent for every row of regions.
     pub rows: Vec<u64>,
-    /// The same of every slot; one slot where no regions share a unit.
+    /// The number of pixels and means that are sent for every slot; there is one slot if no regions
+    /// share a unit.
     pub slots: Vec<u64>,
-    /// What becomes of every region.
+    /// The action of every region.
     pub actions: Vec<Action>,
-    /// Events of the pixels of every row.
+    /// The number of pixel events of every row.
     pub events: Vec<u64>,
 }
 
 impl Sent {
-    /// Counts what is sent of regions with these actions.
+    /// Counts the values that are sent for regions with these actions.
     #[must_use]
     pub fn of(design: &Design, actions: &[Action], events: Vec<u64>) -> Self {
         let mut rows = vec![0; design.rows() as usize];
@@ -58,11 +60,11 @@ pub struct Cameras<'a> {
 }
 
 impl<'a> Cameras<'a> {
-    /// Cameras with an array at a clock of so many Hz. Without a clock the array takes no time:
-    /// [`Self::own_clocks`] says what is left out.
+    /// Creates cameras with an array at a clock of `clock_hz`. Without a clock the array takes no
+    /// time, and [`Self::own_clocks`] returns the clocks that are left out.
     ///
     /// # Errors
-    /// When the array is not done with a frame when the next one comes.
+    /// Fails if the array is not done with a frame when the next one comes.
     pub fn new(
         clip: &str,
         design: &'a Design,
@@ -82,7 +84,8 @@ impl<'a> Cameras<'a> {
         }
     }
 
-    /// The most clocks that the array adds to a time, once what it waits for has been read.
+    /// Returns the most clocks that the array adds to a time after the pixels that it waits for
+    /// have been read.
     #[must_use]
     pub fn own_clocks(&self) -> u64 {
         if let Some(core) = self.core() {
@@ -96,7 +99,7 @@ impl<'a> Cameras<'a> {
         array.max(row)
     }
 
-    /// The slowest clock at which the array keeps up with the frames.
+    /// Returns the slowest clock in Hz at which the array keeps up with the frames.
     #[must_use]
     pub fn needed_clock_hz(&self) -> u64 {
         let clocks = u128::from(self.frame_clocks()) * 1_000_000_000;
@@ -104,7 +107,8 @@ impl<'a> Cameras<'a> {
         u64::try_from(hertz).unwrap_or(u64::MAX)
     }
 
-    /// The numbers of a raster core: it takes pixels as they are read.
+    /// Returns the timing of a raster core, which takes pixels as they are read; `None` for other
+    /// organizations.
     fn core(&self) -> Option<RasterTiming> {
         match self.design.hardware() {
             Hardware::Raster(own) => Some(RasterTiming::of(self.design.on(own))),
@@ -112,7 +116,7 @@ impl<'a> Cameras<'a> {
         }
     }
 
-    /// The most clocks of a frame, whole or row by row.
+    /// Returns the most clocks of a frame, as a whole frame or row by row.
     fn frame_clocks(&self) -> u64 {
         if let Some(timing) = self.core() {
             return timing.most_clocks_per_frame();
@@ -124,21 +128,22 @@ impl<'a> Cameras<'a> {
         self.design.timing().clocks_per_frame().max(by_rows)
     }
 
-    /// Every pixel of every frame.
+    /// Returns the units of a camera that sends every pixel of every frame.
     #[must_use]
     pub fn raw(&self) -> Vec<Unit> {
         let bits = u64::from(self.design.width()) * u64::from(self.design.pixel_bits());
         self.rows_of_pixels(|_, _| bits)
     }
 
-    /// A camera with events of pixels.
+    /// Returns the units of a camera with pixel events.
     #[must_use]
     pub fn pixel(&self, sent: &[Sent]) -> Vec<Unit> {
         let events = |frame: usize, row: usize| sent[frame].events[row] * 8 * PIXEL_EVENT_BYTES;
         self.rows_of_pixels(events)
     }
 
-    /// The region camera row by row; none where the units of the array work in step.
+    /// Returns the units of the region camera by rows; `None` if the units of the array work in
+    /// step.
     #[must_use]
     pub fn region_by_rows(&self, sent: &[Sent]) -> Option<Vec<Unit>> {
         if !self.departure.alone {
@@ -162,7 +167,7 @@ impl<'a> Cameras<'a> {
         Some(units)
     }
 
-    /// The generated array.
+    /// Returns the units of the generated array.
     #[must_use]
     pub fn region_array(&self, sent: &[Sent]) -> Vec<Unit> {
         match self.core() {
@@ -171,7 +176,8 @@ impl<'a> Cameras<'a> {
         }
     }
 
-    /// An array that takes pixels as they are read: a row of regions after the other.
+    /// Returns the units of an array that takes pixels as they are read, one row of regions after
+    /// the other.
     fn streamed(&self, timing: RasterTiming, sent: &[Sent]) -> Vec<Unit> {
         let map = DECISION_BITS * u64::from(self.design.columns());
         let mut array = Streamed::new(timing, self.timeline, self.clock_hz);
@@ -182,7 +188,8 @@ impl<'a> Cameras<'a> {
                 let read = self.timeline.row(frame, row * self.design.region_size());
                 units.push(Unit { frame, read, decided, sent: decided, bits: map });
                 let bits = pixels * u64::from(self.design.pixel_bits());
-                // They may be out before the last decision of the row, if that is about no pixels.
+                // The pixels may be out before the last decision of the row, if the last decisions
+                // send no pixels.
                 let unit = |sent| Unit { frame, read, decided: decided.min(sent), sent, bits };
                 units.extend(sent.map(unit));
             }
@@ -190,7 +197,7 @@ impl<'a> Cameras<'a> {
         units
     }
 
-    /// An array that takes a frame when all of it has been read.
+    /// Returns the units of an array that takes a frame when all of it has been read.
     fn slot_by_slot(&self, sent: &[Sent]) -> Vec<Unit> {
         let (fold, regions) = (self.design.slots(), self.design.regions());
         let Departure { decision_frames, decision_clocks, .. } = self.departure;
@@ -201,7 +208,7 @@ impl<'a> Cameras<'a> {
             for (slot, &pixels) in (0..fold).zip(&sent.slots) {
                 let wait = u64::from(slot) * slot_clocks;
                 let decided = self.leaves(frame, decision_frames, decision_clocks + wait);
-                // Regions slot, slot + fold, slot + 2 fold and so on.
+                // The slot has the regions `slot`, `slot + fold`, `slot + 2 fold` and so on.
                 let map = DECISION_BITS * u64::from((regions - slot).div_ceil(fold));
                 units.push(Unit { frame, read, decided, sent: decided, bits: map });
                 let sent = self.leaves(frame, forward_frames, forward_clocks + wait);
@@ -214,8 +221,8 @@ impl<'a> Cameras<'a> {
         units
     }
 
-    /// An encoder that takes a frame when all of it has been read, and no time for it. (Encoders that send a
-    /// frame in slices begin earlier.)
+    /// Returns the units of an encoder that takes a frame when all of it has been read, and needs
+    /// no time for it. Encoders that send a frame in slices would begin earlier.
     #[must_use]
     pub fn codec(&self, packets: &[u64]) -> Vec<Unit> {
         let unit = |(frame, &bytes): (u64, &u64)| {
@@ -240,15 +247,17 @@ impl<'a> Cameras<'a> {
         units
     }
 
-    /// When the decisions of a row of regions fall: its last row of pixels, or of their halo, has been
-    /// read and taken with what repeats it below the frame, and the latency is over.
+    /// Returns the time in ns at which the decisions of a row of regions fall: its last row of
+    /// pixels, or of their halo, has been read, the repeated rows below the frame have been taken,
+    /// and the latency is over.
     fn decided_by_rows(&self, frame: u64, row: u32) -> u64 {
         let (last, clocks) = self.row_clocks(row);
         let frame = frame + u64::from(self.departure.decision_frames);
         self.timeline.row(frame, last) + self.clocks(clocks)
     }
 
-    /// The last row of pixels that a row of regions waits for, and the clocks from there to its decisions.
+    /// Returns the last row of pixels that a row of regions waits for, and the clocks from there to
+    /// its decisions.
     fn row_clocks(&self, row: u32) -> (u32, u64) {
         let past = (row + 1) * self.design.region_size() + self.design.halo();
         let last = past.min(self.design.height()) - 1;
@@ -257,13 +266,13 @@ impl<'a> Cameras<'a> {
         (last, clocks)
     }
 
-    /// When something of a frame leaves the array.
+    /// Returns the time in ns at which bits of a frame leave the array.
     fn leaves(&self, frame: u64, later: u32, clocks: u64) -> u64 {
         let read = self.timeline.start(frame + u64::from(later) + 1);
         read + self.clocks(self.departure.take_clocks + clocks)
     }
 
-    /// Clocks in ns, rounded up; nothing without a clock.
+    /// Converts clocks to ns, rounded up; returns 0 without a clock.
     fn clocks(&self, clocks: u64) -> u64 {
         let Some(clock_hz) = self.clock_hz else { return 0 };
         let ns = (u128::from(clocks) * 1_000_000_000).div_ceil(u128::from(clock_hz.max(1)));

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! An array that takes pixels as the sensor reads them, on the timeline of a clip.
 //!
-//! [`RasterStream`] counts in ticks. Here a tick is a nanosecond divided by the clock in Hz, so that nanoseconds and
-//! clocks are whole numbers of them. Without a clock the array takes no time, and ticks are nanoseconds.
+//! [`RasterStream`] counts in ticks. Here a tick is a nanosecond divided by the clock in Hz, so
+//! that nanoseconds and clocks are whole numbers of ticks. Without a clock the array takes no time,
+//! and a tick is a nanosecond.
 
 use foveate_design::{Action, RasterStream, RasterTiming, RowDeparture};
 
 use crate::Timeline;
 
-/// Nanoseconds of a second: ticks of a clock.
+/// The number of nanoseconds of a second, which is also the number of ticks of a clock.
 const NANO: u128 = 1_000_000_000;
 
 /// The array behind the sensor, frame after frame.
 pub(crate) struct Streamed<'a> {
     timeline: &'a Timeline,
     stream: RasterStream,
-    /// Ticks of a nanosecond.
+    /// The number of ticks of a nanosecond.
     of_nano: u128,
     frame: u64,
 }
 
-/// When what of a row of regions leaves, in ns, rounded up.
+/// The times at which the bits of a row of regions leave, in ns, rounded up.
 pub(crate) struct Leaving {
     pub(crate) decided: u64,
-    /// None where no pixels do.
+    /// The time at which the pixels leave; `None` without pixels.
     pub(crate) sent: Option<u64>,
 }
 
@@ -33,7 +34,7 @@ impl<'a> Streamed<'a> {
         Self { timeline, stream: RasterStream::new(timing, clock), of_nano, frame: 0 }
     }
 
-    /// The next frame, row of regions by row of regions.
+    /// Returns the times of the next frame, one entry per row of regions.
     pub(crate) fn next(&mut self, actions: &[Action]) -> Vec<Leaving> {
         let (timeline, frame, of_nano) = (self.timeline, self.frame, self.of_nano);
         self.frame += 1;
@@ -51,12 +52,15 @@ impl<'a> Streamed<'a> {
     }
 }
 
-/// The most clocks that the array adds to a time, at a clock that keeps up: those at the slowest such clock, if frames
-/// follow each other at the shortest interval and all regions of all frames are active.
+/// Returns the most clocks that the array adds to a time, at any clock that keeps up. They are
+/// needed at the slowest such clock, if frames follow each other at the shortest interval and all
+/// regions of all frames are active.
 pub(crate) fn own_clocks(timing: RasterTiming, regions: u32) -> u64 {
-    // Words come evenly over a frame; a clock is so many ticks, so that little is lost where they are rounded.
+    // Words come evenly over a frame. A clock has many ticks, so that little is lost when their
+    // times are rounded.
     const CLOCK: u128 = 1 << 20;
-    // What a frame leaves behind delays the second; it leaves as much behind as the first.
+    // The rest of a frame delays the second frame, and the second frame leaves the same rest as the
+    // first one.
     const FRAMES: u128 = 3;
     let interval = u128::from(timing.most_clocks_per_frame()) * CLOCK;
     let active = vec![Action::Forward; regions as usize];

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The design with one threshold at a time set to other values: the points of its own curves.
+//! The design with one threshold at a time set to other values, for the points of its own curves.
 
 use foveate_design::{Config, Decimal, Design};
 
-/// Grey levels of 8 bits.
+/// The values of `temporal.level`, in grey levels of 8 bits.
 const LEVELS: [u32; 9] = [0, 1, 2, 4, 8, 16, 32, 64, 128];
-/// Of the first feature, in its own unit; 0 finds every region relevant.
+/// The values of the first feature's `min_score`, in its own unit; with 0 every region is relevant.
 const SCORES: [u64; 8] = [0, 1, 2, 5, 10, 20, 40, 60];
 
 /// A design of a curve.
 #[derive(Clone, Debug)]
 pub(crate) struct Swept {
-    /// The threshold that differs.
+    /// The key of the threshold that differs.
     pub(crate) key: &'static str,
-    /// What it is.
+    /// The value of the threshold.
     pub(crate) value: u64,
     pub(crate) design: Design,
 }
 
-/// `temporal.level` and `spatial.0.min_score`, each varied alone.
+/// Returns the design with other values of `temporal.level` and of `spatial.0.min_score`, each
+/// varied alone.
 pub(crate) fn swept(config: &Config) -> Vec<Swept> {
-    // A score above what a region of this design can have is no design.
+    // A score above the largest one of this design's regions is not valid, and is left out.
     let swept =
         |key, value, config: Config| Some(Swept { key, value, design: config.validate().ok()? });
     let level = |&value: &u32| {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A report as Markdown, for people: kB are 1000 bytes.
+//! The report as Markdown, for people. A kB is 1000 bytes.
 
 use std::fmt::Write as _;
 
@@ -23,7 +23,7 @@ const COLUMNS: [&str; 14] = [
 ];
 
 impl LinkReport {
-    /// A table per clip. Rates of windows are in kB/s.
+    /// Returns a table per clip. The rates of windows are in kB/s.
     #[must_use]
     pub fn markdown(&self) -> String {
         let mut text = String::new();
@@ -50,7 +50,7 @@ impl LinkReport {
         text
     }
 
-    /// The clock of the array, or what its absence leaves out.
+    /// Describes the clock of the array, or the clocks that are left out without one.
     fn clock(&self, clip: &ClipReport) -> String {
         match self.clock_hz {
             Some(hertz) => format!("The array runs at {} MHz.", megahertz(hertz)),
@@ -63,7 +63,7 @@ impl LinkReport {
     }
 }
 
-/// Hz in MHz, exactly.
+/// Formats Hz as MHz, exactly.
 fn megahertz(hertz: u64) -> String {
     let digits = format!("{}.{:06}", hertz / 1_000_000, hertz % 1_000_000);
     digits.trim_end_matches('0').trim_end_matches('.').to_owned()
@@ -109,7 +109,7 @@ fn psnr(sender: &SenderReport) -> String {
     })
 }
 
-/// Bytes as a multiple of those of the region camera.
+/// Formats the bytes as a multiple of those of the region camera.
 fn ratio(clip: &ClipReport, sender: &SenderReport) -> String {
     let own = clip.senders.iter().find(|sender| sender.sender.starts_with("region"));
     #[allow(clippy::cast_precision_loss, reason = "shown with three decimals")]
@@ -117,12 +117,12 @@ fn ratio(clip: &ClipReport, sender: &SenderReport) -> String {
     ratio.map_or(String::new(), |ratio| format!("{ratio:.3}"))
 }
 
-/// Thousands with one decimal, rounded to the nearest.
+/// Formats thousands with one decimal, rounded to the nearest.
 fn kilo(value: u64) -> String {
     milli((value + 50) / 100 * 100, 1)
 }
 
-/// Thousandths with so many decimals, at least one.
+/// Formats thousandths with one to three decimals; further digits are cut off.
 fn milli(value: u64, decimals: usize) -> String {
     let thousandths = format!("{:03}", value % 1000);
     format!("{}.{}", value / 1000, &thousandths[..decimals])

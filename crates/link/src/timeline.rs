@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When the sensor has read what: it reads the rows of a frame one after the other, evenly over the time
-//! until the next frame begins.
+//! The times at which the sensor reads pixels: it reads the rows of a frame one after the other,
+//! evenly over the time until the next frame begins.
 
 use crate::LinkError;
 
-/// Nanoseconds of a microsecond.
+/// The number of nanoseconds of a microsecond.
 const OF_MICRO: u64 = 1000;
 
 /// The times of a clip in ns. After the last frame the sensor goes on at the mean interval.
@@ -16,10 +16,11 @@ pub struct Timeline {
 }
 
 impl Timeline {
-    /// Frames of so many rows that begin at these times.
+    /// Creates the timeline of frames with `rows` rows that begin at the times `times_us`, in
+    /// microseconds.
     ///
     /// # Errors
-    /// When there are less than two, or one does not begin after the one before.
+    /// Fails if there are fewer than two frames, or if a frame does not begin after the one before.
     pub fn new(clip: &str, times_us: &[u64], rows: u32) -> Result<Self, LinkError> {
         let (&[first, ..], &[.., last]) = (times_us, times_us) else {
             return Err(LinkError::OneFrame { clip: clip.to_owned(), frames: 0 });
@@ -40,19 +41,20 @@ impl Timeline {
         Ok(Self { starts, end: duration.saturating_mul(OF_MICRO), rows: rows.into() })
     }
 
-    /// Frames of the clip.
+    /// Returns the number of frames of the clip.
     #[must_use]
     pub fn frames(&self) -> u64 {
         self.starts.len() as u64
     }
 
-    /// When the clip ends: how long it lasts.
+    /// Returns the end of the clip in ns, which is its duration.
     #[must_use]
     pub fn end(&self) -> u64 {
         self.end
     }
 
-    /// When a frame begins, which is when the frame before it has been read.
+    /// Returns the time in ns at which a frame begins, which is when the frame before it has been
+    /// read.
     #[must_use]
     pub fn start(&self, frame: u64) -> u64 {
         match self.starts.get(usize::try_from(frame).unwrap_or(usize::MAX)) {
@@ -61,14 +63,14 @@ impl Timeline {
         }
     }
 
-    /// When a row of a frame has been read.
+    /// Returns the time in ns at which a row of a frame has been read.
     #[must_use]
     pub fn row(&self, frame: u64, row: u32) -> u64 {
         let (start, next) = (self.start(frame), self.start(frame + 1));
         start + scaled(next - start, u64::from(row) + 1, self.rows)
     }
 
-    /// The shortest time between two frames.
+    /// Returns the shortest time between two frames in ns.
     #[must_use]
     pub fn shortest(&self) -> u64 {
         let intervals = (0..self.frames()).map(|frame| self.start(frame + 1) - self.start(frame));
@@ -76,7 +78,7 @@ impl Timeline {
     }
 }
 
-/// `value * part / whole`, rounded down.
+/// Returns `value * part / whole`, rounded down.
 fn scaled(value: u64, part: u64, whole: u64) -> u64 {
     let scaled = u128::from(value) * u128::from(part) / u128::from(whole.max(1));
     u64::try_from(scaled).unwrap_or(u64::MAX)

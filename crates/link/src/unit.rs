@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What gets on a link at one time.
+//! The unit of data that is given to a link at one time.
 
-/// Bits that a camera or encoder gives to the link at one time: a row, a row of regions, a frame.
+/// The bits that a camera or an encoder gives to the link at one time: those of a row, a row of
+/// regions, or a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Unit {
-    /// The frame that it belongs to.
+    /// The number of the frame that the bits belong to.
     pub frame: u64,
-    /// When the sensor has read the oldest pixel that it is about, in ns.
+    /// The time at which the sensor has read the oldest pixel that the bits describe, in ns.
     pub read: u64,
-    /// When it was decided what is sent, in ns.
+    /// The time of the decision on what is sent, in ns.
     pub decided: u64,
-    /// When the bits are given to the link, in ns.
+    /// The time at which the bits are given to the link, in ns.
     pub sent: u64,
-    /// How many they are.
+    /// The number of bits.
     pub bits: u64,
 }

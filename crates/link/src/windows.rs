@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How unevenly something is sent: bits in windows of one length, one after the other from the first
-//! frame on.
+//! The variation of a rate: bits are counted in windows of one length, one after the other from the
+//! first frame on.
 
 use std::collections::BTreeMap;
 
@@ -8,24 +8,24 @@ use serde::Serialize;
 
 use crate::Unit;
 
-/// Rates in windows of one length, in bytes per second, rounded to the nearest.
+/// The rates in windows of one length, in bytes per second, rounded to the nearest.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Rates {
-    /// Length of a window in ms.
+    /// The length of a window in ms.
     pub window_ms: u64,
-    /// 99 of 100 windows have this rate or a lower one (nearest rank).
+    /// The rate that 99 of 100 windows do not exceed (nearest rank).
     pub p99: u64,
-    /// The highest.
+    /// The highest rate.
     pub peak: u64,
 }
 
 impl Rates {
-    /// The rates between `start` and `end`, in ns, and after it as long as something is sent. The last
-    /// window counts as whole.
+    /// Computes the rates between `start` and `end`, in ns, and after `end` as long as bits are
+    /// sent. The last window counts as a whole window.
     #[must_use]
     pub fn of(units: &[Unit], (start, end): (u64, u64), window_ms: u64) -> Self {
         let length = window_ms * 1_000_000;
-        // Only windows with something in them: a clip may last for days.
+        // Only windows with bits are stored, because a clip may last for days.
         let mut windows: BTreeMap<u64, u64> = BTreeMap::new();
         for unit in units {
             *windows.entry(unit.sent.saturating_sub(start) / length).or_default() += unit.bits;
@@ -46,7 +46,8 @@ impl Rates {
     }
 }
 
-/// The smallest of some sorted values that is not below `percent` of them; 0 of none.
+/// Returns the smallest of some sorted values that at least `percent` % of them do not exceed; 0
+/// without values.
 pub(crate) fn nearest_rank(sorted: &[u64], percent: usize) -> u64 {
     let rank = (sorted.len() * percent).div_ceil(100);
     rank.checked_sub(1).map_or(0, |at| sorted[at])

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Codecs: their bytes are those of the stream, their pictures are as good as ffmpeg says, and the same
-//! frames give the same bytes.
+//! Tests of codecs: their bytes are those of the stream, their quality is the one that ffmpeg
+//! prints, and the same frames give the same bytes.
 
 use std::fs;
 use std::path::Path;
@@ -24,7 +24,7 @@ fn footage(folder: &Path, (width, height): (u32, u32)) -> Footage {
     Footage { clip: "street".to_owned(), path, width, height, frames: FRAMES.into() }
 }
 
-/// PSNR of a stream as ffmpeg's own filter prints it.
+/// Returns the PSNR of a stream as ffmpeg's own filter prints it.
 fn psnr(footage: &Footage, stream: &Path) -> String {
     let size = format!("{}x{}", footage.width, footage.height);
     let output = Command::new("ffmpeg")
@@ -64,7 +64,7 @@ fn bytes_are_those_of_the_stream_and_pictures_as_good_as_ffmpeg_says() {
             if size.0 < 160 {
                 continue;
             }
-            // Again, and coarser.
+            // The clip is encoded again, and then with a coarser quantizer.
             let mut again = Encoder::new(&tools, &footage, (codec, Effort::Veryfast), &go_on);
             assert_eq!(again.at(20).unwrap(), &encoded, "{context}");
             assert_eq!(fs::read(again.stream()).unwrap(), stream, "{context}");

@@ -4,7 +4,8 @@
 use foveate_link::{Figures, Rates, Timeline, Unit, serve};
 use proptest::prelude::*;
 
-/// Every nanosecond: take what comes, then pass on a bit whenever the last one has taken its time.
+/// Simulates every nanosecond: it takes the bits that come, and passes on a bit whenever the last
+/// one has taken its time.
 fn bit_by_bit(units: &[Unit], ns_per_bit: u64) -> (Vec<u64>, u64) {
     let mut finished = vec![0; units.len()];
     let mut queue = std::collections::VecDeque::new();
@@ -18,7 +19,7 @@ fn bit_by_bit(units: &[Unit], ns_per_bit: u64) -> (Vec<u64>, u64) {
         while next < units.len() && units[next].sent == now {
             queue.extend((0..units[next].bits).map(|_| next));
             if units[next].bits == 0 {
-                // Nothing has arrived when everything before it has.
+                // A unit without bits has arrived when everything before it has.
                 finished[next] = now;
             }
             next += 1;
@@ -44,7 +45,8 @@ fn units() -> impl Strategy<Value = Vec<Unit>> {
     })
 }
 
-/// Rates at which a bit takes whole nanoseconds; others are rounded up below.
+/// Returns durations of a bit in whole nanoseconds; other rates are rounded up, which another test
+/// checks.
 fn whole_nanoseconds() -> impl Strategy<Value = u64> {
     prop::sample::select(vec![1, 2, 4, 5, 8, 10, 16, 20])
 }
@@ -64,7 +66,7 @@ proptest! {
         let units: Vec<Unit> =
             units.into_iter().map(|old| unit(0, old.sent * scale, old.bits)).collect();
         let rates = Rates::of(&units, (0, end * scale), window);
-        // Naive: every window asks every unit.
+        // The naive count compares every window with every unit.
         let length = window * 1_000_000;
         let last = units.last().unwrap().sent;
         let mut sums = Vec::new();
@@ -76,7 +78,7 @@ proptest! {
         // Bytes per second are 125 times the bits of a millisecond, rounded to the nearest.
         let is_rate = |rate: u64, bits: u64| 2 * (rate * window).abs_diff(125 * bits) <= window;
         prop_assert!(is_rate(rates.peak, *sums.last().unwrap()));
-        // The smallest value that at least 99 of 100 windows do not exceed.
+        // This is the smallest value that at least 99 of 100 windows do not exceed.
         let enough = |&value: &u64| {
             100 * sums.iter().filter(|&&sum| sum <= value).count() >= 99 * sums.len()
         };
@@ -86,18 +88,20 @@ proptest! {
 
 #[test]
 fn a_link_that_does_not_divide_a_second_is_rounded_up_once() {
-    // 3 bits per second: the first bit after a third of a second, the third after a whole one.
+    // At 3 bits per second the first bit has left after a third of a second, the third one after a
+    // second.
     let units = [unit(0, 0, 1), unit(0, 0, 1), unit(0, 0, 1)];
     let served = serve(&units, 3);
     assert_eq!(served.finished, [333_333_334, 666_666_667, 1_000_000_000]);
-    // At 0.5 s the first bit has left, half of the second and all of the third have not: 1.5 + 1.
+    // At 0.5 s the first bit has left; half of the second and all of the third have not. With the
+    // new bit these are 1.5 + 1 bits.
     let units = [unit(0, 0, 3), unit(0, 500_000_000, 1)];
     assert_eq!(serve(&units, 3).backlog, 3);
 }
 
 #[test]
 fn figures_of_a_burst_by_hand() {
-    // Two frames of 100 ms: 8,000 bits each at their end, over 1 Mbit/s: 8 ms each.
+    // Two frames of 100 ms send 8,000 bits each at their end over 1 Mbit/s, which takes 8 ms each.
     let timeline = Timeline::new("clip", &[0, 100_000], 10).unwrap();
     assert_eq!((timeline.end(), timeline.shortest()), (200_000_000, 100_000_000));
     let units: Vec<Unit> = (0..2)
@@ -109,11 +113,11 @@ fn figures_of_a_burst_by_hand() {
     let figures = Figures::of(units, &timeline, 1_000_000);
     assert_eq!((figures.bytes, figures.bytes_per_second), (2000, 10_000));
     assert_eq!((figures.largest_frame_bytes, figures.buffer_bytes), (1000, 1000));
-    // The first row is read after 10 ms, the last after 100.
+    // The first row is read after 10 ms, and the last after 100 ms.
     assert_eq!(figures.decision_ns, 90_000_000);
     assert_eq!(figures.delivery_ns.longest, 98_000_000);
     assert_eq!(figures.windows.map(|rates| rates.peak), [1_000_000, 100_000, 10_000]);
-    // 201 windows of 1 ms, of which two have something: the 199th is empty.
+    // There are 201 windows of 1 ms, and two of them have bits: the 199th is empty.
     assert_eq!(figures.windows.map(|rates| rates.p99), [0, 100_000, 10_000]);
     assert!(!figures.overloaded);
 }

@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When cameras send, worked out by hand from docs/timing.md, docs/serial.md and docs/raster.md.
+//! The times at which cameras send, worked out by hand from docs/timing.md, docs/serial.md and
+//! docs/raster.md.
 
 use foveate_design::{Action, Config, Design};
 use foveate_link::{Cameras, Sent, Timeline, Unit};
 
-/// 20x12 pixels in regions of 8: 3x2 of them, the last column 4 wide and the last row 4 high.
+/// A frame of 20x12 pixels has 3x2 regions of 8; the last column is 4 pixels wide and the last row
+/// 4 pixels high.
 const SIZE: &str = "frame={width=20,height=12}";
-/// A clock of 1 us.
+/// A clock of 1 MHz, with a period of 1 us.
 const MEGAHERTZ: u64 = 1_000_000;
 
-/// Regions that are active, or not, and held.
+/// Returns the actions of regions that are active or held.
 fn actions(active: &[bool]) -> Vec<Action> {
     active.iter().map(|&active| if active { Action::Forward } else { Action::Hold }).collect()
 }
@@ -19,12 +21,13 @@ fn design(overrides: &[&str]) -> Design {
     Config::from_toml_with("", &all).unwrap().validate().unwrap()
 }
 
-/// Two frames of 12 ms, a row every millisecond.
+/// Returns the timeline of two frames of 12 ms, with one row per millisecond.
 fn timeline() -> Timeline {
     Timeline::new("clip", &[0, 12_000], 12).unwrap()
 }
 
-/// Region 0 (64 pixels) and the ragged region 5 (4x4) of the first frame.
+/// In the first frame region 0 (64 pixels) and the ragged region 5 (4x4 pixels) are active; in the
+/// second frame no region is.
 fn sent(design: &Design) -> [Sent; 2] {
     let active = [true, false, false, false, false, true];
     [
@@ -33,7 +36,7 @@ fn sent(design: &Design) -> [Sent; 2] {
     ]
 }
 
-/// Read, decided, sent in us, and bits.
+/// Returns the times of reading, decision and sending in us, and the bits.
 fn times(units: &[Unit]) -> Vec<(u64, u64, u64, u64)> {
     units.iter().map(|u| (u.read / 1000, u.decided / 1000, u.sent / 1000, u.bits)).collect()
 }
@@ -48,12 +51,13 @@ fn padding_is_not_sent() {
 
 #[test]
 fn a_row_of_regions_is_decided_when_its_last_row_was_read() {
-    // Median and edge, isolated: (N+1) + 2 and N+1 clocks of latency, 20. A row of 8 pixels takes 8.
+    // The isolated median and edge windows have latencies of (N+1) + 2 and N+1 clocks, which is 20.
+    // A row of 8 pixels takes 8 clocks.
     let (design, timeline) = (design(&[]), timeline());
     let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let units = cameras.region_by_rows(&sent(&design)).unwrap();
     let above = 8_000 + 8 + 20;
-    // Below the frame the last row is repeated four times: 5 rows of 8 pixels.
+    // Below the frame the last row is repeated four times, so 5 rows of 8 pixels are taken.
     let below = 12_000 + 5 * 8 + 20;
     let expected = [
         (1_000, above, above, 3 * 2 + 64 * 8),
@@ -66,16 +70,17 @@ fn a_row_of_regions_is_decided_when_its_last_row_was_read() {
 
 #[test]
 fn neighbors_and_a_second_pass_are_waited_for() {
-    // Shared with median and edge: two rows of halo, 12 pixels a row, latency 2; row 9 is the tenth.
+    // Shared windows of median and edge need two rows of halo; a row has 12 pixels, and the latency
+    // is 2. Row 9 is the tenth row.
     let (design, timeline) = (design(&["region.neighborhood=\"shared\""]), timeline());
     let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let units = cameras.region_by_rows(&sent(&design)).unwrap();
     assert_eq!(units[0].decided / 1000, 10_000 + 12 + 2);
-    // `mad` decides when the next frame has passed: 12 ms later.
+    // With `mad` the decision falls when the next frame has passed, 12 ms later.
     let design = self::design(&["spatial=[{feature=\"mad\"}]", "denoise.filter=\"none\""]);
     let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let units = cameras.region_by_rows(&sent(&design)).unwrap();
-    // 8 pixels of the last row, and the tail's delay of 1.
+    // The last row takes 8 clocks, and the tail delays by 1.
     assert_eq!(units[0].decided / 1000, 12_000 + 8_000 + 8 + 1);
 }
 
@@ -83,7 +88,7 @@ fn neighbors_and_a_second_pass_are_waited_for() {
 fn pixels_leave_the_pipelined_array_with_the_next_frame() {
     let (design, timeline) = (design(&[]), timeline());
     let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
-    // A frame is taken in 64 clocks once it has been read, and decided 20 clocks later.
+    // A frame is taken in 64 clocks after it has been read, and decided 20 clocks later.
     let decided = 12_000 + 64 + 20;
     let expected = [
         (1_000, decided, decided, 6 * 2),
@@ -103,7 +108,8 @@ fn a_serial_array_sends_slot_by_slot_within_the_frame() {
     assert_eq!(sent[0].slots, [64, 16]);
     assert!(cameras.region_by_rows(&sent).is_none(), "its lanes work in step");
     let units = cameras.region_array(&sent);
-    // Three lanes. 2 * 64 pixels are taken. A slot: 64 * 83 median, 3 count, 14 * 64 edge, 3 score, 64 unload.
+    // Three lanes take 2 * 64 pixels. A slot takes 64 * 83 clocks of median, 3 of count, 14 * 64 of
+    // edge, 3 of score and 64 of unload.
     let (median, edge) = (64 * 83, 14 * 64);
     let (decides, slot) = (median + 3 + edge + 3, median + 3 + edge + 3 + 64);
     let clocks = |clocks: u64| 12_000_000 + (128 + clocks) * 10;
@@ -117,8 +123,8 @@ fn a_serial_array_sends_slot_by_slot_within_the_frame() {
     assert_eq!(ns, expected);
 }
 
-/// 20x12 pixels in regions of 4, 5x3 of them, without windows: S is 2 and D is 6. The sensor reads a word every 50 us,
-/// and a clock takes 1 us.
+/// A frame of 20x12 pixels has 5x3 regions of 4. There are no windows, S is 2, and with `variance`
+/// D is 9. The sensor reads a word every 50 us, and a clock takes 1 us.
 #[test]
 fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() {
     let core = "hardware.organization=\"raster\"";
@@ -126,16 +132,18 @@ fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() 
         [core, "region.size=4", "spatial=[{feature=\"variance\"}]", "denoise.filter=\"none\""];
     let (design, timeline) = (design(&set), timeline());
     let at = |clock| Cameras::new("clip", &design, &timeline, clock).unwrap();
-    // Regions 0 and 4 of the first row, none of the second, 11 and 12 of the third.
+    // In the first row regions 0 and 4 are active, in the second row none, and in the third row 11
+    // and 12.
     let mut active = [false; 15];
     [0, 4, 11, 12].iter().for_each(|&region: &usize| active[region] = true);
     let first = Sent::of(&design, &actions(&active), vec![0; 12]);
     assert_eq!(first.rows, [32, 0, 32]);
     let sent = [first, Sent::of(&design, &actions(&[false; 15]), vec![0; 12])];
     assert!(at(None).region_by_rows(&sent).is_none(), "the array does it");
-    // The last word of a row of regions comes with its row; with `variance` D is 9. The last region waits for nothing:
-    // it enters the queue at 10, is held at 12, its 16 words are fetched from 13 to 28, and the last is out at 29.
-    // Region 12 comes 200 us after region 11, and so does not wait either: it is out before the last decision of its row.
+    // The last word of a row of regions comes with its row; with `variance` D is 9. The last region
+    // does not wait: it enters the queue at 10, is held at 12, its 16 words are fetched from 13 to
+    // 28, and the last word is out at 29. Region 12 comes 200 us after region 11, so it does not
+    // wait either: it is out before the last decision of its row.
     let (decision, pixels) = (9, 29);
     let expected = [
         (1_000, 4_000 + decision, 4_000 + decision, 10),
@@ -148,24 +156,24 @@ fn a_raster_core_sends_row_of_regions_by_row_of_regions_while_it_takes_pixels() 
         (21_000, 24_000 + decision, 24_000 + decision, 10),
     ];
     assert_eq!(times(&at(Some(MEGAHERTZ)).region_array(&sent)), expected);
-    // Without a clock, what waits for nothing else comes with its words.
+    // Without a clock, pixels that do not wait for others leave with their last word.
     let units = at(None).region_array(&sent);
     assert_eq!(times(&units)[1], (1_000, 4_000, 4_000, 32 * 8));
     assert_eq!(times(&units)[4], (9_000, 11_600, 11_600, 32 * 8));
-    // 240 words, and 9 clocks until the last is decided, in 12 ms.
+    // There are 240 words, and 9 clocks until the last decision, in 12 ms.
     assert_eq!(at(None).needed_clock_hz(), 20_750);
 }
 
-/// A window waits for a row and a word more; below the frame the core makes them by itself.
+/// A window waits for a row and a word more. Below the frame the core makes them by itself.
 #[test]
 fn a_raster_core_with_windows_waits_for_the_rows_below() {
     let set = ["hardware.organization=\"raster\"", "region.size=4"];
     let (design, timeline) = (design(&set), timeline());
     let cameras = Cameras::new("clip", &design, &timeline, Some(MEGAHERTZ)).unwrap();
     let none = [Sent::of(&design, &actions(&[false; 15]), vec![0; 12])];
-    // Median and edges: two rows and two words of 50 us, and D of 11.
+    // The median and the edges wait for two rows and two words of 50 us, and D is 11.
     let above = |rows: u64| 1_000 * (rows + 2) + 100 + 11;
-    // Two rows of 20 words and two words, one at every clock.
+    // These are two rows of 20 words and two words, one per clock.
     let below = 12_000 + 42 + 11;
     let expected = [(1_000, above(4)), (5_000, above(8)), (9_000, below)];
     let expected = expected.map(|(read, at)| (read, at, at, 10));
@@ -188,7 +196,7 @@ fn rows_and_frames_of_the_others() {
 
 #[test]
 fn an_array_that_is_too_slow_is_refused() {
-    // 64 clocks for a frame, but 12 rows of 8 pixels one by one: 96 clocks in 12 ms.
+    // A whole frame takes 64 clocks, but 12 rows of 8 pixels one by one take 96 clocks, in 12 ms.
     let (design, timeline) = (design(&[]), timeline());
     assert!(Cameras::new("clip", &design, &timeline, Some(8_000)).is_ok());
     let error = Cameras::new("clip", &design, &timeline, Some(7_999)).unwrap_err().to_string();
@@ -197,8 +205,8 @@ fn an_array_that_is_too_slow_is_refused() {
     assert_eq!(without.needed_clock_hz(), 8_000);
 }
 
-/// The same of a raster core, of whose clocks most are needed at the slowest clock that keeps up: at a faster one it is
-/// done with a frame before the next one has come far. A nanosecond is lost to rounding.
+/// A raster core adds the most clocks at the slowest clock that keeps up: at a faster clock it is
+/// done with a frame earlier. One nanosecond is lost to rounding.
 #[test]
 fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
     let core = "hardware.organization=\"raster\"";
@@ -215,7 +223,7 @@ fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
             let (without, with) =
                 (at(None).region_array(&sent), at(Some(clock)).region_array(&sent));
             let later = with.iter().zip(&without).map(|(with, without)| with.sent - without.sent);
-            // The clocks of this test are far below 1 GHz, and its times below a minute.
+            // The clocks of this test are far below 1 GHz, and its times are below a minute.
             (later.max().unwrap() - 1) * clock / 1_000_000_000
         };
         assert!((own - 2..=own).contains(&later(needed)), "{set:?}: {}", later(needed));
@@ -224,11 +232,12 @@ fn a_raster_core_adds_most_clocks_at_the_slowest_clock() {
     }
 }
 
-/// Every time of the array is later by no more clocks than are stated, and one by just as many.
+/// Every time of the array is later by at most the stated clocks, and one time is later by exactly
+/// these.
 #[test]
 fn without_a_clock_the_clocks_of_the_array_are_left_out_and_stated() {
     let serial = "hardware={organization=\"serial\",fold=2}";
-    // Of the serial array as above: to the last pixel of the second slot.
+    // These are the clocks of the serial array above, up to the last pixel of the second slot.
     let two_slots = 128 + 2 * (64 * 83 + 3 + 14 * 64 + 3 + 64);
     for (set, expected) in [(&[][..], None), (&[serial], Some(two_slots))] {
         let (design, timeline) = (design(set), timeline());
