@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Milliseconds per frame of a comparison: `cargo run --release -p foveate-fidelity --example fidelity_speed`.
+//! Prints the time of comparing a frame in milliseconds:
+//! `cargo run --release -p foveate-fidelity --example fidelity_speed`.
 #![allow(clippy::print_stdout, clippy::unwrap_used, reason = "a measurement at a terminal")]
 
 use std::time::Instant;

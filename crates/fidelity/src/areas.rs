@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Areas, in pixels, where the decisions of two cameras differ. In areas, regions of different sizes can
-//! be compared.
+//! The areas, in pixels, where the decisions of two cameras differ. With areas, regions of
+//! different sizes can be compared.
 
 use foveate_camera::Action;
 use serde::{Deserialize, Serialize};
 
-/// Every combination of two states, `ideal << STATE_BITS | candidate`.
+/// The area of every combination of two states; the index is `ideal << STATE_BITS | candidate`.
 pub(crate) type Table = [u64; 1 << (2 * STATE_BITS)];
 
 const STATE_BITS: usize = 4;
@@ -14,10 +14,10 @@ const TRS: u8 = 2;
 const ACTION: u8 = 12;
 const SUMMARIZED: u8 = 12;
 
-/// No area yet.
+/// A table without any area.
 pub(crate) const EMPTY: Table = [0; 1 << (2 * STATE_BITS)];
 
-/// All decisions about one region in four bits.
+/// Returns all decisions about one region in four bits.
 pub(crate) fn state(srs: bool, trs: bool, action: Action) -> u8 {
     let action = match action {
         Action::Forward => 0,
@@ -28,39 +28,39 @@ pub(crate) fn state(srs: bool, trs: bool, action: Action) -> u8 {
     (u8::from(srs) * SRS) | (u8::from(trs) * TRS) | action
 }
 
-/// Its place in a [`Table`].
+/// Returns the index of a pair of states in a [`Table`].
 pub(crate) fn place(ideal: u8, candidate: u8) -> usize {
     usize::from(ideal) << STATE_BITS | usize::from(candidate)
 }
 
-/// Areas in pixels times frames.
+/// The areas in pixels, summed over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct Areas {
-    /// SRS differs.
+    /// The area where SRS differs.
     pub(crate) srs: u64,
-    /// TRS differs.
+    /// The area where TRS differs.
     pub(crate) trs: u64,
-    /// The action differs.
+    /// The area where the action differs.
     pub(crate) action: u64,
-    /// Active in the ideal.
+    /// The area that is active in the ideal.
     pub(crate) ideal: u64,
-    /// Active in the candidate.
+    /// The area that is active in the candidate.
     pub(crate) candidate: u64,
-    /// Active in both.
+    /// The area that is active in both.
     pub(crate) both: u64,
-    /// Of regions whose summary the candidate sends.
+    /// The area of regions whose summary the candidate sends.
     #[serde(default, skip_serializing_if = "is_none")]
     pub(crate) summarized: u64,
 }
 
-/// Tallies from before there were summaries lack the key, and so do those without one.
+/// Returns whether the area is 0. Such tallies omit the key, like older tallies without summaries.
 #[allow(clippy::trivially_copy_pass_by_ref, reason = "serde gives a reference")]
 fn is_none(area: &u64) -> bool {
     *area == 0
 }
 
 impl Areas {
-    /// Adds what a table of areas holds.
+    /// Adds the areas of a table.
     pub(crate) fn count(&mut self, table: &Table) {
         for (at, &area) in table.iter().enumerate().filter(|(_, area)| **area > 0) {
             let bits = |shift: usize| u8::try_from(at >> shift & 15).expect("four bits");

@@ -1,55 +1,55 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a comparison refuses.
+//! The errors of a comparison.
 
 use thiserror::Error;
 
-/// Designs or results that cannot be compared.
+/// An error of a comparison: cameras or results that cannot be compared.
 #[derive(Clone, Debug, Error, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum FidelityError {
-    /// Two cameras for frames of different sizes.
+    /// The two cameras have frames of different sizes.
     #[error(
         "the ideal camera is for frames of {ideal} pixels, but the candidate is for {candidate}; \
          give both the same size"
     )]
     FrameSize {
-        /// Width and height of the ideal camera.
+        /// The width and height of the ideal camera's frames.
         ideal: String,
-        /// Width and height of the candidate.
+        /// The width and height of the candidate's frames.
         candidate: String,
     },
-    /// An input of another size or depth than the ideal camera's.
+    /// The input has another size or depth than the ideal camera.
     #[error(
         "the input has {given}, but the ideal camera takes {expected}; give the frames that it saw"
     )]
     FrameKind {
-        /// Size and depth of the input.
+        /// The size and depth of the input.
         given: String,
-        /// Size and depth of the ideal camera.
+        /// The size and depth of the ideal camera.
         expected: String,
     },
-    /// Results of another camera.
+    /// The results belong to another camera.
     #[error(
         "{what}: {given} values were given, but the camera has {expected}; give the results of that camera"
     )]
     Length {
-        /// Of which side, and which results.
+        /// The camera and the results that do not fit, in words.
         what: &'static str,
-        /// Values that came.
+        /// The number of values that were given.
         given: usize,
-        /// Values that the camera needs.
+        /// The number of values that the camera needs.
         expected: usize,
     },
-    /// A screen whose pixels are of the wrong type for the candidate's depth.
+    /// The screen has pixels of the wrong type for the candidate's depth.
     #[error(
         "pixels of {bits} bits need the type {expected}, but the candidate's screen has {given}"
     )]
     LaneWidth {
-        /// Bits per pixel of the candidate.
+        /// The number of bits per pixel of the candidate.
         bits: u32,
-        /// The type they need.
+        /// The type that these pixels need.
         expected: &'static str,
-        /// The type that came.
+        /// The type that was given.
         given: &'static str,
     },
 }

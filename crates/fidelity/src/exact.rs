@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums that do not depend on the order of what is added: fixed point with 40 fraction bits.
+//! Sums that do not depend on the order of their terms: fixed point with 40 fraction bits.
 //!
-//! The quantum is 9.1e-13 and the range 1.5e26, which a day of 16-bit video does not reach; beyond it a
-//! sum stays at its end.
+//! The quantum is 9.1e-13, and the range 1.5e26, which a day of 16-bit video does not reach. Sums
+//! beyond the range saturate.
 
 use serde::{Deserialize, Serialize};
 
 const UNIT: f64 = 1_099_511_627_776.0; // 2^40
 
-/// A number in units of 2^-40. Written as decimal text, since few formats have integers that large.
+/// A number in units of 2^-40. It is written as decimal text, because few formats have integers
+/// that large.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(into = "String", try_from = "String")]
 pub(crate) struct Exact(i128);
 
 impl Exact {
-    /// The nearest number.
+    /// Returns the number that is nearest to a value.
     #[allow(clippy::cast_possible_truncation, reason = "rounded on purpose; saturates")]
     pub(crate) fn nearest(value: f64) -> Self {
         Self((value * UNIT).round() as i128)
@@ -28,7 +29,7 @@ impl Exact {
         self.0 = self.0.saturating_add(other.0);
     }
 
-    /// The nearest `f64`.
+    /// Returns the nearest `f64`.
     #[allow(clippy::cast_precision_loss, reason = "rounded on purpose, at the very end")]
     pub(crate) fn value(self) -> f64 {
         self.0 as f64 / UNIT
@@ -49,12 +50,12 @@ impl TryFrom<String> for Exact {
     }
 }
 
-/// `part / whole`, and `empty` where there is no whole.
+/// Returns `part / whole`; `empty` if `whole` is 0.
 pub(crate) fn ratio(part: u64, whole: u64, empty: f64) -> f64 {
     if whole == 0 { empty } else { real(part) / real(whole) }
 }
 
-/// A count as a number; exact up to 2^53.
+/// Converts a count to a floating-point number, exact up to 2^53.
 #[allow(clippy::cast_precision_loss, reason = "counts of pixels and scores are below 2^53")]
 pub(crate) fn real(value: u64) -> f64 {
     value as f64

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Compares a candidate with the ideal, frame by frame.
+//! The comparison of a candidate with the ideal, frame by frame.
 
 use foveate_camera::Camera;
 use foveate_engine::FrameOutcome;
@@ -15,20 +15,20 @@ use crate::scores::Pair;
 use crate::stale::Watch;
 use crate::{ErrorTally, FidelityError};
 
-/// Compares the frames of one clip; memory is allocated with the first.
+/// A comparison over the frames of one clip. It allocates memory with the first frame.
 #[derive(Clone, Debug)]
 pub struct Fidelity {
     ideal: Camera,
     candidate: Camera,
     cells: Cells,
     pairs: Vec<Pair>,
-    /// Decisions of the ideal and of the candidate.
+    /// The decisions of the ideal and of the candidate.
     states: [Vec<u8>; 2],
     eye: Eye,
     tally: ErrorTally,
 }
 
-/// What looks at pixels, in the type that the ideal's fit into.
+/// The comparison of pixels, in the type that the ideal's pixels need.
 #[derive(Clone, Debug)]
 enum Eye {
     Bytes(Sight<u8>),
@@ -43,11 +43,11 @@ struct Sight<T: Sample> {
 }
 
 impl Fidelity {
-    /// Compares results of `candidate` with those of `ideal`, which may differ in everything but the
-    /// size of a frame.
+    /// Creates a comparison of the results of `candidate` with those of `ideal`. The cameras may
+    /// differ in everything but the size of a frame.
     ///
     /// # Errors
-    /// When the sizes differ.
+    /// Fails if the sizes differ.
     pub fn new(ideal: &Camera, candidate: &Camera) -> Result<Self, FidelityError> {
         let size = |camera: &Camera| (camera.width(), camera.height());
         if size(ideal) != size(candidate) {
@@ -77,11 +77,12 @@ impl Fidelity {
         })
     }
 
-    /// One frame: the input as the ideal saw it, what the ideal camera made of it, what the candidate's
-    /// engine made of it, and the candidate's screen after it.
+    /// Adds one frame: the input of the ideal camera, the ideal camera's outcome, the outcome of
+    /// the candidate's engine, and the candidate's screen after it.
     ///
     /// # Errors
-    /// When something is not of the size or depth of its camera; nothing has been added then.
+    /// Fails if something does not have the size or depth of its camera; nothing has been added
+    /// then.
     pub fn add(
         &mut self,
         input: &Raster,
@@ -104,8 +105,8 @@ impl Fidelity {
         Ok(())
     }
 
-    /// Says that the next frame is the first of another clip of this size: no region has been stale
-    /// before it.
+    /// Declares that the next frame is the first of another clip with frames of this size, so that
+    /// no region has been stale before it.
     pub fn next_clip(&mut self) {
         match &mut self.eye {
             Eye::Bytes(sight) => sight.watch.end(),
@@ -113,13 +114,13 @@ impl Fidelity {
         }
     }
 
-    /// The sums so far.
+    /// Returns the sums so far.
     #[must_use]
     pub fn tally(&self) -> &ErrorTally {
         &self.tally
     }
 
-    /// The sums, at the end.
+    /// Returns the sums, and ends the comparison.
     #[must_use]
     pub fn into_tally(self) -> ErrorTally {
         self.tally
@@ -218,7 +219,7 @@ impl<T: Sample> Sight<T> {
         screen: Plane<'_>,
         tally: &mut ErrorTally,
     ) {
-        // The types have been checked.
+        // The types have been checked, so this always succeeds.
         let Some(pictures) = self.planes.take(input.plane(), ideal, screen) else { return };
         let [to_ideal, to_input] = self.comparison.compare(pictures);
         tally.to_ideal.add(&to_ideal);

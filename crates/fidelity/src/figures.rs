@@ -7,47 +7,52 @@ use crate::ErrorTally;
 use crate::exact::{ratio, real};
 use crate::scores::ScoreTally;
 
-/// How far a candidate is from the ideal. Shares are of area (pixels times frames), 0..=1: for two
-/// designs with the same regions and frames of whole regions that is the share of regions.
+/// The distance of a candidate from the ideal. Shares are of the area (pixels times frames), 0..=1.
+/// For two designs with the same regions, and frames of whole regions, these are shares of regions.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Figures {
-    /// Frames compared; with none, every share is 0 and every likeness 1.
+    /// The number of frames compared. Without frames every share is 0 and every SSIM is 1.
     pub frames: u64,
-    /// Errors of the scores that both designs have, in the order of the ideal's features, `temporal`
-    /// last; empty for regions of different sizes.
+    /// The errors of the scores that both designs have, in the order of the ideal's features, with
+    /// `temporal` last; empty for regions of different sizes.
     pub scores: Vec<ScoreError>,
-    /// Share of the area whose region has another SRS.
+    /// The share of the area whose region has another SRS.
     pub srs_flips: f64,
-    /// Share of the area whose region has another TRS.
+    /// The share of the area whose region has another TRS.
     pub trs_flips: f64,
-    /// Share of the area whose region is treated differently on the screen.
+    /// The share of the area whose region has another action on the screen.
     pub action_flips: f64,
-    /// Share of the area active in the ideal that is not active in the candidate; 0 when there is none.
+    /// The share of the ideal's active area that is not active in the candidate; 0 without such an
+    /// area.
     pub missed: f64,
-    /// Share of the area active in the candidate that is not active in the ideal; 0 when there is none.
+    /// The share of the candidate's active area that is not active in the ideal; 0 without such an
+    /// area.
     pub false_alarms: f64,
-    /// Intersection over union of both active areas, over all frames; 1 when both are empty.
+    /// The intersection over union of both active areas, over all frames; 1 if both are empty.
     pub active_iou: f64,
-    /// Share of the area that is active in the candidate.
+    /// The share of the area that is active in the candidate.
     pub active: f64,
-    /// Share of the area that is active in the ideal.
+    /// The share of the area that is active in the ideal.
     pub ideal_active: f64,
-    /// Share of the area of regions whose summary the candidate sends; left out where it sends none.
+    /// The share of the area of regions whose summary the candidate sends; omitted if it sends
+    /// none.
     #[serde(default, skip_serializing_if = "is_none")]
     pub summarized: f64,
-    /// PSNR of the candidate's screen against the ideal's in dB, `10 log10(peak^2 / mse)` with the mean
-    /// squared error of all frames and peak 2^P - 1 of the ideal; `None` where they are identical.
+    /// The PSNR of the candidate's screen against the ideal's in dB: `10 log10(peak^2 / mse)` with
+    /// the mean squared error of all frames, and the peak 2^P - 1 of the ideal; `None` if the
+    /// screens are identical.
     pub psnr_ideal: Option<f64>,
-    /// PSNR of the candidate's screen against the input.
+    /// The PSNR of the candidate's screen against the input in dB; `None` if they are identical.
     pub psnr_input: Option<f64>,
-    /// SSIM of the candidate's screen against the ideal's, mean over frames of that of ffmpeg's filter
-    /// `ssim`; at most 1. (Of its C code: its assembler for x86 errs where width / 4 is 2 more than a
-    /// multiple of 4.) A frame less than 8 wide or high is one window.
+    /// The SSIM of the candidate's screen against the ideal's, at most 1: the mean over frames of
+    /// the SSIM of ffmpeg's filter `ssim`. It is that of the filter's C code: the assembler code
+    /// for x86 is wrong if width / 4 is 2 more than a multiple of 4. A frame that is less than 8
+    /// pixels wide or high is one window.
     pub ssim_ideal: f64,
-    /// SSIM of the candidate's screen against the input.
+    /// The SSIM of the candidate's screen against the input, at most 1.
     pub ssim_input: f64,
-    /// How old the candidate's screen is.
+    /// The staleness of the candidate's screen.
     pub staleness: Staleness,
 }
 
@@ -56,44 +61,45 @@ fn is_none(share: &f64) -> bool {
     *share == 0.0
 }
 
-/// Error of one score over all regions and frames: |candidate - ideal|.
+/// The error |candidate - ideal| of one score over all regions and frames.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ScoreError {
-    /// `edge`, `corner`, `mad`, `variance` or `temporal`.
+    /// The name of the score: `edge`, `corner`, `mad`, `variance` or `temporal`.
     pub feature: String,
-    /// What the error is in: shares of the region's pixels (hits / n), grey levels of the ideal, or their
-    /// squares. Scores of a candidate of fewer bits are scaled up to those of the ideal.
+    /// The unit of the error: shares of the region's pixels (hits / n), grey levels of the ideal,
+    /// or squared grey levels. Scores of a candidate with fewer bits are scaled up to those of the
+    /// ideal.
     pub unit: String,
-    /// Largest.
+    /// The largest error.
     pub max: f64,
-    /// Mean.
+    /// The mean error.
     pub mean: f64,
-    /// Root of the mean square.
+    /// The root mean square of the error.
     pub rms: f64,
 }
 
-/// How the candidate's screen differs from the scene as the ideal sees it (denoised), in the regions of
-/// the ideal that are relevant there (SRS = 1). Padding is not looked at.
+/// The difference between the candidate's screen and the denoised frame of the ideal, in the
+/// regions that are relevant in the ideal (SRS = 1). Padding is left out.
 ///
-/// A region is stale in a frame when at least `temporal.min_count` of its pixels differ by more than
-/// `temporal.level`, both of the ideal; at least one pixel where `min_count` is 0, and all where fewer
-/// than `min_count` lie inside of the frame.
+/// A region is stale in a frame if at least `temporal.min_count` of its pixels differ by more than
+/// `temporal.level`, both of the ideal. If `min_count` is 0, one pixel is enough. If fewer than
+/// `min_count` pixels lie inside of the frame, all of them must differ.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Staleness {
-    /// Largest difference in grey levels of the ideal.
+    /// The largest difference in grey levels of the ideal.
     pub max: f64,
-    /// Mean difference over pixels, in grey levels of the ideal.
+    /// The mean difference over pixels, in grey levels of the ideal.
     pub mean: f64,
-    /// Longest run of frames in which one region was relevant and stale.
+    /// The longest run of frames in which one region was relevant and stale.
     pub longest: u64,
-    /// Share of the relevant regions (times frames) that are stale; 0 when there is none.
+    /// The share of the relevant regions (times frames) that are stale; 0 without relevant regions.
     pub share: f64,
 }
 
 impl ErrorTally {
-    /// What people read of it.
+    /// Returns the figures of the tally.
     #[must_use]
     pub fn figures(&self) -> Figures {
         let Self { frames, pixels, areas, stale, .. } = self;

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How far a camera is from the ideal camera, over the frames of clips.
+//! The distance of a camera from the ideal camera, over the frames of clips.
 //!
 //! A [`Fidelity`] gets each input frame with the results of the ideal camera
-//! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`ErrorTally`] holds whole numbers
-//! only, so tallies of clips can be stored, and their sum has the same bits in any order. [`Figures`] are
-//! for people: errors of scores, flips, PSNR, SSIM, staleness. This crate does no I/O.
+//! ([`foveate_ideal::IdealCamera`]) and of the candidate's engine. Its [`ErrorTally`] holds only
+//! whole numbers, so tallies of clips can be stored, and their sum has the same bits in any order.
+//! [`Figures`] are for people: errors of scores, flips, PSNR, SSIM, staleness. This crate does no
+//! I/O.
 #![forbid(unsafe_code)]
 
 mod areas;

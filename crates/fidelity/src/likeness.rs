@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! PSNR and SSIM of what a receiver sees against the original, where there is no camera to compare.
+//! The PSNR and SSIM of a receiver's frames against the original, without a camera.
 
 use crate::FidelityError;
 use crate::picture::{Comparison, PictureTally};
 use crate::planes::Pictures;
 
-/// Compares frames of one size with 8 bits per pixel.
+/// A comparison of frames of one size with 8 bits per pixel.
 #[derive(Clone, Debug)]
 pub struct Likeness {
     pixels: usize,
@@ -15,7 +15,7 @@ pub struct Likeness {
 }
 
 impl Likeness {
-    /// For frames of `width` x `height` pixels; nothing compared yet.
+    /// Creates a comparison for frames of `width` x `height` pixels.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
         let (width, height) = (width as usize, height as usize);
@@ -23,10 +23,10 @@ impl Likeness {
         Self { pixels: width * height, comparison, frames: 0, tally: PictureTally::default() }
     }
 
-    /// One frame.
+    /// Adds one frame.
     ///
     /// # Errors
-    /// When one of the two has another number of pixels; nothing has been added then.
+    /// Fails if one of the two frames has another number of pixels; nothing has been added then.
     pub fn add(&mut self, seen: &[u8], original: &[u8]) -> Result<(), FidelityError> {
         for (what, given) in [("frame of the receiver", seen.len()), ("original", original.len())] {
             if given != self.pixels {
@@ -41,19 +41,19 @@ impl Likeness {
         Ok(())
     }
 
-    /// Frames that were compared.
+    /// Returns the number of frames that were compared.
     #[must_use]
     pub fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// As [`Figures::psnr_input`](crate::Figures::psnr_input).
+    /// Returns the PSNR, defined like [`Figures::psnr_input`](crate::Figures::psnr_input).
     #[must_use]
     pub fn psnr(&self) -> Option<f64> {
         self.tally.psnr(self.frames * self.pixels as u64, u8::MAX.into())
     }
 
-    /// As [`Figures::ssim_input`](crate::Figures::ssim_input).
+    /// Returns the SSIM, defined like [`Figures::ssim_input`](crate::Figures::ssim_input).
     #[must_use]
     pub fn ssim(&self) -> f64 {
         self.tally.ssim(self.frames)

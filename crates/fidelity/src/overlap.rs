@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Two grids of regions over one frame: the cells that the lines of both cut it into.
+//! The overlap of two grids of regions over one frame: the cells into which the lines of both grids
+//! divide the frame.
 
 use foveate_camera::Camera;
 
 use crate::areas::{Table, place};
 
-/// Pixels along one axis that lie in one region of each grid.
+/// The pixels along one axis that lie in one region of each grid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Strip {
     pixels: u64,
@@ -13,7 +14,7 @@ struct Strip {
     candidate: usize,
 }
 
-/// The cells of a frame, as strips along both axes. Padding belongs to none.
+/// The cells of a frame, as strips along both axes. Padding belongs to no cell.
 #[derive(Clone, Debug)]
 pub(crate) struct Cells {
     across: Vec<Strip>,
@@ -33,7 +34,8 @@ impl Cells {
         }
     }
 
-    /// Adds the area of every combination of states; both lists are by region, row by row.
+    /// Adds the area of every combination of states; both lists have one state per region, in
+    /// row-major order.
     pub(crate) fn count(&self, ideal: &[u8], candidate: &[u8], table: &mut Table) {
         for row in &self.down {
             let ideal = &ideal[row.ideal * self.ideal_columns..][..self.ideal_columns];

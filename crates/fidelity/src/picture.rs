@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Squared errors and SSIM of the candidate's screen, against the ideal's screen and the input at once.
+//! The squared errors and the SSIM of the candidate's screen, against the ideal's screen and the
+//! input at the same time.
 //!
-//! SSIM is that of ffmpeg's filter `ssim` for one plane: windows of 8x8 pixels every 4, made of the sums
-//! of 4x4 blocks; what is left at the right and bottom belongs to no window. A frame that is less than 8
-//! wide or high, which ffmpeg's has no window for, is one window as a whole.
+//! The SSIM is that of ffmpeg's filter `ssim` for one plane: it has windows of 8x8 pixels every 4
+//! pixels, made of the sums of 4x4 blocks. The pixels that are left at the right and at the bottom
+//! belong to no window. For a frame that is less than 8 pixels wide or high ffmpeg has no window;
+//! here the whole frame is one window.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,12 +14,12 @@ use crate::planes::Pictures;
 use crate::sample::Sample;
 use crate::ssim::{Ssim, Window};
 
-/// Likeness of pictures over frames.
+/// The squared errors and the SSIM of two screens, summed over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct PictureTally {
-    /// Sum of squared differences of all pixels.
+    /// The sum of the squared differences of all pixels.
     pub(crate) squares: Exact,
-    /// Sum of the SSIM of frames.
+    /// The sum of the SSIM of all frames.
     pub(crate) ssim: Exact,
 }
 
@@ -27,46 +29,49 @@ impl PictureTally {
         self.ssim.add(other.ssim);
     }
 
-    /// PSNR in dB with the mean squared error of all pixels; `None` where they are identical.
+    /// Returns the PSNR in dB with the mean squared error of all pixels; `None` if they are
+    /// identical.
     pub(crate) fn psnr(&self, pixels: u64, peak: u32) -> Option<f64> {
         let squares = self.squares.value();
         let peak = f64::from(peak);
         (squares > 0.0).then(|| 10.0 * (peak * peak * real(pixels) / squares).log10())
     }
 
-    /// Mean over frames; 1 of none.
+    /// Returns the mean SSIM over frames; 1 without frames.
     pub(crate) fn ssim(&self, frames: u64) -> f64 {
         if frames == 0 { 1.0 } else { self.ssim.value() / real(frames) }
     }
 }
 
-/// Side of a block.
+/// The side of a block in pixels.
 const BLOCK: usize = 4;
-/// Columns that are summed at a time.
+/// The number of columns that are summed at a time.
 const TILE: usize = 64;
 
-/// Screen, ideal and input; then their squares; then the products of the screen with the other two.
+/// The number of sums: of the screen, the ideal's screen and the input; of their squares; and of
+/// the products of the screen with the other two.
 const SUMS: usize = 8;
 
-/// Sums of 4 rows, column by column.
+/// The sums of 4 rows, column by column.
 struct Tile<T: Sample> {
     pixels: [[u32; TILE]; 3],
     products: [[T::Product; TILE]; 5],
 }
 
-/// Compares frames of one size.
+/// A comparison of frames of one size.
 #[derive(Clone, Debug)]
 pub(crate) struct Comparison<T> {
     width: usize,
     height: usize,
     ssim: Ssim,
-    /// Sums of the blocks of the last row of blocks and of this one, one list per sum.
+    /// The sums of the blocks of the last row of blocks and of the current one, with one list per
+    /// sum.
     rows: [[Vec<f64>; SUMS]; 2],
     zero: Vec<T>,
 }
 
 impl<T: Sample> Comparison<T> {
-    /// For frames of `width` x `height` pixels up to `peak`.
+    /// Creates a comparison of frames of `width` x `height` pixels with values up to `peak`.
     pub(crate) fn new(width: usize, height: usize, peak: u32) -> Self {
         let whole = width < 2 * BLOCK || height < 2 * BLOCK;
         let pixels = if whole { real((width * height) as u64) } else { 64.0 };
@@ -80,7 +85,7 @@ impl<T: Sample> Comparison<T> {
         }
     }
 
-    /// One frame: likeness to the ideal's screen, and to the input.
+    /// Compares one frame with the ideal's screen, and with the input.
     pub(crate) fn compare(&mut self, pictures: Pictures<'_, T>) -> [PictureTally; 2] {
         let mut squares = [0_u64; 2];
         let mut likeness = [0.0; 2];
@@ -107,7 +112,7 @@ impl<T: Sample> Comparison<T> {
         })
     }
 
-    /// Sums up to four rows: squared errors of all columns, blocks of whole ones.
+    /// Sums up to four rows: the squared errors of all columns, and the sums of whole blocks.
     fn sum(
         &mut self,
         pictures: Pictures<'_, T>,
@@ -132,7 +137,8 @@ impl<T: Sample> Comparison<T> {
         }
     }
 
-    /// Four rows of a picture from column `left` on; black below the last, which adds nothing to a sum.
+    /// Returns four rows from column `left` on. Rows below the last one are black, which adds
+    /// nothing to a sum.
     fn part<'p>(
         &'p self,
         picture: &'p [T],
@@ -146,7 +152,7 @@ impl<T: Sample> Comparison<T> {
         })
     }
 
-    /// Sum of the likeness of all windows of two rows of blocks.
+    /// Returns the sums of the SSIM of all windows of two rows of blocks.
     fn windows(&self) -> [f64; 2] {
         let ([above, below], count) = (&self.rows, self.width / BLOCK);
         let (above, below) = (above.each_ref(), below.each_ref());
@@ -165,7 +171,7 @@ impl<T: Sample> Comparison<T> {
     }
 }
 
-/// The screen with the ideal's, and with the input.
+/// Returns the window of the screen and the ideal's screen, and that of the screen and the input.
 #[inline(always)]
 fn pairs(sums: [f64; SUMS]) -> [Window; 2] {
     let [screen, ideal, input, screen2, ideal2, input2, with_ideal, with_input] = sums;
@@ -205,7 +211,8 @@ impl<T: Sample> Tile<T> {
         }
     }
 
-    /// Sums of squared differences of the screen to the other two: `a^2 + b^2 - 2 a b`.
+    /// Returns the sums of the squared differences of the screen to the other two:
+    /// `a^2 + b^2 - 2 a b`.
     fn squares(&self, len: usize) -> [u64; 2] {
         let sum = |which: usize| -> u64 {
             self.products[which][..len].iter().map(|&product| product.into()).sum()
@@ -213,7 +220,7 @@ impl<T: Sample> Tile<T> {
         [sum(0) + sum(1) - 2 * sum(3), sum(0) + sum(2) - 2 * sum(4)]
     }
 
-    /// One of the sums over blocks.
+    /// Writes one of the sums over blocks.
     fn blocks(&self, which: usize, blocks: &mut [f64]) {
         match which.checked_sub(3) {
             None => {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The pictures of one frame in one pixel type, at the depth of the ideal.
+//! The frames that are compared, in one pixel type, at the depth of the ideal.
 
 use foveate_camera::Camera;
 use foveate_frame::{Plane, convert_depth};
@@ -7,21 +7,21 @@ use foveate_ideal::IdealOutcome;
 
 use crate::sample::Sample;
 
-/// Memory for the pictures that come in another form.
+/// The memory for frames that need another type or depth.
 #[derive(Clone, Debug)]
 pub(crate) struct Planes<T> {
     denoised: Vec<T>,
     rendered: Vec<T>,
     screen: Vec<T>,
-    /// For every pixel of the candidate that of the ideal; empty where both have the same depth.
+    /// The pixel of the ideal for every pixel of the candidate; empty if both have the same depth.
     depths: Vec<T>,
 }
 
-/// Pixels of one frame, row by row.
+/// The pixels of one frame, in row-major order.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pictures<'p, T> {
     pub(crate) input: &'p [T],
-    /// The ideal's denoised frame.
+    /// The denoised frame of the ideal.
     pub(crate) denoised: &'p [T],
     /// The ideal's screen.
     pub(crate) rendered: &'p [T],
@@ -40,7 +40,7 @@ impl<T: Sample> Planes<T> {
         Self { denoised: Vec::new(), rendered: Vec::new(), screen: Vec::new(), depths }
     }
 
-    /// The pictures of a frame; `None` where a plane is of the wrong type.
+    /// Converts the frames of one step; returns `None` if a plane has the wrong type.
     pub(crate) fn take<'p>(
         &'p mut self,
         input: Plane<'p>,

@@ -3,35 +3,35 @@
 
 use foveate_frame::Plane;
 
-/// A pixel: a byte up to 8 bits, a word above.
+/// A pixel: a byte up to 8 bits, and a word above.
 pub(crate) trait Sample: Copy + Default + Ord + Into<u32> {
-    /// Holds the sum of four products of two pixels.
+    /// The type that holds the sum of four products of two pixels.
     type Product: Copy + Default + std::fmt::Debug + Into<u64> + std::ops::AddAssign;
 
-    /// Holds the sum of 64 pixels.
+    /// The type that holds the sum of 64 pixels.
     type Sum: Copy + Default + std::fmt::Debug + From<Self> + Into<u32> + std::ops::AddAssign;
 
-    /// A sum of products as a number; below 2^52.
+    /// Converts a sum of products, below 2^52, to a floating-point number.
     fn real(sum: Self::Product) -> f64;
 
-    /// The product of two pixels.
+    /// Returns the product of two pixels.
     fn times(self, other: Self) -> Self::Product;
 
-    /// The absolute difference.
+    /// Returns the absolute difference of two pixels.
     fn distance(self, other: Self) -> Self;
 
-    /// A value that is known to fit.
+    /// Converts a value that is known to fit.
     fn of(value: u16) -> Self;
 
-    /// A whole grey level that is known to fit.
+    /// Converts a whole grey level that is known to fit.
     fn grey(value: f64) -> Self;
 
-    /// The pixels of a plane, if they are of this type.
+    /// Returns the pixels of a plane, if they have this type.
     fn pixels<'p>(plane: Plane<'p>) -> Option<&'p [Self]>;
 }
 
-/// A whole number below 2^52 plus this has its digits in the lowest bits: a conversion that is one
-/// addition in every vector instruction set.
+/// A whole number below 2^52 plus this number has its digits in the lowest bits. This conversion
+/// takes one addition in every vector instruction set.
 const SHIFT: f64 = 4_503_599_627_370_496.0; // 2^52
 
 impl Sample for u8 {
@@ -45,7 +45,7 @@ impl Sample for u8 {
 
     #[inline(always)]
     fn times(self, other: Self) -> u32 {
-        // 255 * 255 fits into 16 bits, and their products are the cheapest.
+        // The product 255 * 255 fits into 16 bits, and products of 16 bits are the cheapest.
         u32::from(u16::from(self).wrapping_mul(u16::from(other)))
     }
 

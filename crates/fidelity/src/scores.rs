@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Errors of the scores that both cameras have, region by region; only where regions are the same.
+//! The errors of the scores that both cameras have, region by region. They need regions of the same
+//! size.
 
 use foveate_camera::{Camera, Measure};
 use foveate_engine::FrameOutcome;
@@ -8,12 +9,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::exact::{Exact, real};
 
-/// Error of one score over some regions and frames.
+/// The error of one score, summed over regions and frames.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct ScoreTally {
     pub(crate) feature: String,
     pub(crate) unit: String,
-    /// Regions times frames.
+    /// The number of regions times frames.
     pub(crate) count: u64,
     pub(crate) max: Exact,
     pub(crate) sum: Exact,
@@ -32,20 +33,21 @@ impl ScoreTally {
 /// A score that both cameras have.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pair {
-    /// Which feature of the ideal and of the candidate; `None` for the temporal score.
+    /// The indices of the feature in the ideal and in the candidate; `None` for the temporal score.
     places: Option<(usize, usize)>,
     name: &'static str,
     unit: &'static str,
-    /// What a score of the candidate is divided by to be in the unit of the ideal, which does the same
-    /// division; then a power of two for pixels of other depth, which is exact.
+    /// The divisor that converts a score of the candidate to the unit of the ideal, which divides
+    /// by the same number. `depth` is then a power of two for another pixel depth, which is exact.
     divisor: f64,
     depth: f64,
-    /// What both are divided by, to be shares of a region.
+    /// The divisor of both scores, which makes shares of a region.
     share: f64,
 }
 
 impl Pair {
-    /// Every score that can be compared, the temporal last; none for regions of different sizes.
+    /// Returns every score that can be compared, with the temporal score last; empty for regions of
+    /// different sizes.
     pub(crate) fn all(ideal: &Camera, candidate: &Camera) -> Vec<Self> {
         if ideal.region_size() != candidate.region_size() {
             return Vec::new();
@@ -84,7 +86,7 @@ impl Pair {
         pairs
     }
 
-    /// Nothing compared yet.
+    /// Creates the tally of this score.
     pub(crate) fn tally(&self) -> ScoreTally {
         let [max, sum, squares] = [Exact::default(); 3];
         let (feature, unit) = (self.name.to_owned(), self.unit.to_owned());
@@ -112,7 +114,8 @@ impl Pair {
         }
     }
 
-    /// Regions are added in their order, frames in any: a frame's sums become whole numbers.
+    /// Adds the errors of all regions in their order. Frames may be added in any order, because the
+    /// sums of a frame become whole numbers.
     fn compare(&self, ideal: &[f64], candidate: impl Iterator<Item = f64>, tally: &mut ScoreTally) {
         let (mut max, mut sum, mut squares) = (0.0_f64, 0.0, 0.0);
         for (ideal, candidate) in ideal.iter().zip(candidate) {

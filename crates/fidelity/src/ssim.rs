@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! SSIM of two windows from the sums of their pixels, and the constants of ffmpeg's filter `ssim`.
+//! The SSIM of two windows from the sums of their pixels, with the constants of ffmpeg's filter
+//! `ssim`.
 //!
-//! Z. Wang et al., "Image Quality Assessment: From Error Visibility to Structural Similarity", 2004, with
-//! mean, variance and covariance times the number of pixels or its square, so that only whole numbers
-//! are added.
+//! The definition is that of Z. Wang et al., "Image Quality Assessment: From Error Visibility to
+//! Structural Similarity", 2004. Mean, variance and covariance are multiplied by the number of
+//! pixels or its square, so that only whole numbers are added.
 
-/// Sums over the pixels of a window, `a` and `b` in two pictures.
+/// The sums over the pixels of a window, in two frames `a` and `b`.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Window {
     pub(crate) a: f64,
     pub(crate) b: f64,
-    /// Of both pictures.
+    /// The sum of the squares in both frames.
     pub(crate) squares: f64,
     pub(crate) product: f64,
 }
 
-/// SSIM for windows of some pixels of some depth.
+/// The constants of the SSIM for windows with some number of pixels of some depth.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ssim {
     pixels: f64,
@@ -24,8 +25,9 @@ pub(crate) struct Ssim {
 }
 
 impl Ssim {
-    /// `pixels` per window, values up to `peak`. With the 64 pixels of an 8x8 window these are ffmpeg's
-    /// constants, down to their rounding. A window of a single pixel has no variance; it keeps a `c2`.
+    /// Creates the constants for windows of `pixels` pixels with values up to `peak`. For the 64
+    /// pixels of an 8x8 window these are ffmpeg's constants, including their rounding. A window of
+    /// a single pixel has no variance, but its `c2` must not be 0.
     pub(crate) fn new(pixels: f64, peak: f64) -> Self {
         let rest = (pixels - 1.0).max(1.0);
         Self {
@@ -35,7 +37,7 @@ impl Ssim {
         }
     }
 
-    /// The likeness of two windows, at most 1.
+    /// Returns the SSIM of two windows, at most 1.
     #[inline(always)]
     pub(crate) fn of(self, window: Window) -> f64 {
         let Window { a, b, squares, product } = window;
@@ -44,7 +46,8 @@ impl Ssim {
         let covariance = product * self.pixels - a * b;
         let alike = (2.0 * a * b + self.c1) * (2.0 * covariance + self.c2);
         let all = (both + self.c1) * (variances + self.c2);
-        // Without constants (pixels of 1 to 3 bits in windows of few) two black windows are 0 / 0.
+        // If both constants are 0, as for pixels of 1 to 3 bits in small windows, two black windows
+        // give 0 / 0.
         if alike == all { 1.0 } else { alike / all }
     }
 }

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How old the candidate's screen is, in the regions that the ideal finds relevant.
+//! The staleness of the candidate's screen, in the regions that are relevant in the ideal.
 
 use foveate_camera::Camera;
 use serde::{Deserialize, Serialize};
 
 use crate::sample::Sample;
 
-/// Staleness over frames.
+/// The staleness, summed over frames.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub(crate) struct StaleTally {
-    /// Largest difference.
+    /// The largest difference.
     pub(crate) max: u32,
-    /// Sum of the differences of all pixels of relevant regions.
+    /// The sum of the differences of all pixels of relevant regions.
     pub(crate) sum: u64,
-    /// Those pixels.
+    /// The number of these pixels.
     pub(crate) pixels: u64,
-    /// Relevant regions.
+    /// The number of relevant regions.
     pub(crate) relevant: u64,
-    /// Those of them that are stale.
+    /// The number of relevant regions that are stale.
     pub(crate) stale: u64,
-    /// Longest run of one region.
+    /// The longest run of one region in frames.
     pub(crate) longest: u64,
 }
 
@@ -34,7 +34,7 @@ impl StaleTally {
     }
 }
 
-/// Watches the regions of one clip.
+/// The staleness of the regions of one clip.
 #[derive(Clone, Debug)]
 pub(crate) struct Watch<T: Sample> {
     width: usize,
@@ -43,9 +43,10 @@ pub(crate) struct Watch<T: Sample> {
     columns: usize,
     level: T,
     min_count: u32,
-    /// For how many frames every region has been stale.
+    /// The number of frames for which every region has been stale.
     runs: Vec<u64>,
-    /// By column of one row of regions: sum of differences, largest, and how many are above the level.
+    /// The sum of differences of every column of one row of regions; `largest` has the largest
+    /// difference, and `counts` the number of differences above the level.
     sums: Vec<T::Sum>,
     largest: Vec<T>,
     counts: Vec<u8>,
@@ -73,7 +74,7 @@ impl<T: Sample> Watch<T> {
         self.runs.fill(0);
     }
 
-    /// One frame: the ideal's SRS and denoised frame, and the candidate's screen.
+    /// Adds one frame: the SRS and the denoised frame of the ideal, and the candidate's screen.
     pub(crate) fn look(
         &mut self,
         srs: &[bool],
@@ -94,7 +95,8 @@ impl<T: Sample> Watch<T> {
         }
     }
 
-    /// Differences of a row of regions, column by column; at most 64 rows.
+    /// Sums the differences of a row of regions, which has at most 64 rows of pixels, column by
+    /// column.
     fn sum(&mut self, denoised: &[T], screen: &[T]) {
         self.sums.fill(T::Sum::default());
         self.largest.fill(T::default());

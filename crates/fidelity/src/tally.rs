@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sums over frames.
+//! The sums over frames.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,15 +8,15 @@ use crate::picture::PictureTally;
 use crate::scores::ScoreTally;
 use crate::stale::StaleTally;
 
-/// Sums over frames; what can be added and stored. Whole numbers only: the same frames give the same
-/// tally in whatever order and on however many threads their clips were compared.
+/// The sums over frames, which can be added and stored. They are whole numbers, so the same frames
+/// give the same tally, in any order of the clips and on any number of threads.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct ErrorTally {
     pub(crate) frames: u64,
-    /// Pixels of all frames.
+    /// The number of pixels of all frames.
     pub(crate) pixels: u64,
-    /// Largest pixel of the ideal camera.
+    /// The largest possible pixel of the ideal camera.
     pub(crate) peak: u32,
     pub(crate) scores: Vec<ScoreTally>,
     pub(crate) areas: Areas,
@@ -26,10 +26,11 @@ pub struct ErrorTally {
 }
 
 impl ErrorTally {
-    /// Adds the frames of another tally: of the same two cameras, but for the size of the frames.
+    /// Adds the frames of another tally. It must belong to the same two cameras, but the size of
+    /// the frames may differ.
     ///
-    /// Scores are added by name. Of different depths the largest pixel counts, for PSNR, which then says
-    /// little.
+    /// Scores are added by name. If the depths differ, the largest peak is used for the PSNR, which
+    /// then has little meaning.
     pub fn merge(&mut self, other: &Self) {
         self.frames += other.frames;
         self.pixels += other.pixels;
@@ -46,7 +47,7 @@ impl ErrorTally {
         self.stale.add(&other.stale);
     }
 
-    /// Frames that were added.
+    /// Returns the number of frames that were added.
     #[must_use]
     pub fn frames(&self) -> u64 {
         self.frames

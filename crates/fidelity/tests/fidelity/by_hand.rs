@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Real cameras on scenes, tallies that add up, units of scores, and what is refused.
+//! Cameras on scenes, the sums of tallies, the units of scores, and refused results.
 
 use foveate_camera::{Camera, CameraConfig, Decimal, FeatureKind, Neighborhood, SpatialConfig};
 use foveate_fidelity::{ErrorTally, Fidelity, FidelityError};
@@ -14,7 +14,7 @@ fn scene(scene: Scene, camera: &Camera, frames: u32) -> Vec<Raster> {
     scene.frames(size).map(|frame| Raster::from(&frame)).collect()
 }
 
-/// All four features, windows over the whole frame, an exact mean.
+/// Returns a configuration with all four features, windows over the whole frame, and an exact mean.
 fn exact() -> CameraConfig {
     let mut config = config((90, 45), 8, 8);
     config.region.neighborhood = Neighborhood::Shared;
@@ -39,7 +39,8 @@ fn the_engine_of_the_same_design_is_the_ideal() {
     }
 }
 
-/// What `isolated` and a mean without fraction bits cost is seen where it is lost, and nowhere else.
+/// The errors of isolated windows and of a mean without fraction bits appear in their own scores,
+/// and nowhere else.
 #[test]
 fn a_cheaper_candidate_differs_where_it_is_cheaper() {
     let ideal = exact();
@@ -94,7 +95,8 @@ fn nothing_compared_is_nothing_wrong() {
     assert_eq!((figures.active_iou, figures.ssim_ideal, figures.psnr_ideal), (1.0, 1.0, None));
 }
 
-/// 6 bits instead of 8: a grey level of the candidate is four of the ideal, a squared one sixteen.
+/// With 6 bits in place of 8, a grey level of the candidate is four levels of the ideal, and a
+/// squared level is sixteen.
 #[test]
 fn scores_of_fewer_bits_are_scaled_up() {
     let mut own = config((2, 2), 2, 8);
@@ -107,7 +109,8 @@ fn scores_of_fewer_bits_are_scaled_up() {
     other.spatial[1].min_score = Some(Decimal::whole(1));
     let [own, other] = [own, other].map(|config| config.validate().unwrap());
     let (mut ideal, mut candidate) = (blank_ideal(&own), blank(&other));
-    // 24 / (4 * 2) = 3 grey levels of 6 bits are 12; 80 / 16 = 5 squared ones are 80.
+    // The score 24 / (4 * 2) = 3 grey levels of 6 bits is 12 levels of 8 bits; 80 / 16 = 5 squared
+    // levels are 80.
     (ideal.scores[1][0], candidate.scores[0][0]) = (12.5, 24);
     (ideal.scores[0][0], candidate.scores[2][0]) = (82.0, 80);
     let mut fidelity = Fidelity::new(&own, &other).unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! PSNR and SSIM against ffmpeg's own filters, frame by frame and over a clip, to the printed digits.
+//! PSNR and SSIM against ffmpeg's own filters, frame by frame and over a clip, to the printed
+//! digits.
 
 use std::fs;
 use std::path::Path;
@@ -22,7 +23,7 @@ fn scene(scene: Scene, camera: &Camera) -> Vec<Raster> {
     scene.frames(size).map(|frame| Raster::from(&frame)).collect()
 }
 
-/// Writes pixels as ffmpeg's `gray` or `gray10le`.
+/// Writes pixels in ffmpeg's format `gray` or `gray10le`.
 fn write(path: &Path, frames: &[Raster]) {
     let bytes: Vec<u8> = frames
         .iter()
@@ -34,7 +35,7 @@ fn write(path: &Path, frames: &[Raster]) {
     fs::write(path, bytes).unwrap();
 }
 
-/// The lines of statistics of a filter, and what ffmpeg says at the end.
+/// Returns the lines of statistics of a filter, and ffmpeg's final messages.
 fn filtered(folder: &Path, filter: &str, camera: &Camera) -> (Vec<String>, String) {
     let size = format!("{}x{}", camera.width(), camera.height());
     let format = match camera.pixel_bits() {
@@ -46,8 +47,8 @@ fn filtered(folder: &Path, filter: &str, camera: &Camera) -> (Vec<String>, Strin
     };
     let output = Command::new("ffmpeg")
         .current_dir(folder)
-        // Its assembler for x86 gets SSIM wrong where width / 4 is 2 more than a multiple of 4 (1.000000
-        // for any two frames 8 wide); its C code does not.
+        // The filter's assembler code for x86 computes a wrong SSIM if width / 4 is 2 more than a
+        // multiple of 4 (1.000000 for any two frames that are 8 wide); its C code does not.
         .args(["-hide_banner", "-nostdin", "-cpuflags", "0"])
         .args(input("screen"))
         .args(input("other"))
@@ -60,23 +61,23 @@ fn filtered(folder: &Path, filter: &str, camera: &Camera) -> (Vec<String>, Strin
     (stats.lines().map(str::to_owned).collect(), said)
 }
 
-/// The value behind the last `key` of a text.
+/// Returns the value after the last `key` of a text.
 fn value(text: &str, key: &str) -> String {
     let found = text.rsplit(key).next().unwrap();
     found.split_whitespace().next().unwrap().to_owned()
 }
 
-/// As ffmpeg prints a PSNR.
+/// Formats a PSNR like ffmpeg.
 fn printed(psnr: Option<f64>, digits: usize) -> String {
     psnr.map_or("inf".to_owned(), |psnr| format!("{psnr:.digits$}"))
 }
 
-/// ffmpeg adds in single precision, and is right to the six digits that it prints.
+/// Compares the six digits that ffmpeg prints, to which its single precision is right.
 fn assert_ssim(own: f64, theirs: &str, context: &str) {
     assert_eq!(format!("{own:.6}"), theirs, "{own}, {context}");
 }
 
-/// PSNR and SSIM without cameras.
+/// Returns the PSNR and SSIM without cameras.
 fn likeness(camera: &Camera, input: &[Raster], shown: &[Raster]) -> (Option<f64>, f64) {
     let mut likeness = Likeness::new(camera.width(), camera.height());
     for (input, shown) in input.iter().zip(shown) {
@@ -142,7 +143,7 @@ fn figures_are_those_of_ffmpeg() {
         let street = scene(Scene::Street, &camera);
         let night = scene(Scene::NightRain, &camera);
         let random = scene(Scene::Random, &camera);
-        // The first two of them equal, so that there is an identical frame.
+        // The first frames of two clips are equal, so that there is an identical frame.
         let mut mixed = scene(Scene::Shake, &camera);
         mixed[0] = street[0].clone();
         compare(&camera, &night, &mixed, &street);

@@ -11,7 +11,7 @@ pub(crate) fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.iter().map(|_| 1.0).sum::<f64>()
 }
 
-/// SSIM of one window from its pixels, by mean, variance and covariance.
+/// Returns the SSIM of one window from its pixels, by mean, variance and covariance.
 fn alike(a: &[f64], b: &[f64], peak: f64) -> f64 {
     let n: f64 = a.iter().map(|_| 1.0).sum();
     let (ma, mb) = (mean(a), mean(b));
@@ -44,7 +44,7 @@ fn ssim(a: &[f64], b: &[f64], camera: &Camera) -> f64 {
     mean(&windows)
 }
 
-/// PSNR and SSIM of both comparisons; `shown` are the screens at the depth of the ideal.
+/// Checks the PSNR and SSIM of both comparisons; `shown` are the screens at the depth of the ideal.
 pub(crate) fn check_pictures(
     figures: &Figures,
     frames: &[Frame],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Results as cameras would give them, real or made up.
+//! Results in the form of cameras' results, real or made up.
 
 use foveate_camera::Action;
 use foveate_camera::{Camera, CameraConfig};
@@ -8,8 +8,8 @@ use foveate_fidelity::{ErrorTally, Fidelity};
 use foveate_frame::Raster;
 use foveate_ideal::{IdealCamera, IdealOutcome};
 
-/// A camera for frames of some size with regions of some side and pixels of some bits; otherwise the
-/// defaults, with a minimum that fits into the smallest regions.
+/// Returns a camera for frames of some size, with regions of side `side` and pixels of `bits` bits.
+/// Its other settings are the defaults, with a minimum that fits into the smallest regions.
 pub(crate) fn config((width, height): (u32, u32), side: u32, bits: u32) -> CameraConfig {
     let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(width), Some(height));
@@ -20,7 +20,8 @@ pub(crate) fn config((width, height): (u32, u32), side: u32, bits: u32) -> Camer
     config
 }
 
-/// The same frames through the ideal camera and the engine; the ideal sees `own`, the candidate `other`.
+/// Runs the same frames through the ideal camera and the engine. The ideal camera gets the first of
+/// each pair, and the candidate the second.
 pub(crate) fn run(
     ideal: &Camera,
     candidate: &Camera,
@@ -36,7 +37,7 @@ pub(crate) fn run(
     }
 }
 
-/// The tally of one clip that both see alike.
+/// Returns the tally of one clip whose frames both cameras get.
 pub(crate) fn tally(ideal: &Camera, candidate: &Camera, frames: &[Raster]) -> ErrorTally {
     let mut fidelity = Fidelity::new(ideal, candidate).unwrap();
     let frames: Vec<_> = frames.iter().map(|frame| (frame.clone(), frame.clone())).collect();
@@ -44,7 +45,7 @@ pub(crate) fn tally(ideal: &Camera, candidate: &Camera, frames: &[Raster]) -> Er
     fidelity.into_tally()
 }
 
-/// Results in which nothing is relevant and everything black.
+/// Returns results of the ideal camera in which nothing is relevant and everything is black.
 pub(crate) fn blank_ideal(camera: &Camera) -> IdealOutcome {
     let (regions, pixels) = (camera.regions() as usize, pixels(camera));
     IdealOutcome {
@@ -59,7 +60,7 @@ pub(crate) fn blank_ideal(camera: &Camera) -> IdealOutcome {
     }
 }
 
-/// The same for an engine.
+/// Returns results of an engine in which nothing is relevant.
 pub(crate) fn blank(camera: &Camera) -> FrameOutcome {
     let regions = camera.regions() as usize;
     FrameOutcome {
@@ -77,7 +78,7 @@ pub(crate) fn pixels(camera: &Camera) -> usize {
     camera.width() as usize * camera.height() as usize
 }
 
-/// A frame of words in whatever type its bits need.
+/// Creates a frame from words, in the type that its bits need.
 pub(crate) fn raster(camera: &Camera, pixels: Vec<u16>) -> Raster {
     Raster::from_words(camera.width(), camera.height(), camera.pixel_bits(), pixels).unwrap()
 }
@@ -86,11 +87,11 @@ pub(crate) fn greys(pixels: &[u16]) -> Vec<f64> {
     pixels.iter().map(|&pixel| pixel.into()).collect()
 }
 
-/// Random numbers, the same on every machine.
+/// A generator of random numbers that are the same on every machine.
 pub(crate) struct Random(pub(crate) u64);
 
 impl Random {
-    /// A number in `0..=max`.
+    /// Returns a number in `0..=max`.
     pub(crate) fn below(&mut self, max: u32) -> u32 {
         self.0 =
             self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Figures against ffmpeg, against a naive count of pixels, and by hand.
+//! Tests of figures against ffmpeg, against a naive count of pixels, and by hand.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod by_hand;

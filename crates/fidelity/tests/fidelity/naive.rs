@@ -12,16 +12,17 @@ use proptest::prelude::*;
 use crate::likeness::{check_pictures, mean};
 use crate::made::{Random, blank, blank_ideal, config, greys, pixels, raster};
 
-/// What is added for one frame.
+/// The data that is added for one frame.
 pub(crate) struct Frame {
     pub(crate) input: Vec<u16>,
     pub(crate) ideal: IdealOutcome,
     candidate: FrameOutcome,
-    /// At the depth of the candidate.
+    /// The screen at the depth of the candidate.
     screen: Vec<u16>,
 }
 
-/// Pixels near those of `base` for half of them, so that no figure is at its end.
+/// Returns pixels of which half equal those of `base`, so that no figure is at the end of its
+/// range.
 fn near(random: &mut Random, base: &[u16], from: u32, to: u32) -> Vec<u16> {
     let max = (1_u32 << to) - 1;
     base.iter()
@@ -56,7 +57,7 @@ fn made_up(random: &mut Random, own: &Camera, other: &Camera) -> Frame {
     Frame { input, ideal, candidate, screen }
 }
 
-/// Number of the region of a pixel.
+/// Returns the number of the region of a pixel.
 fn region(camera: &Camera, x: u32, y: u32) -> usize {
     let side = camera.region_size();
     (y / side * camera.columns() + x / side) as usize
@@ -66,7 +67,7 @@ fn share(part: f64, whole: f64, empty: f64) -> f64 {
     if whole == 0.0 { empty } else { part / whole }
 }
 
-/// Decisions, pixel by pixel.
+/// Checks the figures of decisions, pixel by pixel.
 fn check_decisions(figures: &Figures, frames: &[Frame], own: &Camera, other: &Camera) {
     let mut counts = [0.0; 8];
     let [all, srs, trs, action, mine, theirs, both, either] = &mut counts;
@@ -101,7 +102,7 @@ fn check_decisions(figures: &Figures, frames: &[Frame], own: &Camera, other: &Ca
     }
 }
 
-/// Staleness, pixel by pixel; `shown` are the screens at the depth of the ideal.
+/// Checks the staleness, pixel by pixel; `shown` are the screens at the depth of the ideal.
 fn check_staleness(figures: &Figures, frames: &[Frame], shown: &[Vec<u16>], own: &Camera) {
     let (mut max, mut sum, mut seen) = (0.0_f64, 0.0, 0.0);
     let (mut relevant, mut stale, mut longest) = (0.0, 0.0, 0);

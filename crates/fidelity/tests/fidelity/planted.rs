@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A candidate that is the ideal, and then one fault at a time: the figure it is for sees it, with the
-//! number that follows.
+//! A candidate that equals the ideal, and then has one fault at a time: the figure for this fault
+//! gets the value that follows from it.
 
 use foveate_camera::Action;
 use foveate_camera::Camera;
@@ -21,7 +21,8 @@ fn camera() -> Camera {
     config((32, 16), 8, 8).validate().unwrap()
 }
 
-/// Both see a ramp; all eight regions are relevant, the first four active.
+/// Returns equal results of both cameras for a ramp; all eight regions are relevant, and the first
+/// four are active.
 fn alike() -> Results {
     let camera = camera();
     let screen: Vec<u16> = (0..512).map(|at| at % 200).collect();
@@ -69,7 +70,7 @@ fn nothing_is_seen_where_nothing_is_wrong() {
     }
 }
 
-/// One of eight regions.
+/// Each fault is in one of eight regions.
 #[test]
 fn decisions() {
     let base = figures(|_| {});
@@ -114,7 +115,7 @@ fn pictures() {
     assert_eq!((seen.psnr_ideal, seen.psnr_input), (psnr, None));
     assert!(seen.ssim_ideal < 1.0 && seen.ssim_input == 1.0);
     assert_eq!(seen.staleness.max, 0.0);
-    // Two pixels above the level of 8 are the minimum.
+    // Two pixels above the level of 8 are the minimum count.
     let seen = figures(|results| results.screen[100..102].fill(0));
     assert_eq!((seen.staleness.longest, seen.staleness.share), (1, 0.125));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How old a screen is: exact numbers by hand.
+//! The staleness of a screen, with exact numbers by hand.
 
 use foveate_camera::{Camera, CameraConfig, Decimal, Reference};
 use foveate_fidelity::{Fidelity, Staleness};
@@ -7,7 +7,8 @@ use foveate_frame::Raster;
 
 use crate::made::{blank, blank_ideal, config, pixels, raster, tally};
 
-/// Every region is relevant; a pixel has changed when it differs by more than 2.
+/// Returns a camera in which every region is relevant; a pixel has changed if it differs by more
+/// than 2.
 fn fading(reference: Reference) -> Camera {
     let mut config = config((16, 8), 8, 8);
     config.spatial[0].min_score = Some(Decimal::whole(0));
@@ -20,18 +21,19 @@ fn fade(camera: &Camera, frames: u16) -> Vec<Raster> {
     (0..frames).map(|level| raster(camera, vec![10 + level; pixels(camera)])).collect()
 }
 
-/// `previous` sends the first of eight frames and never sees one level per frame: its screen stays at 10
-/// while the scene goes to 17. Frames 3 to 7 differ by more than 2.
+/// The candidate with `previous` sends only the first of eight frames, because it never sees a
+/// change of one level per frame. Its screen stays at 10 while the scene goes to 17. Frames 3 to 7
+/// differ by more than 2.
 #[test]
 fn a_fade_is_stale_once_it_has_left_the_level_behind() {
     let (ideal, candidate) = (fading(Reference::LastSent), fading(Reference::Previous));
     let figures = tally(&ideal, &candidate, &fade(&ideal, 8)).figures();
     let expected = Staleness { max: 7.0, mean: 28.0 / 8.0, longest: 5, share: 5.0 / 8.0 };
     assert_eq!(figures.staleness, expected);
-    // The ideal sends at 0, 3 and 6.
+    // The ideal sends frames 0, 3 and 6.
     assert_eq!((figures.ideal_active, figures.active), (3.0 / 8.0, 1.0 / 8.0));
     assert_eq!((figures.missed, figures.false_alarms), (2.0 / 3.0, 0.0));
-    // Squared differences of the screens: 9 in frames 3 to 5, 36 in 6 and 7.
+    // The squared differences of the screens are 9 in frames 3 to 5, and 36 in frames 6 and 7.
     let mse: f64 = (3.0 * 9.0 + 2.0 * 36.0) / 8.0;
     assert_eq!(figures.psnr_ideal, Some(10.0 * (255.0 * 255.0 / mse).log10()));
 }
@@ -40,12 +42,13 @@ fn a_fade_is_stale_once_it_has_left_the_level_behind() {
 fn what_was_sent_is_never_stale() {
     let camera = fading(Reference::LastSent);
     let figures = tally(&camera, &camera, &fade(&camera, 8)).figures();
-    // 0 1 2 0 1 2 0 1
+    // The differences are 0 1 2 0 1 2 0 1.
     let expected = Staleness { max: 2.0, mean: 7.0 / 8.0, longest: 0, share: 0.0 };
     assert_eq!(figures.staleness, expected);
 }
 
-/// One region, made up: relevant or not, and how many of its pixels the screen is 9 away from.
+/// Returns the staleness of one region with made-up frames: whether it is relevant, and the number
+/// of its pixels from which the screen differs by 9.
 fn watched(config: &CameraConfig, frames: &[(bool, usize)], cut: Option<usize>) -> Staleness {
     let camera = config.validate().unwrap();
     let mut fidelity = Fidelity::new(&camera, &camera).unwrap();
@@ -85,7 +88,7 @@ fn a_minimum_of_zero_is_one_and_more_than_there_are_is_all() {
     let mut config = config((8, 8), 8, 8);
     (config.temporal.level, config.temporal.min_count) = (Some(8), 0);
     assert_eq!(watched(&config, &[(true, 0), (true, 1)], None).share, 0.5);
-    // 2x3 pixels of an 8x8 region are inside of the frame.
+    // Only 2x3 pixels of an 8x8 region lie inside of the frame.
     (config.frame.width, config.frame.height) = (Some(2), Some(3));
     config.temporal.min_count = 20;
     assert_eq!(watched(&config, &[(true, 5), (true, 6)], None).share, 0.5);
