@@ -19,7 +19,7 @@ use crate::{ExploreError, Hooks, Progress};
 pub struct Silicon {
     /// The area of one RPU, of one lane of a serial design, or of a raster core.
     pub unit: Area,
-    /// The number of these units for a frame.
+    /// The number of RPUs, lanes or raster cores for a frame.
     pub units: u64,
     /// The area of all units and of the logic that they share. With AXI it includes the logic
     /// around the core.

@@ -38,7 +38,7 @@ pub enum ExploreError {
     NoPoints {
         /// The settings of a point.
         settings: String,
-        /// The reason why it cannot be built.
+        /// The reason why the point cannot be built.
         reason: String,
     },
     /// The clips have different sizes.
@@ -83,7 +83,7 @@ pub enum ExploreError {
     Short {
         /// The name of the clip.
         clip: String,
-        /// The number of its frames.
+        /// The number of frames of the clip.
         frames: u64,
         /// The least number of frames that is enough.
         least: u64,
@@ -107,7 +107,7 @@ pub enum ExploreError {
     Broken {
         /// The name of the clip.
         clip: String,
-        /// The reason why it ended.
+        /// The reason why the clip ended.
         problem: String,
     },
     /// A file of the exploration cannot be written or read.

@@ -46,6 +46,6 @@ impl Exploration {
 pub struct ClipRow {
     /// The name of the clip.
     pub name: String,
-    /// The number of its frames.
+    /// The number of frames of the clip.
     pub frames: u64,
 }

@@ -15,7 +15,7 @@ pub struct Request<'a> {
     /// The clips and data sets, which have one size. Image files together are one clip; every other
     /// input is its own.
     pub inputs: &'a [PathBuf],
-    /// The options for reading them.
+    /// The options for reading the inputs.
     pub input: &'a InputOptions,
     /// The synthesizer, for areas; without it the figures have no areas.
     pub synthesizer: Option<&'a Synthesizer>,

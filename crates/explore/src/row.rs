@@ -42,12 +42,12 @@ pub struct DesignRow {
 /// The fronts that a point is on.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Fronts {
-    /// Whether it is on the front of error and speed.
+    /// Whether the point is on the front of error and speed.
     pub speed: bool,
-    /// Whether it is on the front of error and LUTs of the array.
+    /// Whether the point is on the front of error and LUTs of the array.
     pub area: bool,
-    /// Whether it is on the front of error, speed and LUTs of the array; without areas, equal to
-    /// `speed`.
+    /// Whether the point is on the front of error, speed and LUTs of the array; without areas,
+    /// equal to `speed`.
     pub all: bool,
 }
 

@@ -47,7 +47,7 @@ pub enum FidelityError {
     LaneWidth {
         /// The number of bits per pixel of the candidate.
         bits: u32,
-        /// The type that these pixels need.
+        /// The type that the candidate's pixels need.
         expected: &'static str,
         /// The type that was given.
         given: &'static str,

@@ -13,7 +13,7 @@ pub(crate) struct StaleTally {
     pub(crate) max: u32,
     /// The sum of the differences of all pixels of relevant regions.
     pub(crate) sum: u64,
-    /// The number of these pixels.
+    /// The number of pixels of relevant regions.
     pub(crate) pixels: u64,
     /// The number of relevant regions.
     pub(crate) relevant: u64,

@@ -11,7 +11,7 @@ pub(crate) struct FrameView<'a> {
     pub(crate) grid: &'a Grid,
     /// The denoised frame.
     pub(crate) now: &'a Plane,
-    /// The references of its regions.
+    /// The references of the frame's regions.
     pub(crate) before: &'a References,
 }
 

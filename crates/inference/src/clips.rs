@@ -204,9 +204,9 @@ impl Showing<'_> {
         Ok(true)
     }
 
-    /// Shows every frame to the camera, and to the audience every frame that the network sees, with
-    /// its objects if its place in the input is known. Returns whether the clip was shown to its
-    /// end.
+    /// Shows every frame to the camera, and gives `audience` every frame that the network sees,
+    /// with its objects if its place in the input is known. Returns whether the clip was shown to
+    /// its end.
     fn watch(
         &mut self,
         clip: usize,

@@ -22,11 +22,11 @@ pub(crate) struct Costs<'a> {
 pub struct FrameCost {
     /// The number of cycles, with the layers one after the other.
     pub cycles: f64,
-    /// The time of these cycles in seconds.
+    /// The time of the cycles in seconds.
     pub seconds: f64,
     /// The number of accesses to the memory off the chip, one value each.
     pub dram_accesses: f64,
-    /// The number of these accesses that read weights.
+    /// The number of accesses to weights in the memory off the chip.
     pub dram_weights: f64,
     /// The energy of chip and memory in millijoules.
     pub energy_mj: f64,

@@ -128,7 +128,7 @@ pub enum InferenceError {
         first_size: (u32, u32),
         /// The name of the first clip that differs.
         other: String,
-        /// The width and height of that clip in pixels.
+        /// The width and height of the clip that differs, in pixels.
         other_size: (u32, u32),
     },
     /// One of several inputs cannot be opened a second time.

@@ -93,7 +93,7 @@ const ACTIVE: &str = "regions that were active";
 const CHANGED: &str = "regions whose rendered pixels changed";
 const NEEDED: &str = "MACs whose windows hold a change";
 const COMPUTED: &str = "MACs that were computed, in whole blocks";
-/// The units of these columns.
+/// The units of columns that several tables share.
 const REGIONS: &str = "% of regions";
 const MACS: &str = "% of MACs";
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The player of a network: it runs an executor over clips, or over the frames of data sets one by
-//! one.
+//! Runs of a network: an executor goes over clips, or over the frames of data sets one by one.
 
 use crate::camera::Seen;
 use foveate_network::{Executor, Mask, Mode, Network, Work};

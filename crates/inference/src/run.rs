@@ -64,9 +64,9 @@ pub(crate) struct Files<'a> {
 struct Begun {
     name: String,
     problem: Option<String>,
-    /// The index of its first frame among the frames of all clips.
+    /// The index of the clip's first frame among the frames of all clips.
     first: usize,
-    /// The place of its first frame.
+    /// The place of the clip's first frame.
     place: u64,
 }
 

@@ -168,7 +168,7 @@ pub struct Tuning {
     /// The number of counted frames that it was tuned on. All other values of the summary belong to
     /// the second half.
     pub frames: u64,
-    /// The number of runs over these frames.
+    /// The number of runs over the frames that it was tuned on.
     pub runs: u64,
     /// The trial with limits of 0, in which only equal values are not passed on.
     pub exact: Tried,

@@ -20,7 +20,7 @@ pub(crate) struct Traffic {
 pub struct FrameTraffic {
     /// The bytes of the inputs that the needed outputs see, each input once.
     pub read_bytes: f64,
-    /// The bytes of these inputs that have not changed: the halo around changes.
+    /// The bytes of the unchanged inputs that the needed outputs see: the halo around changes.
     pub halo_bytes: f64,
     /// The bytes of the needed outputs.
     pub written_bytes: f64,

@@ -27,7 +27,7 @@ use foveate_design::DECISION_BITS;
 pub struct Request<'a> {
     /// The clips. Image files together are one clip; every other input is a clip of its own.
     pub inputs: &'a [PathBuf],
-    /// The options for reading them.
+    /// The options for reading the clips.
     pub input: &'a InputOptions,
     /// The design.
     pub config: &'a Config,

@@ -77,7 +77,7 @@ pub enum LinkError {
     OneFrame {
         /// The name of the clip.
         clip: String,
-        /// The number of its frames.
+        /// The number of frames of the clip.
         frames: u64,
     },
     /// The times of the frames do not rise.
@@ -126,7 +126,7 @@ pub enum LinkError {
     NoEncoder {
         /// The name of the encoder.
         encoder: &'static str,
-        /// The codec that needs it.
+        /// The codec that needs the encoder.
         codec: &'static str,
     },
     /// An encoder does not support the frames.
@@ -136,7 +136,7 @@ pub enum LinkError {
     Refused {
         /// The name of the encoder.
         encoder: &'static str,
-        /// The codec that needs it.
+        /// The codec that needs the encoder.
         codec: &'static str,
         /// The name of the clip.
         clip: String,

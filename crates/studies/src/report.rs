@@ -22,7 +22,7 @@ pub struct Request<'a> {
     pub study: Study,
     /// The clips and data sets. Image files together are one clip; every other input is its own.
     pub inputs: &'a [PathBuf],
-    /// The options for reading them.
+    /// The options for reading the inputs.
     pub input: &'a InputOptions,
     /// The design, which a study may vary.
     pub config: &'a Config,

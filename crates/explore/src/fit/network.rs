@@ -120,7 +120,7 @@ pub(super) struct Jury<'a> {
     halves: &'a Halves,
     /// The frames that the network saw, by part and by clip.
     samples: [Vec<Vec<Sample>>; 3],
-    /// The noise ceiling of the whole frames of the second halves.
+    /// The agreement under noise on the whole frames of the second halves.
     noise: NoiseCeiling,
 }
 

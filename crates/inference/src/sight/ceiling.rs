@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The agreement of a network with itself when whole frames get noise: a ceiling for the agreement
-//! behind a camera.
+//! The agreement of a network with itself when whole frames get noise: an upper bound for the
+//! agreement behind a camera.
 
 use super::interval::ConfidenceIntervals;
 use super::noise::GaussianNoise;
@@ -31,7 +31,8 @@ pub struct NoiseAgreement {
     pub kept_share: Option<f64>,
     /// The share of the detections under noise that are also in whole frames.
     pub precision: Option<f64>,
-    /// The intervals in which these shares lie for other frames of this kind.
+    /// The intervals in which the agreement and the shares of detections lie for other frames of
+    /// this kind.
     pub intervals: ConfidenceIntervals,
 }
 
@@ -48,7 +49,7 @@ pub struct NoiseCeiling {
 }
 
 impl NoiseCeiling {
-    /// Creates a ceiling for standard deviations in grey levels of 8 bits, each above 0, and frames
+    /// Creates the state for standard deviations in grey levels of 8 bits, each above 0, and frames
     /// with pixels up to `pixel_max`.
     #[must_use]
     pub fn new(levels: &[f64], pixel_max: u32) -> Self {

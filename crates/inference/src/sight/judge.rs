@@ -60,8 +60,8 @@ pub(crate) struct DetectionRow {
 }
 
 impl<'a> Judge<'a> {
-    /// Creates a judge. `noise` has standard deviations in grey levels of 8 bits; `with_truth` says
-    /// whether there are ground-truth objects.
+    /// Creates the comparison before its first frame. `noise` has standard deviations in grey
+    /// levels of 8 bits; `with_truth` says whether there are ground-truth objects.
     pub(crate) fn new(
         witness: &'a Witness,
         camera: &Camera,

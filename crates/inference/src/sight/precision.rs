@@ -10,7 +10,7 @@ const STEPS: u32 = 100;
 /// The right and wrong detections of some frames, and the number of objects in them.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Curve {
-    /// The score of every counted detection, and whether it is an object.
+    /// The score of every counted detection, and whether the detection is right.
     found: Vec<(f32, bool)>,
     objects: u64,
 }

@@ -185,9 +185,8 @@ fn precision_is_against_ground_truth() {
     assert!(truth.seen_ap50 < 0.95 && truth.seen_recall < 0.9, "{truth:?}");
 }
 
-/// A witness compares its findings in two frames: equal frames agree fully, and a frame with half
-/// of the objects agrees by 0.5. It refuses frames of another size and a detector that does not
-/// fit.
+/// The findings in two frames are compared: equal frames agree fully, and a frame with half of the
+/// objects agrees by 0.5. Frames of another size and a detector that does not fit are refused.
 #[test]
 fn a_witness_says_what_a_run_says() {
     let dir = tempfile::tempdir().unwrap();

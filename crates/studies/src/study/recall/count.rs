@@ -33,12 +33,12 @@ pub(super) struct Count {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Track {
     pub(super) frames: u64,
-    /// The number of frames in which some of its regions are active; `at_least` has the frames with
-    /// at least a quarter, at least half, and all of them.
+    /// The number of frames in which some of the object's regions are active; `at_least` has the
+    /// frames with at least a quarter, at least half, and all of them.
     pub(super) some: u64,
     pub(super) at_least: [u64; 3],
-    /// The number of frames since at least half of its regions were active; `longest_gap` is the
-    /// largest such number.
+    /// The number of frames since at least half of the object's regions were active; `longest_gap`
+    /// is the largest such number.
     gap: u64,
     pub(super) longest_gap: u64,
 }

@@ -41,7 +41,7 @@ struct Point {
 /// The result of one design over one clip, or over all clips.
 struct PointResult {
     clip: String,
-    /// The number of its point.
+    /// The number of the design's point.
     point: usize,
     sums: Sums,
     /// The tracks by what they reached in at least one frame, and the longest gap of all tracks.
