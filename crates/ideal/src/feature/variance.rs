@@ -2,9 +2,10 @@
 //! `variance`: sigma^2 of the region, in squared grey levels.
 //!
 //! The variance is computed with shifted data (Chan, Golub, LeVeque, "Algorithms for Computing the
-//! Sample Variance", 1983): with d = x - c for a whole number c near the mean, `n^2 sigma^2 = n
-//! sum(d^2) - (sum d)^2`. Both terms are whole numbers below 2^53, so only the division rounds. The
-//! only exception is a region of 64x64 pixels of 16 bits that spans the whole range.
+//! Sample Variance", 1983). With d = x - c for a whole number c near the mean,
+//! `n^2 sigma^2 = n sum(d^2) - (sum d)^2`. Both terms are whole numbers below 2^53, so only the
+//! division rounds. The only exception is a region of 64x64 pixels of 16 bits that spans the whole
+//! range.
 
 use super::{Scratch, pixel_sums, pixels_of};
 use crate::view::FrameView;
