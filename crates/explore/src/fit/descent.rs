@@ -9,7 +9,7 @@
 //!
 //! The cheapest of many cameras that agree enough on some frames agrees partly by chance. So the
 //! descent compares the agreement that is to be expected of other frames. A camera that agrees
-//! enough must also be confirmed by later frames, on which no other camera is tried.
+//! enough must also be confirmed by later frames, which are used for nothing else.
 
 use std::collections::BTreeMap;
 
