@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers of bits per pixel: conversion between them, and what is shown of them.
+//! Conversion of pixels from one number of bits to another, and the depth at which they are
+//! displayed.
 //!
-//! To fewer bits: the low bits are dropped. To more bits: the bits are repeated below themselves as
-//! often as needed, so that zero stays zero, full scale becomes full scale, and going back gives the
-//! value again.
+//! A conversion to fewer bits drops the low bits. A conversion to more bits repeats the bits below
+//! themselves as often as needed. So zero stays zero, full scale becomes full scale, and the
+//! conversion back gives the same value.
 
-/// `value` of `from` bits as a value of `to` bits; both 1..=16.
+/// Converts `value` from `from` bits to `to` bits; both numbers of bits are in 1..=16.
 #[must_use]
 pub fn convert_depth(value: u16, from: u32, to: u32) -> u16 {
     if to <= from {
@@ -20,7 +21,8 @@ pub fn convert_depth(value: u16, from: u32, to: u32) -> u16 {
     u16::try_from(repeated >> (bits - to)).expect("at most 16 bits remain")
 }
 
-/// Bits per pixel of the PNG that shows pixels of `bits` bits: 8 up to 8, else 16.
+/// Returns the bits per pixel of a PNG that shows pixels of `bits` bits: 8 for up to 8 bits,
+/// otherwise 16.
 #[must_use]
 pub fn display_depth(bits: u32) -> u32 {
     if bits <= 8 { 8 } else { 16 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame: width x height luma pixels of some bits, row by row.
+//! A frame: width x height luma pixels of 1 to 16 bits each, in row-major order.
 
 use crate::{FrameError, index};
 
-/// Pixels of one frame; every value is known to fit into the frame's bits.
+/// The pixels of one frame. Every value has been checked to fit into the frame's bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Frame {
     width: u32,
@@ -13,11 +13,11 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// A frame from its pixels, row by row.
+    /// Makes a frame from its pixels in row-major order.
     ///
     /// # Errors
-    /// When a side is zero, `bits` is not in `1..=16`, the number of pixels is not
-    /// `width * height`, or a pixel does not fit into `bits` bits.
+    /// Fails if a side is zero, `bits` is not in `1..=16`, the number of pixels is not `width *
+    /// height`, or a pixel does not fit into `bits` bits.
     pub fn new(width: u32, height: u32, bits: u32, pixels: Vec<u16>) -> Result<Self, FrameError> {
         if width == 0 || height == 0 {
             return Err(FrameError::EmptyFrame { width, height });
@@ -37,18 +37,18 @@ impl Frame {
         }
     }
 
-    /// A frame whose pixels are all `value`.
+    /// Makes a frame whose pixels are all `value`.
     ///
     /// # Errors
-    /// As [`Frame::new`].
+    /// The errors are those of [`Frame::new`].
     pub fn filled(width: u32, height: u32, bits: u32, value: u16) -> Result<Self, FrameError> {
         Self::from_fn(width, height, bits, |_, _| value)
     }
 
-    /// A frame whose pixel at column `x` and row `y` is `f(x, y)`.
+    /// Makes a frame whose pixel at column `x` and row `y` is `f(x, y)`.
     ///
     /// # Errors
-    /// As [`Frame::new`].
+    /// The errors are those of [`Frame::new`].
     pub fn from_fn(
         width: u32,
         height: u32,
@@ -62,40 +62,40 @@ impl Frame {
         Self::new(width, height, bits, pixels)
     }
 
-    /// Width in pixels.
+    /// Returns the width in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Height in pixels.
+    /// Returns the height in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Bits per pixel.
+    /// Returns the number of bits per pixel.
     #[must_use]
     pub fn bits(&self) -> u32 {
         self.bits
     }
 
-    /// Every pixel, row by row.
+    /// Returns every pixel in row-major order.
     #[must_use]
     pub fn pixels(&self) -> &[u16] {
         &self.pixels
     }
 
-    /// The pixel at column `x` and row `y`.
+    /// Returns the pixel at column `x` and row `y`.
     ///
     /// # Panics
-    /// When that is outside of the frame.
+    /// Panics if the position is outside of the frame.
     #[must_use]
     pub fn get(&self, x: u32, y: u32) -> u16 {
         self.row(y)[index(x)]
     }
 
-    /// The pixel of the frame that is nearest to column `x` and row `y`.
+    /// Returns the pixel of the frame that is nearest to column `x` and row `y`.
     #[must_use]
     pub fn clamped(&self, x: i64, y: i64) -> u16 {
         let nearest = |at: i64, size: u32| {
@@ -104,19 +104,20 @@ impl Frame {
         self.get(nearest(x, self.width), nearest(y, self.height))
     }
 
-    /// One row.
+    /// Returns the pixels of row `y`.
     ///
     /// # Panics
-    /// When it is outside of the frame.
+    /// Panics if the row is outside of the frame.
     #[must_use]
     pub fn row(&self, y: u32) -> &[u16] {
         &self.pixels[index(y) * index(self.width)..][..index(self.width)]
     }
 
-    /// Writes pixels into row `y` from column `x` on.
+    /// Writes pixels into row `y`, starting at column `x`.
     ///
     /// # Panics
-    /// When they reach beyond the frame, or one does not fit into its bits.
+    /// Panics if the pixels reach beyond the row, or if one of them does not fit into the frame's
+    /// bits.
     pub fn write(&mut self, x: u32, y: u32, pixels: &[u16]) {
         let max = u16::MAX >> (16 - self.bits);
         assert!(pixels.iter().all(|&pixel| pixel <= max), "a pixel above {max} in row {y}");
@@ -125,13 +126,14 @@ impl Frame {
         row[index(x)..][..pixels.len()].copy_from_slice(pixels);
     }
 
-    /// Size and depth as an error message names them.
+    /// Returns the size and the depth as an error message names them.
     #[must_use]
     pub fn kind(&self) -> String {
         format!("{}x{} pixels of {} bits", self.width, self.height, self.bits)
     }
 
-    /// Column, row, value and the largest valid value.
+    /// Returns column, row and value of the first pixel that does not fit into its bits, and the
+    /// largest value that fits.
     fn first_too_large(&self) -> Option<(u32, u32, u16, u16)> {
         let max = u16::MAX >> (16 - self.bits);
         (0..self.height).find_map(|y| {

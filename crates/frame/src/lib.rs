@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame: width x height luma pixels of 1 to 16 bits, row by row, every value checked once.
+//! A frame: width x height luma pixels of 1 to 16 bits in row-major order, every value checked
+//! once.
 //!
-//! [`Frame`] holds words; the models compute on it. [`Raster`] holds bytes up to 8 bits and words
-//! above, so video is neither widened nor copied on its way to the engine. Both report the same
-//! [`FrameError`]. A [`Rect`] is a place in it. This crate knows no design.
+//! [`Frame`] holds words, and the models compute on it. [`Raster`] holds bytes for up to 8 bits per
+//! pixel and words for more, so that video is neither widened nor copied on its way to the engine.
+//! Both report the same [`FrameError`]. A [`Rect`] is a rectangle in a frame. This crate knows no
+//! design.
 
 mod depth;
 mod error;
@@ -19,8 +21,8 @@ pub use luma::{luma, luma_of_rgba};
 pub use raster::{Plane, Raster};
 pub use rect::{MAX_COORDINATE, Rect};
 
-/// A size or coordinate as an index. Lossless: `usize` has 32 bits or more on every platform that
-/// can hold a frame.
+/// Converts a size or a coordinate to an index. The conversion is lossless: `usize` has 32 bits or
+/// more on every platform that can hold a frame.
 const fn index(value: u32) -> usize {
     value as usize
 }

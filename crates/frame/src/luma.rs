@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Colour as grey.
+//! Conversion of colours to luma.
 
-/// Luma of a colour: `(77 R + 150 G + 29 B + 128) >> 8`; grey stays as it is.
+/// Returns the luma of a colour: `(77 R + 150 G + 29 B + 128) >> 8`. Grey keeps its value.
 #[must_use]
 pub fn luma(red: u16, green: u16, blue: u16) -> u16 {
     let sum = 77 * u32::from(red) + 150 * u32::from(green) + 29 * u32::from(blue) + 128;
     u16::try_from(sum >> 8).expect("the weights sum to 256")
 }
 
-/// Appends the [`luma`] of pixels of four bytes, red, green, blue and an alpha that is ignored. Bytes that are not a whole
-/// pixel are left out.
+/// Appends the [`luma`] of pixels of four bytes: red, green, blue, and an alpha that is ignored.
+/// Bytes at the end that are not a whole pixel are left out.
 pub fn luma_of_rgba(pixels: &[u8], grey: &mut Vec<u8>) {
-    // Within 16 bits, so that the loop is one of vectors.
+    // The sum fits into 16 bits, so that the compiler can vectorise the loop.
     let mix = |&[red, green, blue, _]: &[u8; 4]| {
         let sum = 77 * u16::from(red) + 150 * u16::from(green) + 29 * u16::from(blue) + 128;
         sum.to_be_bytes()[0]

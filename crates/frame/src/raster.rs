@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as video has it: a byte per pixel up to 8 bits, a word above, so that video goes
-//! from a pipe into the engine without being widened, narrowed or copied on the way.
+//! A frame in the form that video has: a byte per pixel for up to 8 bits, a word for more. Video
+//! goes from a pipe into the engine without being widened, narrowed or copied on the way.
 
 use crate::{Frame, FrameError, convert_depth, index};
 
-/// Pixels row by row with nothing between: a frame, or what is on the screen, without padding.
+/// The borrowed pixels of a frame or of a screen, in row-major order and without padding.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Plane<'a> {
-    /// Of up to 8 bits per pixel.
+    /// Pixels of up to 8 bits.
     Bytes(&'a [u8]),
-    /// Of more.
+    /// Pixels of 9 to 16 bits.
     Words(&'a [u16]),
 }
 
 impl Plane<'_> {
-    /// The pixels as words, copied: what [`Frame`] holds.
+    /// Copies the pixels into words, as [`Frame`] holds them.
     #[must_use]
     pub fn to_words(self) -> Vec<u16> {
         match self {
@@ -23,7 +23,8 @@ impl Plane<'_> {
         }
     }
 
-    /// Appends pixels of `bits` bits as 8-bit grey, a byte each: what a browser draws.
+    /// Appends pixels of `bits` bits as 8-bit grey, one byte per pixel, the form that a browser
+    /// draws.
     pub fn grey(self, bits: u32, grey: &mut Vec<u8>) {
         let low = |pixel: u16| convert_depth(pixel, bits, 8).to_le_bytes()[0];
         match self {
@@ -40,7 +41,7 @@ enum Held {
     Words(Vec<u16>),
 }
 
-/// A frame that owns its pixels; every value is known to fit into its bits.
+/// A frame that owns its pixels. Every value has been checked to fit into the frame's bits.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Raster {
     width: u32,
@@ -50,10 +51,10 @@ pub struct Raster {
 }
 
 impl Raster {
-    /// A frame of up to 8 bits per pixel, row by row.
+    /// Makes a frame of up to 8 bits per pixel from pixels in row-major order.
     ///
     /// # Errors
-    /// As [`Frame::new`], and when `bits` is above 8.
+    /// Fails as [`Frame::new`] does, and if `bits` is above 8.
     pub fn from_bytes(
         width: u32,
         height: u32,
@@ -64,17 +65,17 @@ impl Raster {
         if !(1..=8).contains(&bits) {
             return Err(FrameError::PixelBits { bits });
         }
-        // Where the type holds no more than the bits, there is nothing to look for.
+        // With 8 bits every byte is in range, so only fewer bits need a check.
         if bits < 8 {
             check_values(width, bits, &pixels)?;
         }
         Ok(Self { width, height, bits, held: Held::Bytes(pixels) })
     }
 
-    /// A frame of any depth, row by row.
+    /// Makes a frame of any depth from pixels in row-major order.
     ///
     /// # Errors
-    /// As [`Frame::new`].
+    /// The errors are those of [`Frame::new`].
     pub fn from_words(
         width: u32,
         height: u32,
@@ -89,25 +90,25 @@ impl Raster {
         Ok(Self { width, height, bits, held: hold(bits, pixels) })
     }
 
-    /// Width in pixels.
+    /// Returns the width in pixels.
     #[must_use]
     pub fn width(&self) -> u32 {
         self.width
     }
 
-    /// Height in pixels.
+    /// Returns the height in pixels.
     #[must_use]
     pub fn height(&self) -> u32 {
         self.height
     }
 
-    /// Bits per pixel.
+    /// Returns the number of bits per pixel.
     #[must_use]
     pub fn bits(&self) -> u32 {
         self.bits
     }
 
-    /// The pixels where they lie.
+    /// Borrows the pixels.
     #[must_use]
     pub fn plane(&self) -> Plane<'_> {
         match &self.held {
@@ -116,10 +117,10 @@ impl Raster {
         }
     }
 
-    /// The pixel at column `x` and row `y`.
+    /// Returns the pixel at column `x` and row `y`.
     ///
     /// # Panics
-    /// When it is outside of the frame.
+    /// Panics if the position is outside of the frame.
     #[must_use]
     pub fn get(&self, x: u32, y: u32) -> u16 {
         assert!(x < self.width, "column {x} of a frame {} pixels wide", self.width);
@@ -130,15 +131,16 @@ impl Raster {
         }
     }
 
-    /// The frame in the model's type, copied.
+    /// Copies the frame into the type that the model takes.
     ///
     /// # Errors
-    /// As [`Frame::new`]: never for a frame that is one.
+    /// The errors are those of [`Frame::new`]. A frame that has been checked has none of them.
     pub fn to_frame(&self) -> Result<Frame, FrameError> {
         Frame::new(self.width, self.height, self.bits, self.plane().to_words())
     }
 
-    /// The memory of its bytes, to be used again; none of a frame of words.
+    /// Returns the buffer of a frame of bytes, so that it can be used again, and `None` for a frame
+    /// of words.
     #[must_use]
     pub fn into_bytes(self) -> Option<Vec<u8>> {
         match self.held {
@@ -155,7 +157,7 @@ impl From<&Frame> for Raster {
     }
 }
 
-/// Words that fit into the bits, as bytes where these are enough.
+/// Stores checked pixels as bytes if `bits` is at most 8, otherwise as words.
 fn hold(bits: u32, pixels: Vec<u16>) -> Held {
     if bits > 8 {
         return Held::Words(pixels);

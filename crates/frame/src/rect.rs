@@ -1,30 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Rectangles of real coordinates: pixel x covers x to x + 1.
+//! Rectangles with real coordinates. The pixel in column x covers x to x + 1.
 
-/// The largest coordinate and side, in pixels.
+/// The largest absolute value of a coordinate, in pixels.
 pub const MAX_COORDINATE: f64 = 1e7;
 
-/// A rectangle; `x1` and `y1` are where it ends, so that its width is `x1 - x0`.
+/// A rectangle. `x1` and `y1` are its exclusive ends, so that its width is `x1 - x0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rect {
-    /// Left side.
+    /// The coordinate of the left side.
     pub x0: f64,
-    /// Upper side.
+    /// The coordinate of the upper side.
     pub y0: f64,
-    /// Right side.
+    /// The coordinate of the right side.
     pub x1: f64,
-    /// Lower side.
+    /// The coordinate of the lower side.
     pub y1: f64,
 }
 
 impl Rect {
-    /// From two corners.
+    /// Makes a rectangle from its upper left and its lower right corner.
     ///
     /// # Errors
-    /// When they are in the wrong order, no numbers, or out of range; the text says what is wrong.
+    /// Fails if the corners are in the wrong order, not numbers, or out of range. The text says
+    /// what is wrong.
     pub fn of_corners([x0, y0, x1, y1]: [f64; 4]) -> Result<Self, String> {
         for value in [x0, y0, x1, y1] {
-            // Not a number is out of range, too.
+            // This test also refuses NaN.
             if !(-MAX_COORDINATE..=MAX_COORDINATE).contains(&value) {
                 return Err(format!(
                     "the coordinate {value} is out of range; expected at most {MAX_COORDINATE} pixels"
@@ -40,10 +41,10 @@ impl Rect {
         Ok(Self { x0, y0, x1, y1 })
     }
 
-    /// From a corner and the sides.
+    /// Makes a rectangle from its upper left corner, its width and its height.
     ///
     /// # Errors
-    /// When a side is negative, or a number is out of range; the text says what is wrong.
+    /// Fails if a side is negative, or a number is out of range. The text says what is wrong.
     pub fn of_sides([x, y, width, height]: [f64; 4]) -> Result<Self, String> {
         if width < 0.0 || height < 0.0 {
             return Err(format!(
@@ -53,31 +54,32 @@ impl Rect {
         Self::of_corners([x, y, x + width, y + height])
     }
 
-    /// Width.
+    /// Returns the width in pixels.
     #[must_use]
     pub fn width(&self) -> f64 {
         self.x1 - self.x0
     }
 
-    /// Height.
+    /// Returns the height in pixels.
     #[must_use]
     pub fn height(&self) -> f64 {
         self.y1 - self.y0
     }
 
-    /// Area in pixels.
+    /// Returns the area in pixels.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.width() * self.height()
     }
 
-    /// The middle.
+    /// Returns the coordinates of the middle.
     #[must_use]
     pub fn centre(&self) -> (f64, f64) {
         (f64::midpoint(self.x0, self.x1), f64::midpoint(self.y0, self.y1))
     }
 
-    /// The part that lies in a frame of this size; without an area if nothing does.
+    /// Returns the part of the rectangle that lies in a frame of this size. Its area is 0 if no
+    /// part does.
     #[must_use]
     pub fn within(&self, (width, height): (u32, u32)) -> Self {
         let (width, height) = (f64::from(width), f64::from(height));
@@ -89,13 +91,13 @@ impl Rect {
         }
     }
 
-    /// The rectangle at another scale.
+    /// Returns the rectangle with its x coordinates multiplied by `x` and its y coordinates by `y`.
     #[must_use]
     pub fn scaled(&self, x: f64, y: f64) -> Self {
         Self { x0: self.x0 * x, y0: self.y0 * y, x1: self.x1 * x, y1: self.y1 * y }
     }
 
-    /// The rectangle at another place.
+    /// Returns the rectangle moved by `x` to the right and by `y` downwards.
     #[must_use]
     pub fn moved(&self, x: f64, y: f64) -> Self {
         Self { x0: self.x0 + x, y0: self.y0 + y, x1: self.x1 + x, y1: self.y1 + y }
