@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames through the engine: features, neighborhoods, instruction sets, threads, stillness.
+//! Benchmarks of the engine: features, neighborhoods, instruction sets, threads, batches and still
+//! scenes.
 
 use divan::Bencher;
 use divan::counter::ItemsCount;
@@ -39,7 +40,7 @@ const CASES: [(&str, Case); 6] = [
     ("224 all shared", Case { features: ALL, ..SMALL }),
 ];
 
-/// An engine for a case, and frames of a moving pattern with noise.
+/// Makes an engine for a case, and frames of a moving pattern with noise.
 fn setup(case: Case, options: Options) -> (Engine, Vec<Vec<u8>>) {
     let mut config = CameraConfig::default();
     (config.frame.width, config.frame.height) = (Some(case.width), Some(case.height));
@@ -63,7 +64,7 @@ fn setup(case: Case, options: Options) -> (Engine, Vec<Vec<u8>>) {
     (engine, frames)
 }
 
-/// Frames one by one, or the same one over and over.
+/// Times frames one by one. With `still`, the same frame is given again and again.
 fn run(bencher: Bencher, case: Case, options: Options, still: bool) {
     let (mut engine, frames) = setup(case, options);
     let width = usize::try_from(case.width).expect("a width");
@@ -98,7 +99,7 @@ fn threads(bencher: Bencher, threads: usize) {
     run(bencher, HD, Options { threads, skip: false, ..Options::default() }, false);
 }
 
-/// Threads, frames at a time, and whether their screens are kept.
+/// The numbers of threads and of frames per call, and whether the screens are kept.
 const WAYS: [(usize, usize, bool); 8] = [
     (1, 4, false),
     (1, 4, true),
@@ -110,7 +111,7 @@ const WAYS: [(usize, usize, bool); 8] = [
     (2, 32, true),
 ];
 
-/// Several frames at a time.
+/// Times several frames per call.
 fn run_batch(bencher: Bencher, case: Case, (threads, batch, keep): (usize, usize, bool)) {
     let options = Options { threads, skip: false, ..Options::default() };
     let (mut engine, frames) = setup(case, options);

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Megapixels per second of the engine on a clip in memory, one JSON object per line.
+//! Measures the throughput of the engine on a clip in memory. Prints one JSON object per line.
 //!
 //! `throughput CLIP.npy --side N --features edge,corner,mad [--neighborhood shared] [--threads 1]
-//! [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent] [--blocks 2]`; with `--blocks`
-//! irrelevant regions send the means of so many blocks a side. Frames are
-//! given `--batch` at a time, and with `--screens` the rendered frame of each is kept. `throughput --copy`
-//! measures what the machine copies. `mpixel_s` is over the faster half of the frames, as `cv_pipeline.py`
-//! reports it, `mpixel_s_mean` over all of the clip, each frame at its fastest.
+//! [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]
+//! [--blocks 2]`
+//!
+//! With `--blocks`, irrelevant regions send means of that many blocks per side. Frames are given
+//! `--batch` at a time, and with `--screens` the rendered frame of each is kept. `throughput
+//! --copy` measures the copy bandwidth of the machine. `mpixel_s` is in megapixels per second over
+//! the faster half of the frames, as `cv_pipeline.py` reports it. `mpixel_s_mean` is over all
+//! frames of the clip, each with its fastest time.
 
 use std::sync::Barrier;
 use std::time::{Duration, Instant};
@@ -79,7 +82,7 @@ fn print(line: &serde_json::Value) {
     println!("{line}");
 }
 
-/// A feature with the thresholds of the OpenCV pipeline.
+/// Returns a feature with the thresholds of the OpenCV pipeline.
 fn feature(name: &str) -> Result<SpatialConfig, Failure> {
     let kind = *FeatureKind::ALL.iter().find(|kind| kind.name() == name).ok_or("no feature")?;
     let mut feature = SpatialConfig::new(kind);
@@ -93,24 +96,24 @@ fn feature(name: &str) -> Result<SpatialConfig, Failure> {
 }
 
 struct Measured {
-    /// Over the faster half of the frames.
+    /// Megapixels per second over the faster half of the frames.
     mpixel_s: f64,
-    /// Over all frames of the clip, each at its fastest.
+    /// Megapixels per second over all frames of the clip, each with its fastest time.
     mpixel_s_mean: f64,
     skipped: f64,
     active: f64,
 }
 
-/// How frames are given to the engine.
+/// The way in which frames are given to the engine.
 struct Way {
-    /// Frames per call.
+    /// The number of frames per call.
     batch: usize,
-    /// Whether the rendered frame of every one of them is kept.
+    /// Keeps the rendered frame of every frame.
     screens: bool,
 }
 
-/// Times every batch of frames, in rounds over the clip; the engine starts each round anew, so that no
-/// two frames follow each other that do not in the clip.
+/// Times every batch of frames in rounds over the clip. The engine is reset before each round, so
+/// that frames follow each other only as they do in the clip.
 fn measure(
     clip: &Clip,
     engine: &mut Engine,
@@ -140,8 +143,8 @@ fn measure(
         }
     }
     let regions = count(seen * engine.outcome().srs.len());
-    // Each batch of the clip at its fastest: what other programs take away is left out, what some
-    // frames cost more than others is not.
+    // The fastest time of each batch leaves out the time that other programs take, and keeps the
+    // differences between frames.
     let at = |number: usize| times.iter().skip(number).step_by(batches.len()).copied();
     let measured = batches.iter().take(times.len()).enumerate();
     let frame_times =
@@ -160,7 +163,8 @@ fn measure(
     })
 }
 
-/// Takes some frames; a single one as those who have no more do, who look at its screen in the engine.
+/// Takes some frames. A single frame takes the path for single frames, without a buffer for its
+/// screen.
 fn take<'e>(
     engine: &'e mut Engine,
     batch: &[&[u8]],
@@ -178,7 +182,8 @@ fn count(count: usize) -> f64 {
     count as f64
 }
 
-/// Gigabytes per second that one thread copies, and two together: read and written bytes both counted.
+/// Measures the gigabytes per second that one thread copies, and that two threads copy together.
+/// Bytes read and bytes written both count.
 fn copy_bandwidth() -> serde_json::Value {
     let measure = |bytes: usize, rounds: usize| {
         [1, 2].map(|threads| {
@@ -197,7 +202,7 @@ fn copy_bandwidth() -> serde_json::Value {
     })
 }
 
-/// Gigabytes per second of one thread, over the faster half of the rounds.
+/// Returns the gigabytes per second of one thread, over the faster half of the rounds.
 fn copy_rate(bytes: usize, rounds: usize, begin: &Barrier) -> f64 {
     let (from, mut to) = (vec![1u8; bytes], vec![0u8; bytes]);
     begin.wait();
@@ -214,7 +219,7 @@ fn copy_rate(bytes: usize, rounds: usize, begin: &Barrier) -> f64 {
     2.0 * count(bytes) * count(half.len()) / half.iter().sum::<f64>() / 1e9
 }
 
-/// Frames of bytes, one after the other.
+/// A clip of frames of bytes, one after the other.
 struct Clip {
     width: u32,
     height: u32,

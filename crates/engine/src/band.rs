@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One pass over the rows of a band: denoise, compare, score, while all of it is in the cache.
+//! One pass over the rows of a band while all of it is in the cache: denoise, compare, score.
 
 use std::ops::Range;
 
@@ -13,13 +13,13 @@ use crate::plan::{CameraPlan, Passes};
 use crate::scratch::{Columns, Scratch, Sums};
 use foveate_lanes::{BLOCK, Block, Lane, threshold};
 
-/// Rows of a padded plane, by blocks.
+/// Returns the blocks of a run in row `y` of a padded plane.
 #[inline(always)]
 fn blocks<'a, T>(plane: &'a [T], stride: usize, y: usize, run: &Range<usize>) -> &'a [Block<T>] {
     plane[y * stride + run.start * BLOCK..][..run.len() * BLOCK].as_chunks().0
 }
 
-/// The same, to be written.
+/// Returns the blocks of a run in row `y` of a padded plane, to be written.
 #[inline(always)]
 fn blocks_mut<'a, T>(
     plane: &'a mut [T],
@@ -30,7 +30,7 @@ fn blocks_mut<'a, T>(
     plane[y * stride + run.start * BLOCK..][..run.len() * BLOCK].as_chunks_mut().0
 }
 
-/// Counts what the features that look at windows find in a row.
+/// Counts the hits of the features that use windows in one row.
 #[inline(always)]
 fn features<T: Lane>(
     plan: &CameraPlan<T>,
@@ -52,11 +52,12 @@ fn features<T: Lane>(
 pub(crate) struct Band<'a, T: Lane> {
     pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) raw: Pixels<'a, T>,
-    /// Its number, from the top.
+    /// The number of the band, counted from the top.
     pub(crate) number: usize,
-    /// What was denoised last, and will be now; with `previous` it is the reference as well.
+    /// The denoised pixels of the last frame, which the pass replaces by those of this frame. They
+    /// are the reference of `previous`.
     pub(crate) denoised: &'a mut [T],
-    /// With `last-sent` the reference, otherwise empty.
+    /// The reference of `last-sent`, otherwise empty.
     pub(crate) reference: &'a [T],
 }
 
@@ -88,7 +89,8 @@ impl<T: Lane> Band<'_, T> {
         scratch.runs = runs;
     }
 
-    /// The means of the blocks of every region that a run covers, of the pixels that leave.
+    /// Computes the means of the blocks of every region that a run covers, from the pixels of the
+    /// payload.
     #[inline(always)]
     fn means_of_blocks(
         &self,
@@ -157,7 +159,7 @@ impl<T: Lane> Band<'_, T> {
         }
     }
 
-    /// Compares a row with its reference, keeps it, and adds it up.
+    /// Compares a row with its reference, stores it, and adds it to the column sums.
     #[inline(always)]
     fn compare(
         &mut self,
@@ -187,7 +189,8 @@ impl<T: Lane> Band<'_, T> {
     #[inline(always)]
     fn columns_to_regions(&self, columns: &Columns<T>, regions: &mut Sums) {
         let side = self.plan.side;
-        // Each of them, so that a new one is not forgotten; what `mad` adds up comes in a second pass.
+        // The pattern names every field, so that a new one is not forgotten. The sums of `mad`
+        // follow in a second pass.
         let Passes { edge, corner, has_windows: _, sums, squares, mad: _ } = self.plan.passes;
         sums::by_region(&columns.changed, side, &mut regions.changed);
         if edge.is_some() {
@@ -204,7 +207,7 @@ impl<T: Lane> Band<'_, T> {
         }
     }
 
-    /// Puts the whole part of each region's mean under its columns.
+    /// Writes the whole part of each region's mean into its columns.
     #[inline(always)]
     fn spread_means(&self, scratch: &mut Scratch<T>, fraction_bits: u32) {
         let n = u64::from(self.plan.region_pixels());
@@ -236,7 +239,7 @@ impl<T: Lane> Band<'_, T> {
 }
 
 impl<T: Lane> Columns<T> {
-    /// Zero in every sum that the first pass of a run uses.
+    /// Sets every sum that the first pass of a run uses to zero.
     #[inline(always)]
     fn clear(&mut self, plan: &CameraPlan<T>, run: &Range<usize>) {
         let Passes { edge, corner, has_windows: _, sums, squares, mad: _ } = plan.passes;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several frames at once: the same results as one by one, handed to the threads once.
+//! Several frames in one call: the results are those of single frames, but threads get their work
+//! only once.
 
 use foveate_camera::Camera;
 
@@ -11,24 +12,26 @@ use crate::workers::Workers;
 use crate::{EngineError, FrameOutcome, Screens, screens};
 use foveate_lanes::Lane;
 
-/// Bytes of frames that go through the engine together: what is compared first should still be in the
-/// last-level cache when it is computed.
+/// The number of bytes of frames that go through the engine together. It is small enough that
+/// pixels which were compared are still in the last-level cache when they are computed.
 const TOGETHER: usize = 16 << 20;
 
 impl Engine {
-    /// Takes the next frames of a camera with up to 8 bits per pixel, the first one first; each is rows
-    /// of bytes, `stride` apart, where they lie. Returns an outcome per frame, equal to those that
-    /// [`Engine::step_u8`] gives one after the other; only which regions are skipped may differ.
+    /// Takes the next frames of a camera with up to 8 bits per pixel, in order and without copying
+    /// them. The rows of each frame start `stride` bytes apart. Returns one outcome per frame,
+    /// equal to the outcomes of single calls of [`Engine::step_u8`]; only the number of skipped
+    /// regions may differ.
     ///
-    /// `screens`, where given, then has the rendered frame after each of them; the last is at
-    /// [`Engine::rendered`] in any case. No frames at all change nothing.
+    /// If `screens` is given, it then has the rendered frame after each of the frames.
+    /// [`Engine::rendered`] has the last one in any case. A call without frames changes nothing.
     ///
-    /// With one thread this is no faster than frame by frame; several share the work better, and also
-    /// that of frames too small to be divided. Screens cost their writing: a few megabytes of frames per
-    /// call keep all of it in the cache.
+    /// With one thread this is no faster than single calls. Several threads share the work better,
+    /// and also share frames that are too small to be divided. Screens cost the time to write them;
+    /// with a few megabytes of frames per call they stay in the cache.
     ///
     /// # Errors
-    /// When one of the frames is none of the camera; nothing has changed then, nor any screen.
+    /// Fails if one of the frames is not a frame of the camera. State and screens are unchanged
+    /// then.
     pub fn step_batch_u8(
         &mut self,
         frames: &[&[u8]],
@@ -47,10 +50,11 @@ impl Engine {
         Ok(&self.outcomes[..frames.len()])
     }
 
-    /// The same for cameras with 9 to 16 bits per pixel: frames, screens and `stride` in words.
+    /// Takes the next frames of a camera with 9 to 16 bits per pixel, as [`Engine::step_batch_u8`]
+    /// does. Frames, screens and `stride` are in words.
     ///
     /// # Errors
-    /// As [`Engine::step_batch_u8`].
+    /// The errors are those of [`Engine::step_batch_u8`].
     pub fn step_batch_u16(
         &mut self,
         frames: &[&[u16]],
@@ -70,7 +74,7 @@ impl Engine {
     }
 }
 
-/// The pixels as frames of the camera.
+/// Checks that the pixels are frames of the camera.
 fn checked<'a, T: Lane>(
     camera: &Camera,
     frames: &[&'a [T]],
@@ -83,13 +87,13 @@ fn checked<'a, T: Lane>(
     frames.iter().enumerate().map(frame).collect()
 }
 
-/// Room for as many outcomes; those of longer batches stay for the next one.
+/// Makes room for one outcome per frame. The outcomes of longer batches stay for the next one.
 fn prepare(outcomes: &mut Vec<FrameOutcome>, camera: &Camera, frames: usize) {
     let new = || FrameOutcome::new(camera.features().len(), index(camera.regions()));
     outcomes.resize_with(frames.max(outcomes.len()), new);
 }
 
-/// Takes the frames through the engine, as many at a time as the cache holds.
+/// Takes the frames through the engine, as many at a time as fit into the cache.
 fn run<T: Lane>(
     core: &mut Core<T>,
     workers: &Workers,

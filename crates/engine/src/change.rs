@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which regions are bit-identical to the last frame, and what has to be computed for the others.
+//! The search for regions that are bit-identical to the last frame, and the choice of the blocks
+//! that have to be computed.
 
 use std::ops::Range;
 
@@ -7,11 +8,11 @@ use crate::pixels::Pixels;
 use crate::plan::CameraPlan;
 use foveate_lanes::{BLOCK, Lane};
 
-/// The share of a band's blocks from which on it is computed as a whole.
+/// The share of a band's blocks, as a fraction, above which the whole band is computed.
 const NEARLY: (usize, usize) = (4, 5);
 
-/// Compares band `number` with its copy of the last frame, brings the copy up to date, and says of
-/// every region whether a pixel has changed.
+/// Compares band `number` with its copy of the last frame, updates the copy, and sets `changed` for
+/// every region in which a pixel differs.
 #[inline(always)]
 pub(crate) fn compare<T: Lane>(
     plan: &CameraPlan<T>,
@@ -35,7 +36,8 @@ pub(crate) fn compare<T: Lane>(
     }
 }
 
-/// Says of every region of band `number` whether a pixel has changed from one frame to another.
+/// Compares band `number` of two frames, and sets `changed` for every region in which a pixel
+/// differs.
 #[inline(always)]
 pub(crate) fn compare_frames<T: Lane>(
     plan: &CameraPlan<T>,
@@ -97,9 +99,10 @@ fn compare_any<T: Lane>(now: &[T], last: &[T], side: usize, changed: &mut [bool]
     }
 }
 
-/// Which regions of a band, the middle one of three, may have other results than in the last frame:
-/// those that have changed, and where neighbors are seen those around them. Two pixels of halo are at
-/// most a region.
+/// Marks the regions of the middle one of three bands that may have other results than in the last
+/// frame. These are the regions that have changed and, with shared neighborhoods, the regions
+/// around them. One region on each side is enough, because the halo of two pixels is at most one
+/// region wide.
 #[inline(always)]
 pub(crate) fn affected<T: Lane>(
     plan: &CameraPlan<T>,
@@ -119,8 +122,9 @@ pub(crate) fn affected<T: Lane>(
     affected[last] = column(last.saturating_sub(1)) | column(last);
 }
 
-/// The blocks under the affected regions, as runs. Each run costs `margin` blocks on each side: what
-/// lies closer together is one run, and where nearly all of the blocks are wanted it is all of them.
+/// Collects the blocks under the affected regions as runs. Each run costs `margin` blocks more on
+/// each side, so runs that lie closer together than that are merged. If nearly all blocks are
+/// needed, one run covers the band.
 #[inline(always)]
 pub(crate) fn runs<T: Lane>(plan: &CameraPlan<T>, affected: &[bool], runs: &mut Vec<Range<usize>>) {
     runs.clear();
@@ -160,9 +164,9 @@ mod tests {
         use Neighborhood::{Isolated, Shared};
         assert_eq!(found(640, 8, Isolated, &[0, 7, 8, 24]), [0..2, 3..4]);
         assert_eq!(found(1280, 8, Shared, &[0, 7, 8, 24, 56]), [0..4, 7..8]);
-        // Region 10 of 6 columns lies in two blocks.
+        // Region 10, which is 6 pixels wide, lies in two blocks.
         assert_eq!(found(600, 6, Isolated, &[10]), vec![0..2]);
-        // Nearly everything is everything; nothing is nothing.
+        // Nearly all blocks become all blocks, and no affected region gives no run.
         assert_eq!(found(256, 8, Shared, &[0, 24]), vec![0..4]);
         assert_eq!(found(640, 8, Shared, &[]), []);
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The engine for one width of lanes: the planes between frames, and their division among workers.
+//! The engine for one lane width: the planes that are kept between frames, and their division among
+//! workers.
 
 use std::iter;
 use std::ops::Range;
@@ -20,10 +21,10 @@ use crate::workers::Workers;
 use foveate_lanes::Aligned;
 use foveate_lanes::Lane;
 
-/// Rows of the smallest strip.
+/// The number of rows of the smallest strip.
 const SMALLEST_HEIGHT: usize = 96;
 
-/// The state between frames.
+/// The state that is kept between frames.
 #[derive(Debug)]
 pub(crate) struct Core<T: Lane> {
     pub(crate) plan: CameraPlan<T>,
@@ -32,27 +33,28 @@ pub(crate) struct Core<T: Lane> {
     pub(crate) screen: Vec<T>,
     valid: Vec<bool>,
     black: Vec<bool>,
-    /// Regions whose summary the screen shows, and its means.
+    /// The regions whose summary the screen shows.
     shown: Vec<bool>,
     means: Vec<T>,
     settled: Vec<bool>,
-    /// The last frame, without padding, while the policy wants it.
+    /// The last frame without padding. It is kept up to date while the policy asks for it.
     copy: Vec<T>,
-    /// By band, frame and column.
+    /// One flag per region and frame, in the order band, frame, column: its pixels have changed.
     changed: Vec<bool>,
     policy: Policy,
     skip: bool,
-    /// Of what was known before the last step, while it is asked for.
+    /// A copy of the state before the last step, if the caller asked for it.
     memory: Option<Memory<T>>,
-    /// By strip.
+    /// The working memory and the skip counts of each strip.
     scratch: Vec<(Scratch<T>, Vec<Skipped>)>,
 }
 
-/// What is to be kept of every frame of a batch; nothing of none where there are no outcomes.
+/// The buffers for results that are kept of every frame of a batch. They are empty if nothing is
+/// kept.
 #[derive(Debug)]
 pub(crate) struct Keep<'a, T> {
     pub(crate) outcomes: &'a mut [FrameOutcome],
-    /// By frame, or empty.
+    /// One screen per frame, or none.
     pub(crate) screens: &'a mut [Screen<T>],
 }
 
@@ -105,12 +107,12 @@ impl<T: Lane> Core<T> {
         self.plan.pixels_of(&self.denoised, region, pixels);
     }
 
-    /// Appends the means that a region has sent last.
+    /// Appends the means that a region sent last.
     pub(crate) fn summary(&self, region: u32, means: &mut Vec<u16>) {
         self.plan.means_of(&self.means, region, means);
     }
 
-    /// Whether to copy what is known before every step.
+    /// Turns the copy of the state before every step on or off.
     pub(crate) fn remember(&mut self, on: bool) {
         match (on, &self.memory) {
             (true, None) => self.memory = Some(Memory::default()),
@@ -119,7 +121,7 @@ impl<T: Lane> Core<T> {
         }
     }
 
-    /// What was known before the last step, where it was remembered.
+    /// Returns the state before the last step, if it was copied.
     pub(crate) fn memory(&self) -> Option<&Memory<T>> {
         self.memory.as_ref().filter(|memory| memory.is_taken())
     }
@@ -131,7 +133,7 @@ impl<T: Lane> Core<T> {
         }
     }
 
-    /// Takes the next frames; `outcome` is that of the last.
+    /// Takes the next frames. `outcome` becomes the outcome of the last one.
     pub(crate) fn step(
         &mut self,
         frames: &[Pixels<'_, T>],
@@ -145,17 +147,18 @@ impl<T: Lane> Core<T> {
         self.compute(frames, workers, first, outcome, keep);
     }
 
-    /// Has as many strips as the frames are worth.
+    /// Sets the number of strips to what the frames are worth.
     fn divide(&mut self, frames: usize, workers: &Workers) {
         let plan = &self.plan;
         let pixels = plan.stride() * plan.rows * plan.side * frames;
-        // A strip denoises a row of each neighbor anew: it is not worth while for a few rows.
+        // A strip denoises one row of each neighbor again, which does not pay for a few rows.
         let most = (plan.rows * plan.side / SMALLEST_HEIGHT).clamp(1, plan.rows);
         let strips = workers.strips(most, pixels);
         self.scratch.resize_with(strips, || (Scratch::new(plan), Vec::new()));
     }
 
-    /// Finds what has changed, if that is worth while; returns the first frame of which it is known.
+    /// Finds the regions that have changed, if the search pays. Returns the number of the first
+    /// frame whose changes are known.
     fn look(&mut self, frames: &[Pixels<'_, T>], workers: &Workers) -> usize {
         let step = self.policy.next(frames.len());
         if step == Step::Rest {
@@ -191,7 +194,8 @@ impl<T: Lane> Core<T> {
         workers.run(looks);
     }
 
-    /// Blocks of the sample in one frame that would be saved, of how many.
+    /// Returns how many blocks of the sample one frame could save, and the number of blocks of the
+    /// sample.
     fn sample(&self, frame: usize, frames: usize) -> (usize, usize) {
         let plan = &self.plan;
         let (mut saved, mut blocks, mut runs) = (0, 0, Vec::new());
@@ -204,7 +208,7 @@ impl<T: Lane> Core<T> {
         (saved, blocks)
     }
 
-    /// Takes the frames through all strips; changes are known from frame `first` on.
+    /// Takes the frames through all strips. Changes are known from frame `first` on.
     fn compute(
         &mut self,
         frames: &[Pixels<'_, T>],
@@ -258,7 +262,7 @@ impl<T: Lane> Core<T> {
         self.count_skipped(first..frames.len(), outcome, outcomes);
     }
 
-    /// Puts together what the strips have skipped, and lets the policy know.
+    /// Adds up what the strips have skipped, and reports it to the policy.
     fn count_skipped(
         &mut self,
         known: Range<usize>,
@@ -281,7 +285,7 @@ impl<T: Lane> Core<T> {
     }
 }
 
-/// All bands, in shares that differ by one at most.
+/// Divides all bands among the strips, in shares that differ by at most one band.
 fn shares(bands: usize, strips: usize) -> impl ExactSizeIterator<Item = Range<usize>> {
     (0..strips).map(move |strip| bands * strip / strips..bands * (strip + 1) / strips)
 }

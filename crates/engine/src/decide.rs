@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From sums to scores, votes, both relevances and the action of every region of a band.
+//! The decision: from sums to scores, votes, SRS, TRS and the action of every region of a band.
 
 use foveate_camera::Action;
 use foveate_camera::{Combine, FeatureKind, Irrelevant, Reference};
@@ -11,8 +11,8 @@ use crate::scratch::Sums;
 use foveate_lanes::Lane;
 
 impl<T: Lane> CameraPlan<T> {
-    /// Decides every region of one band; those that are not affected keep their scores, and their
-    /// temporal count is what it must be when no pixel has changed.
+    /// Decides every region of one band. Regions that are not affected keep their scores, and their
+    /// temporal count follows from the last frame.
     #[inline(always)]
     pub(crate) fn decide(
         &self,
@@ -49,7 +49,7 @@ impl<T: Lane> CameraPlan<T> {
         }
     }
 
-    /// Temporal counts, from the last actions where no pixel has changed.
+    /// Computes the temporal counts, from the last actions where no pixel has changed.
     #[inline(always)]
     fn count(&self, sums: &Sums, affected: &[bool], valid: &[bool], results: &mut Results<'_>) {
         let n = self.region_pixels();
@@ -70,7 +70,7 @@ impl<T: Lane> CameraPlan<T> {
         }
     }
 
-    /// Spatial relevance from the scores.
+    /// Computes SRS from the scores.
     #[inline(always)]
     fn vote(&self, results: &mut Results<'_>) {
         let srs = &mut *results.srs;
@@ -84,8 +84,9 @@ impl<T: Lane> CameraPlan<T> {
         }
     }
 
-    /// The temporal count of a region whose denoised pixels are those of the frame before, from
-    /// what happened then: its reference is now those very pixels, or what it was, or none.
+    /// Returns the temporal count of a region whose denoised pixels are those of the previous
+    /// frame. It follows from that frame's action: the reference is now equal to the pixels,
+    /// unchanged, or not valid.
     #[inline(always)]
     fn count_of_identical(&self, (action, count): (Action, u32), n: u32) -> u32 {
         match (self.reference, action) {
@@ -102,14 +103,15 @@ impl<T: Lane> CameraPlan<T> {
             (true, false) => Action::Hold,
             (false, _) => match self.irrelevant {
                 Irrelevant::Zero => Action::Blank,
-                // Which summaries are sent is decided behind this, once the actions are there.
+                // The periphery decides afterwards, from these actions, which summaries are sent.
                 Irrelevant::Hold | Irrelevant::Mean => Action::Hold,
             },
         }
     }
 }
 
-/// Puts new scores where regions are affected: where no pixel has changed, no score of these pixels has.
+/// Writes new scores for affected regions. The other regions have the same pixels and the same
+/// scores as before.
 #[inline(always)]
 fn fill(scores: &mut [u64], affected: &[bool], new: impl Fn(usize) -> u64) {
     for (at, (score, &affected)) in scores.iter_mut().zip(affected).enumerate() {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Denoised rows on demand: those around a batch are kept, so that a window's rows are computed once.
+//! Denoised rows, computed on demand. The rows around a batch are kept, so that each row is
+//! computed once although several windows use it.
 
 use std::ops::Range;
 
@@ -10,17 +11,18 @@ use crate::scratch::{BlockRow, DenoisedRow};
 use foveate_lanes::{BLOCK, Block, Lane};
 
 impl<T: Lane> SeamMasks<T> {
-    /// Those of some blocks.
+    /// Returns the masks of some blocks.
     #[inline(always)]
     pub(crate) fn over(&self, span: &Range<usize>) -> Seams<'_, T> {
         Seams { first: &self.first.blocks()[span.clone()], last: &self.last.blocks()[span.clone()] }
     }
 }
 
-/// Rows between the one that is sorted and the one that is asked for.
+/// The number of rows between the row that is sorted and the row that is prefetched.
 const AHEAD: usize = 6;
 
-/// The rows of one run of blocks, padding and borders as the contract says.
+/// The denoised rows of one run of blocks, with the padding and the borders that the contract
+/// defines.
 #[derive(Debug)]
 pub(crate) struct Denoiser<'a, T: Lane> {
     pub(crate) plan: &'a CameraPlan<T>,
@@ -28,16 +30,16 @@ pub(crate) struct Denoiser<'a, T: Lane> {
     pub(crate) sorted: &'a mut [[BlockRow<T>; 3]],
     pub(crate) tail: &'a mut [Block<T>; 3],
     pub(crate) rows: &'a mut [DenoisedRow<T>],
-    /// How many of them are in use, a power of two.
+    /// The number of entries of `rows` in use, a power of two.
     pub(crate) slots: usize,
-    /// First and last row that windows may reach.
+    /// The first and the last row that windows may reach.
     pub(crate) reach: (usize, usize),
-    /// The blocks that are wanted.
+    /// The blocks that are asked for.
     pub(crate) run: Range<usize>,
 }
 
 impl<T: Lane> Denoiser<'_, T> {
-    /// Makes some rows available, no more than a batch and one on each side.
+    /// Makes rows available: at most a batch and one row on each side of it.
     #[inline(always)]
     pub(crate) fn ensure(&mut self, rows: Range<usize>) {
         let held = |y: usize| {
@@ -49,7 +51,7 @@ impl<T: Lane> Denoiser<'_, T> {
             missing.start += 1;
         }
         let plan = self.plan;
-        // More blocks than are wanted: the windows of features reach there.
+        // The windows of the features reach beyond the blocks that are asked for.
         let margin = plan.margin();
         let span = self.run.start.saturating_sub(margin)..(self.run.end + margin).min(plan.blocks);
         if plan.median {
@@ -62,13 +64,13 @@ impl<T: Lane> Denoiser<'_, T> {
         }
     }
 
-    /// Row `y` of the blocks that are wanted, once it is available.
+    /// Returns the run's blocks of row `y`. The row must be available.
     #[inline(always)]
     pub(crate) fn row(&self, y: usize) -> &[Block<T>] {
         self.slot(y).pixels.blocks(&self.run)
     }
 
-    /// The windows of row `y`, once its neighbors are available.
+    /// Returns the windows of row `y`. The row and its neighbors must be available.
     #[inline(always)]
     pub(crate) fn windows(&self, y: usize) -> Windows<'_, T> {
         let [above, here, below] = self.around(y);
@@ -76,7 +78,7 @@ impl<T: Lane> Denoiser<'_, T> {
         Windows { above: near(above), here: near(here), below: near(below) }
     }
 
-    /// The rows that a window in row `y` sees.
+    /// Returns the numbers of the three rows that a window in row `y` covers.
     #[inline(always)]
     pub(crate) fn around(&self, y: usize) -> [usize; 3] {
         [y.saturating_sub(1).max(self.reach.0), y, (y + 1).min(self.reach.1)]
@@ -87,7 +89,8 @@ impl<T: Lane> Denoiser<'_, T> {
         &self.rows[y & (self.slots - 1)]
     }
 
-    /// Fills row `y`, from the sorted columns number `at` or from raw pixels.
+    /// Fills row `y` from the sorted columns with index `at`, or from raw pixels if there is no
+    /// median.
     #[inline(always)]
     fn fill(&mut self, y: usize, span: &Range<usize>, at: usize) {
         let plan = self.plan;
@@ -124,7 +127,8 @@ impl<T: Lane> Denoiser<'_, T> {
         let start = whole.start * BLOCK;
         median::sort_columns(each(rows, start), sorted);
         if whole.end < span.end {
-            // The last block that is not whole: together with pixels before it, or by itself.
+            // The last block is ragged: it is sorted together with pixels before it, or alone if
+            // there are none.
             let start = width.saturating_sub(BLOCK);
             let sorted = [low.blocks_at(start), mid.blocks_at(start), high.blocks_at(start)];
             if start > 0 {
@@ -143,13 +147,13 @@ impl<T: Lane> Denoiser<'_, T> {
     }
 }
 
-/// The blocks of a row from a column on.
+/// Returns the whole blocks of a row from a column on.
 #[inline(always)]
 fn blocks_of<T>(row: &[T], start: usize) -> &[Block<T>] {
     row[start..].as_chunks().0
 }
 
-/// The same of three rows.
+/// Returns the whole blocks of three rows from a column on.
 #[inline(always)]
 fn each<T>([a, b, c]: [&[T]; 3], start: usize) -> [&[Block<T>]; 3] {
     [blocks_of(a, start), blocks_of(b, start), blocks_of(c, start)]

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame's results in 64 bits, so that two engines on two machines can be compared frame by frame.
+//! A hash of 64 bits over the results of a frame. With it, two engines on two machines can be
+//! compared frame by frame.
 
 use foveate_camera::Action;
 use foveate_frame::Plane;
 
 use crate::{Engine, FrameOutcome};
 
-/// FNV-1a of 64 bits.
+/// The state of a 64-bit FNV-1a hash.
 struct Fnv(u64);
 
 impl Fnv {
@@ -22,9 +23,10 @@ impl Fnv {
 }
 
 impl Engine {
-    /// FNV-1a of what the last frame has led to, in this order, little-endian: every pixel of the screen as two bytes; SRS, TRS
-    /// and action of every region as [`FrameOutcome::region_bytes`] packs them; the scores, feature by feature, as eight
-    /// bytes; the counts of changed pixels as four.
+    /// Returns the 64-bit FNV-1a hash of the results of the last frame. It covers, in this order
+    /// and little-endian: every pixel of the screen as two bytes; SRS, TRS and action of every
+    /// region as [`FrameOutcome::region_bytes`] packs them; the scores, feature by feature, as
+    /// eight bytes each; the temporal counts as four bytes each.
     #[must_use]
     pub fn digest(&self) -> u64 {
         let mut hash = Fnv::new();
@@ -41,7 +43,8 @@ impl Engine {
 }
 
 impl FrameOutcome {
-    /// A byte per region: bit 0 SRS, bit 1 TRS, above them what became of it: 0 forward, 1 hold, 2 blank, 3 summarize.
+    /// Returns one byte per region. Bit 0 is SRS, bit 1 is TRS, and the bits above are the action:
+    /// 0 forward, 1 hold, 2 blank, 3 summarize.
     pub fn region_bytes(&self) -> impl Iterator<Item = u8> {
         self.srs.iter().zip(&self.trs).zip(&self.actions).map(|((&srs, &trs), action)| {
             let action = match action {
@@ -59,7 +62,7 @@ impl FrameOutcome {
 mod tests {
     use super::*;
 
-    /// The check values of the page of FNV (draft-eastlake-fnv).
+    /// The expected values are test vectors of the FNV draft (draft-eastlake-fnv).
     #[test]
     fn it_is_fnv_1a() {
         let hash = |bytes: &[u8]| {

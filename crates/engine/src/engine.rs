@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The engine as its callers see it.
+//! The public interface of the engine.
 
 use foveate_camera::Camera;
 use foveate_frame::Frame;
@@ -11,21 +11,21 @@ use crate::workers::{MAX_THREADS, Workers};
 use crate::{EngineError, FrameOutcome, Level};
 use foveate_frame::{Plane, Raster};
 
-/// How an engine runs; what it computes does not depend on it.
+/// The options of an engine. They do not change what it computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Options {
-    /// Threads, that of the caller among them, at most [`MAX_THREADS`]; 0 takes one per processor. Frames of fewer than some
-    /// ten thousand pixels are not worth dividing, and stay on the thread of the caller unless several
-    /// are given at once.
+    /// The number of threads, the calling thread included, at most [`MAX_THREADS`]; 0 takes one per
+    /// processor. A single frame of less than some ten thousand pixels is not worth dividing and
+    /// stays on the calling thread. Several small frames in one call are divided.
     pub threads: usize,
-    /// Whether regions that are bit-identical to the last frame may be skipped.
+    /// Permits the engine to skip regions that are bit-identical to the last frame.
     pub skip: bool,
-    /// Vector instructions.
+    /// The vector instructions.
     pub level: Level,
 }
 
 impl Default for Options {
-    /// One thread, skipping, the best instructions of this processor.
+    /// Returns options for one thread, with skipping and the best instructions of this processor.
     fn default() -> Self {
         Self { threads: 1, skip: true, level: Level::detect() }
     }
@@ -37,31 +37,32 @@ pub(crate) enum Lanes {
     Words(Core<u16>),
 }
 
-/// An RCM with its renderer: what the model's `FunctionalCamera` computes, fast.
+/// An RCM with its renderer. It computes what the model's `FunctionalCamera` computes.
 #[derive(Debug)]
 pub struct Engine {
     pub(crate) camera: Camera,
     pub(crate) workers: Workers,
     pub(crate) lanes: Lanes,
     pub(crate) outcome: FrameOutcome,
-    /// Of a batch, and of longer ones before.
+    /// The outcomes of the last batch, followed by unused ones if an earlier batch was longer.
     pub(crate) outcomes: Vec<FrameOutcome>,
-    /// A frame as bytes, where it came as words.
+    /// The bytes of a frame that was given as words.
     narrow: Vec<u8>,
 }
 
 impl Engine {
-    /// An engine that has seen nothing yet, on the thread that calls it.
+    /// Makes an engine in its reset state that runs on the calling thread.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let options = Options::default();
         Self::on(camera, options, Workers::alone(options.level))
     }
 
-    /// An engine that runs as asked.
+    /// Makes an engine in its reset state that runs with these options.
     ///
     /// # Errors
-    /// When it asks for more than [`MAX_THREADS`], or the system does not give the threads.
+    /// Fails if more than [`MAX_THREADS`] threads are asked for, or if the system cannot start
+    /// them.
     pub fn with_options(camera: &Camera, options: Options) -> Result<Self, EngineError> {
         if options.threads > MAX_THREADS {
             return Err(EngineError::TooManyThreads {
@@ -98,19 +99,19 @@ impl Engine {
         }
     }
 
-    /// The camera.
+    /// Returns the camera.
     #[must_use]
     pub fn camera(&self) -> &Camera {
         &self.camera
     }
 
-    /// The vector instructions in use.
+    /// Returns the vector instructions in use.
     #[must_use]
     pub fn level(&self) -> Level {
         self.workers.level
     }
 
-    /// Forgets every frame.
+    /// Returns the engine to its reset state, with a black screen and without references.
     pub fn reset(&mut self) {
         match &mut self.lanes {
             Lanes::Bytes(core) => core.reset(),
@@ -118,18 +119,19 @@ impl Engine {
         }
     }
 
-    /// Takes the next frame from the model's type. Up to 8 bits this copies it;
+    /// Takes the next frame in the model's type. This copies a frame of up to 8 bits per pixel;
     /// [`Engine::step_u8`] does not.
     ///
     /// # Errors
-    /// When the frame is not of the camera's size and depth; nothing has changed then.
+    /// Fails if the frame does not have the camera's size and depth. The state is unchanged then.
     pub fn step(&mut self, frame: &Frame) -> Result<&FrameOutcome, EngineError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         let (width, height) = (index(frame.width()), index(frame.height()));
         let Self { workers, lanes, outcome, narrow, .. } = self;
         match lanes {
             Lanes::Bytes(core) => {
-                // No pixel of up to 8 bits is cut; without a way to fail the loop stays one of vectors.
+                // Every pixel fits into a byte; a conversion without a way to fail lets the loop
+                // vectorise.
                 let byte = |&pixel: &u16| u8::try_from(pixel).unwrap_or(u8::MAX);
                 narrow.clear();
                 narrow.extend(frame.pixels().iter().map(byte));
@@ -144,10 +146,10 @@ impl Engine {
         Ok(&self.outcome)
     }
 
-    /// Takes the next frame where it lies.
+    /// Takes the next frame without copying it.
     ///
     /// # Errors
-    /// When the frame is not of the camera's size and depth; nothing has changed then.
+    /// Fails if the frame does not have the camera's size and depth. The state is unchanged then.
     pub fn step_raster(&mut self, frame: &Raster) -> Result<&FrameOutcome, EngineError> {
         self.check_kind((frame.width(), frame.height(), frame.bits()))?;
         match frame.plane() {
@@ -165,11 +167,11 @@ impl Engine {
         Err(EngineError::FrameKind { given: kind(given), expected: kind(expected) })
     }
 
-    /// Takes the next frame of a camera with up to 8 bits per pixel, where it lies: rows of bytes,
-    /// `stride` apart.
+    /// Takes the next frame of a camera with up to 8 bits per pixel without copying it. Its rows
+    /// start `stride` bytes apart.
     ///
     /// # Errors
-    /// When that is no frame of the camera; nothing has changed then.
+    /// Fails if the pixels are not a frame of the camera. The state is unchanged then.
     pub fn step_u8(&mut self, pixels: &[u8], stride: usize) -> Result<&FrameOutcome, EngineError> {
         let raw = Pixels::checked(&self.camera, pixels, stride)?;
         let Self { workers, lanes, outcome, .. } = self;
@@ -180,10 +182,11 @@ impl Engine {
         Ok(&self.outcome)
     }
 
-    /// Takes the next frame of a camera with 9 to 16 bits per pixel, where it lies.
+    /// Takes the next frame of a camera with 9 to 16 bits per pixel without copying it. Its rows
+    /// start `stride` words apart.
     ///
     /// # Errors
-    /// When that is no frame of the camera; nothing has changed then.
+    /// Fails if the pixels are not a frame of the camera. The state is unchanged then.
     pub fn step_u16(
         &mut self,
         pixels: &[u16],
@@ -202,13 +205,13 @@ impl Engine {
         EngineError::LaneWidth { bits: self.camera.pixel_bits(), expected, given }
     }
 
-    /// What the last frame has led to.
+    /// Returns the outcome of the last frame.
     #[must_use]
     pub fn outcome(&self) -> &FrameOutcome {
         &self.outcome
     }
 
-    /// What is on the screen after the last frame.
+    /// Returns the screen after the last frame.
     #[must_use]
     pub fn rendered(&self) -> Plane<'_> {
         match &self.lanes {
@@ -217,10 +220,11 @@ impl Engine {
         }
     }
 
-    /// Appends the denoised pixels of a region in the last frame, with its padding, row by row.
+    /// Appends the denoised pixels of a region of the last frame, with its padding, in row-major
+    /// order.
     ///
     /// # Panics
-    /// When the camera has no such region.
+    /// Panics if the camera has no such region.
     pub fn denoised_region(&self, region: u32, pixels: &mut Vec<u16>) {
         match &self.lanes {
             Lanes::Bytes(core) => core.denoised_region(region, pixels),
@@ -228,10 +232,11 @@ impl Engine {
         }
     }
 
-    /// Appends the means that a region has sent last, row by row of blocks; nothing where regions send none.
+    /// Appends the means that a region sent last, row by row of blocks. Appends nothing if regions
+    /// of this camera send no summaries.
     ///
     /// # Panics
-    /// When the camera has no such region.
+    /// Panics if the camera has no such region.
     pub fn summary(&self, region: u32, means: &mut Vec<u16>) {
         match &self.lanes {
             Lanes::Bytes(core) => core.summary(region, means),

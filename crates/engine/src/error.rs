@@ -1,83 +1,85 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the engine refuses.
+//! The errors of the engine.
 
 use thiserror::Error;
 
-/// The pixels are not a frame of the camera, or the threads cannot be had.
+/// The error that is returned if pixels are not a frame of the camera, or threads cannot be
+/// started.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EngineError {
-    /// A frame of another size or depth than the camera's.
+    /// The frame has another size or depth than the camera.
     #[error("the frame has {given}, but the camera takes {expected}; give it frames of that kind")]
     FrameKind {
-        /// Size and depth of the frame.
+        /// The size and the depth of the frame.
         given: String,
-        /// Size and depth of the camera.
+        /// The size and the depth of the camera.
         expected: String,
     },
-    /// Too few pixels, or rows that overlap.
+    /// There are too few pixels, or the rows overlap.
     #[error(
         "{given} pixels with a stride of {stride} do not hold a frame of {width}x{height}; \
          the stride must be at least {width}, and {needed} pixels are needed"
     )]
     FrameLength {
-        /// Pixels that came.
+        /// The number of pixels that were given.
         given: usize,
-        /// Pixels from row to row.
+        /// The distance from row to row in pixels.
         stride: usize,
-        /// Width of the camera.
+        /// The width of the camera.
         width: usize,
-        /// Height of the camera.
+        /// The height of the camera.
         height: usize,
-        /// Pixels that the size needs with this stride, or with the least possible one.
+        /// The number of pixels that the size needs with this stride, or with the smallest possible
+        /// stride.
         needed: usize,
     },
-    /// A pixel that does not fit into the camera's bits.
+    /// A pixel does not fit into the camera's bits.
     #[error("pixel ({x}, {y}) is {value}; the largest value of {bits} bits is {max}")]
     PixelRange {
-        /// Column of the pixel.
+        /// The column of the pixel.
         x: usize,
-        /// Row of the pixel.
+        /// The row of the pixel.
         y: usize,
-        /// Its value.
+        /// The value of the pixel.
         value: u64,
-        /// Bits per pixel.
+        /// The bits per pixel.
         bits: u32,
-        /// Largest value of these bits.
+        /// The largest value of this number of bits.
         max: u32,
     },
-    /// Pixels of the wrong type for the depth.
+    /// The pixels have the wrong type for the camera's depth.
     #[error("pixels of {bits} bits need the type {expected}, but {given} was given")]
     LaneWidth {
-        /// Bits per pixel of the camera.
+        /// The camera's bits per pixel.
         bits: u32,
-        /// The type they need.
+        /// The type that this depth needs.
         expected: &'static str,
-        /// The type that came.
+        /// The type that was given.
         given: &'static str,
     },
-    /// One of several frames is refused.
+    /// One frame of a batch is refused.
     #[error("frame {number} of the batch: {error}")]
     InBatch {
-        /// Which one, from 0.
+        /// The number of the frame in the batch, counted from 0.
         number: usize,
-        /// What is wrong with it.
+        /// The error of that frame.
         error: Box<EngineError>,
     },
-    /// More threads than an engine takes.
+    /// More threads are asked for than an engine takes.
     #[error("threads = {threads}: expected 1 to {most}, or 0, which takes one per processor")]
     TooManyThreads {
-        /// Threads asked for.
+        /// The number of threads that were asked for.
         threads: usize,
-        /// The most.
+        /// The largest number of threads.
         most: usize,
     },
-    /// The system gave no threads.
+    /// The system cannot start the threads.
     #[error("the system cannot start {threads} threads: {reason}; ask for fewer")]
     Threads {
-        /// Threads asked for.
+        /// The number of threads that were asked for.
         threads: usize,
-        /// What it says.
+        /// The reason that the system gives.
         reason: String,
     },
 }

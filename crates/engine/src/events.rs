@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table of regions: one row per region and frame, the region camera's events as data.
+//! The table of regions: the events of a region camera as data, one row per region and frame.
 //!
-//! What the columns are, and how a row is written as text, is said once, here.
+//! This module alone defines the columns and the text of a row.
 
 use std::fmt;
 use std::io::Write as _;
@@ -13,9 +13,9 @@ use crate::FrameOutcome;
 /// A column of the table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct EventColumn {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
-    /// The type of its values.
+    /// The type of the column's values.
     pub kind: EventKind,
 }
 
@@ -24,24 +24,25 @@ pub struct EventColumn {
 pub enum EventKind {
     /// A signed integer of 64 bits.
     Long,
-    /// One of 32 bits.
+    /// A signed integer of 32 bits.
     Int,
-    /// Yes or no.
+    /// A truth value.
     Flag,
-    /// Text.
+    /// A text.
     Text,
 }
 
-/// A value of a row; as text a flag is a bit, so that tools which know numbers only can read all but the action.
+/// A value of a row. In text, a flag is 0 or 1, so that tools that read only numbers can read every
+/// column but the action.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum EventValue {
-    /// Of [`EventKind::Long`].
+    /// A value of a column of type [`EventKind::Long`].
     Long(i64),
-    /// Of [`EventKind::Int`].
+    /// A value of a column of type [`EventKind::Int`].
     Int(i32),
-    /// Of [`EventKind::Flag`].
+    /// A value of a column of type [`EventKind::Flag`].
     Flag(bool),
-    /// Of [`EventKind::Text`].
+    /// A value of a column of type [`EventKind::Text`].
     Text(&'static str),
 }
 
@@ -56,7 +57,7 @@ impl fmt::Display for EventValue {
     }
 }
 
-/// What a column says of a region.
+/// The property of a region that a column shows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Field {
     Frame,
@@ -67,7 +68,7 @@ enum Field {
     Top,
     Srs,
     Trs,
-    /// By number of the feature.
+    /// The score of the feature with this number.
     Score(usize),
     Count,
     Action,
@@ -89,7 +90,8 @@ impl Field {
         let (column, row) = (region % columns, region / columns);
         match self {
             Self::Frame => long(number),
-            // A damaged clip may claim any time; beyond 292,000 years all are the same.
+            // A damaged clip may claim any time. All times beyond 292,000 years become the same
+            // value.
             Self::Time => EventValue::Long(time_us.try_into().unwrap_or(i64::MAX)),
             Self::Column => int(column),
             Self::Row => int(row),
@@ -112,7 +114,7 @@ fn int(value: usize) -> EventValue {
     EventValue::Int(value.try_into().expect("coordinates are below 2^15 and counts below 2^13"))
 }
 
-/// The columns of a camera's table, in order.
+/// Returns the columns of a camera's table, in order.
 fn columns(camera: &Camera) -> Vec<(EventColumn, Field)> {
     let scores = camera.features().iter().enumerate();
     let scores =
@@ -133,16 +135,16 @@ fn columns(camera: &Camera) -> Vec<(EventColumn, Field)> {
     all.map(|(name, field)| (EventColumn { name, kind: field.kind() }, field)).collect()
 }
 
-/// One frame of a run, with what came of it.
+/// One frame of a run and its outcome.
 #[derive(Clone, Copy, Debug)]
 pub struct Moment<'a> {
     /// The camera.
     pub camera: &'a Camera,
-    /// Number of the frame in the run.
+    /// The number of the frame in the run.
     pub number: u64,
-    /// Time since the first frame in microseconds.
+    /// The time since the first frame in microseconds.
     pub time_us: u64,
-    /// What came of it.
+    /// The outcome of the frame.
     pub outcome: &'a FrameOutcome,
 }
 
@@ -155,14 +157,15 @@ pub struct EventTable {
 }
 
 impl EventTable {
-    /// The table with a row per region and frame, or only with those of regions that send something.
+    /// Makes the table with a row per region and frame. If `only_active` is set, it has rows only
+    /// for regions that send pixels or a summary.
     #[must_use]
     pub fn new(camera: &Camera, only_active: bool) -> Self {
         let (columns, fields) = columns(camera).into_iter().unzip();
         Self { columns, fields, only_active }
     }
 
-    /// The same without what only scores say.
+    /// Returns the table without the columns that need scores: the scores and the temporal count.
     #[must_use]
     pub fn without_scores(self) -> Self {
         let pairs = self.columns.into_iter().zip(self.fields);
@@ -171,13 +174,13 @@ impl EventTable {
         Self { columns, fields, ..self }
     }
 
-    /// The columns, in order.
+    /// Returns the columns in order.
     #[must_use]
     pub fn columns(&self) -> &[EventColumn] {
         &self.columns
     }
 
-    /// The first line of the table as CSV, without its end.
+    /// Returns the first line of the table as CSV, without its line end.
     #[must_use]
     pub fn heading(&self) -> String {
         let names: Vec<&str> = self.columns.iter().map(|column| column.name.as_str()).collect();
@@ -189,14 +192,15 @@ impl EventTable {
         self.rows(moment, |values| {
             for (index, value) in values.enumerate() {
                 let comma = if index == 0 { "" } else { "," };
-                // Memory takes everything.
+                // A write into memory cannot fail.
                 let _ = write!(text, "{comma}{value}");
             }
             text.push(b'\n');
         });
     }
 
-    /// Gives the rows of a frame of this camera, region by region, a value for each column.
+    /// Calls `row` for each row of a frame of this camera, in the order of the regions, with one
+    /// value per column.
     pub fn rows(
         &self,
         moment: &Moment<'_>,

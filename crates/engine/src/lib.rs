@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional model's integers at billions of pixels a second.
+//! A fast implementation of the functional model, for billions of pixels a second.
 //!
-//! [`Engine`] computes what the model's `FunctionalCamera` computes, bit for bit, for every camera. The
-//! model defines the results; this crate only makes them fast:
+//! [`Engine`] computes what the model's `FunctionalCamera` computes, bit for bit, for every camera.
+//! The model defines the results; this crate only makes them fast:
 //! - It makes one fused pass over a band of regions while the band is in the cache. A chain of
 //!   whole-frame operations would go through memory once per step.
 //! - It has plain loops over fixed blocks of lanes, compiled for several instruction sets. The best
 //!   one for the processor is chosen at run time.
-//! - It shares bands among threads; the bits do not depend on their number. Several frames can be
-//!   given to one call, [`Engine::step_batch_u8`].
+//! - It shares bands among threads; the results do not depend on the number of threads. Several
+//!   frames can be given to one call, [`Engine::step_batch_u8`].
 //! - It finds regions that are bit-identical to the last frame and skips them.
 
 mod band;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which regions have changed from frame to frame, before anything is computed.
+//! The comparison of frames that finds the regions that have changed, before anything is computed.
 
 use std::ops::Range;
 
@@ -10,16 +10,16 @@ use crate::policy::Step;
 use foveate_lanes::Lane;
 use foveate_lanes::Task;
 
-/// Finds what has changed in some bands of a batch of frames.
+/// A task that finds the changed regions in some bands of a batch of frames.
 #[derive(Debug)]
 pub(crate) struct Look<'a, T: Lane> {
     pub(crate) plan: &'a CameraPlan<T>,
     pub(crate) frames: &'a [Pixels<'a, T>],
     pub(crate) bands: Range<usize>,
     pub(crate) step: Step,
-    /// Their part of the frame before the batch, without padding.
+    /// The part of the frame before the batch that belongs to the bands, without padding.
     pub(crate) copy: &'a mut [T],
-    /// By band, frame and column.
+    /// One flag per region and frame, in the order band, frame, column.
     pub(crate) changed: &'a mut [bool],
 }
 
@@ -72,19 +72,20 @@ impl<T: Lane> Look<'_, T> {
     }
 }
 
-/// What is known of the changes in a batch.
+/// The known changes of a batch.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Changes<'a> {
-    /// By band, frame and column.
+    /// One flag per region and frame, in the order band, frame, column.
     pub(crate) changed: &'a [bool],
-    /// Frames in the batch.
+    /// The number of frames in the batch.
     pub(crate) frames: usize,
-    /// The first frame of which they are known, if any.
+    /// The first frame whose changes are known. It is the number of frames if no changes are known.
     pub(crate) first: usize,
 }
 
 impl<'a> Changes<'a> {
-    /// Which regions of a frame's band and of those above and below it have changed, if that is known.
+    /// Returns the changed regions of a frame's band and of the bands above and below it, if they
+    /// are known.
     #[inline(always)]
     pub(crate) fn around<T: Lane>(
         &self,

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What an engine knew before its last frame, copied while somebody asks for it: why that frame led to what it did can be
-//! explained from this and the frame alone.
+//! Copies of the state that an engine had before its last frame. Together with the frame they
+//! explain its outcome. They are made only if the caller asks for them.
 
 use foveate_camera::Reference;
 use foveate_lanes::Lane;
 
 use crate::plan::CameraPlan;
 
-/// What was known of a region.
+/// The state of one region before a frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Before {
-    /// The denoised pixels that it is compared with, row by row; none where there was no valid reference.
+    /// The reference of the region, N x N denoised pixels in row-major order, or `None` if it was
+    /// not valid.
     pub reference: Option<Vec<u16>>,
-    /// The means that the screen showed of it, block by block; none where it showed no summary.
+    /// The means that the screen showed for the region, block by block, or `None` if it showed no
+    /// summary.
     pub summary: Option<Vec<u16>>,
 }
 
-/// Copies of the planes between frames.
+/// Copies of the planes that are kept between frames.
 #[derive(Debug, Default)]
 pub(crate) struct Memory<T> {
     reference: Vec<T>,
@@ -26,7 +28,7 @@ pub(crate) struct Memory<T> {
     pub(crate) screen: Vec<T>,
 }
 
-/// The planes between frames, where they lie.
+/// The planes that are kept between frames, borrowed from the engine.
 #[derive(Debug)]
 pub(crate) struct Known<'a, T> {
     pub(crate) denoised: &'a [T],
@@ -38,7 +40,7 @@ pub(crate) struct Known<'a, T> {
 }
 
 impl<T: Lane> Memory<T> {
-    /// Copies what is known now.
+    /// Copies the state of the engine.
     pub(crate) fn take(&mut self, plan: &CameraPlan<T>, known: &Known<'_, T>) {
         let reference = match plan.reference {
             Reference::Previous => known.denoised,
@@ -51,7 +53,7 @@ impl<T: Lane> Memory<T> {
         copy(&mut self.screen, known.screen);
     }
 
-    /// Whether anything was copied yet.
+    /// Returns true if a state was copied.
     pub(crate) fn is_taken(&self) -> bool {
         !self.valid.is_empty()
     }
@@ -61,7 +63,7 @@ impl<T: Lane> Memory<T> {
         if self.valid[at] {
             plan.pixels_of(&self.reference, region, before.reference.insert(Vec::new()));
         }
-        // Without a periphery there are none.
+        // A camera without a periphery has no summaries.
         if self.shown.get(at) == Some(&true) {
             plan.means_of(&self.means, region, before.summary.insert(Vec::new()));
         }

@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What one frame leads to, region by region.
+//! The outcome of one frame, region by region.
 
 use std::ops::Range;
 
 use foveate_camera::{Action, FeatureKind};
 
-/// Scores and decisions of every region, numbered row by row: the fields of the functional model's
-/// outcome. The rendered frame is at [`Engine::rendered`](crate::Engine::rendered).
+/// The scores and decisions of every region, numbered row by row. The fields are those of the
+/// functional model's outcome. [`Engine::rendered`](crate::Engine::rendered) has the rendered
+/// frame.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameOutcome {
-    /// Spatial relevance of every region.
+    /// SRS, the spatial relevance of every region.
     pub srs: Vec<bool>,
-    /// Temporal relevance of every region.
+    /// TRS, the temporal relevance of every region.
     pub trs: Vec<bool>,
-    /// Both: new pixels of the region are forwarded.
+    /// The active regions: SRS and TRS are both set, and the new pixels are forwarded.
     pub active: Vec<bool>,
-    /// What becomes of every region on the screen.
+    /// The action on every region of the screen.
     pub actions: Vec<Action>,
-    /// Changed pixels of every region; all of them where there was no valid reference.
+    /// The number of changed pixels of every region, N x N if there was no valid reference.
     pub temporal_count: Vec<u32>,
-    /// Scores, by feature in the order of the camera and then by region.
+    /// The scores, by feature in the order of the camera and then by region.
     pub scores: Vec<Vec<u64>>,
-    /// Regions whose results were kept because their pixels (and, where neighbors are seen, those of
-    /// the regions around) were bit-identical to those of the frame before.
+    /// The number of regions whose results were kept because their pixels were bit-identical to
+    /// those of the previous frame. With shared neighborhoods the regions around them had to be
+    /// identical, too.
     pub skipped: usize,
 }
 
@@ -39,7 +41,7 @@ impl FrameOutcome {
         }
     }
 
-    /// The results of some regions, to be written.
+    /// Borrows the results of all regions, to be written.
     pub(crate) fn results(&mut self) -> Results<'_> {
         let mut scores = self.scores.iter_mut();
         Results {
@@ -61,12 +63,12 @@ pub(crate) struct Results<'a> {
     pub(crate) active: &'a mut [bool],
     pub(crate) actions: &'a mut [Action],
     pub(crate) temporal_count: &'a mut [u32],
-    /// By feature; empty where the camera has fewer.
+    /// One slice per feature. Slices beyond the camera's features are empty.
     pub(crate) scores: [&'a mut [u64]; FeatureKind::COUNT],
 }
 
 impl<'a> Results<'a> {
-    /// Cuts the first `regions` off.
+    /// Splits off the results of the first `regions` regions.
     pub(crate) fn split_off(&mut self, regions: usize) -> Results<'a> {
         let scores = &mut self.scores;
         Results {
@@ -81,7 +83,7 @@ impl<'a> Results<'a> {
 }
 
 impl Results<'_> {
-    /// Takes over the results of other regions, as many.
+    /// Copies the results of the same number of other regions.
     #[inline(always)]
     pub(crate) fn copy_from(&mut self, other: &Results<'_>) {
         self.srs.copy_from_slice(other.srs);
@@ -94,7 +96,7 @@ impl Results<'_> {
         }
     }
 
-    /// The results of some of the regions.
+    /// Borrows the results of a range of the regions.
     #[inline(always)]
     pub(crate) fn rows(&mut self, regions: Range<usize>) -> Results<'_> {
         Results {
@@ -108,14 +110,14 @@ impl Results<'_> {
     }
 }
 
-/// Some of the values, or none where there are none.
+/// Returns a range of the values, cut to the values that exist.
 #[inline(always)]
 pub(crate) fn within<'s, T>(values: &'s mut [T], range: &Range<usize>) -> &'s mut [T] {
     let len = values.len();
     &mut values[range.start.min(len)..range.end.min(len)]
 }
 
-/// Cuts the first `len` values off, or all that are there.
+/// Splits off the first `len` values, or all of them if there are fewer.
 pub(crate) fn split_off<'a, T>(values: &mut &'a mut [T], len: usize) -> &'a mut [T] {
     let all = std::mem::take(values);
     let (first, rest) = all.split_at_mut(len.min(all.len()));

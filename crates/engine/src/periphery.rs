@@ -1,50 +1,53 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The summaries of irrelevant regions: from the sums of blocks to means, which of them are sent, and what the screen shows.
+//! The summaries of irrelevant regions: means of blocks, the decision which of them are sent, and
+//! their place on the screen.
 
 use foveate_camera::Action;
 
 use crate::outcome::Results;
 use foveate_lanes::Lane;
 
-/// How summaries are formed: q blocks per side of b pixels.
+/// The geometry of summaries. A region has q x q blocks of b x b pixels; `blocks` is q and `side`
+/// is b.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PeripheryPlan<T> {
-    /// Blocks per side of a region.
+    /// The number of blocks per side of a region.
     pub(crate) blocks: usize,
-    /// Side of a block.
+    /// The side of a block in pixels.
     pub(crate) side: usize,
     pub(crate) level: T,
-    /// Pixels of a block.
+    /// The number of pixels of a block.
     pub(crate) pixels: u32,
-    /// The shift that divides by them, where they are a power of two.
+    /// The shift that divides by `pixels`, if that is a power of two.
     pub(crate) shift: Option<u32>,
 }
 
-/// The means of a band in this frame.
+/// The means of a band in the current frame.
 #[derive(Debug)]
 pub(crate) struct Means<'a, T> {
-    /// Row by row of blocks.
+    /// The means, row by row of blocks.
     pub(crate) means: &'a [T],
-    /// By column of blocks, to be written: not 0 where a mean differs from the one that was sent last.
+    /// One value per column of blocks, an output: not 0 if a mean differs too much from the one
+    /// that was sent last.
     pub(crate) differs: &'a mut [T],
-    /// Regions whose pixels may have changed; the means of others are not known.
+    /// The regions whose pixels may have changed. The means of the other regions are not valid.
     pub(crate) affected: &'a [bool],
 }
 
-/// What the regions of a band have sent of themselves last.
+/// The summaries that the regions of a band sent last.
 #[derive(Debug)]
 pub(crate) struct Summaries<'a, T> {
-    /// Regions whose summary the screen shows.
+    /// The regions whose summary the screen shows.
     pub(crate) shown: &'a mut [bool],
-    /// Their means, row by row of blocks.
+    /// The means that were sent last, row by row of blocks.
     pub(crate) means: &'a mut [T],
 }
 
 impl<T: Lane> PeripheryPlan<T> {
-    /// The means of blocks side by side, from the sums of their columns.
+    /// Computes the means of a row of blocks from the sums of their columns.
     #[inline(always)]
     pub(crate) fn means(&self, columns: &[T::Sum], means: &mut [T]) {
-        // The usual sizes as constants: then the loop is one of vectors.
+        // The usual sizes are constants, so that the loop vectorises.
         match self.side {
             1 => self.means_of::<1>(columns, means),
             2 => self.means_of::<2>(columns, means),
@@ -82,8 +85,8 @@ impl<T: Lane> PeripheryPlan<T> {
         T::low(self.shift.map_or_else(|| sum / self.pixels, |shift| sum >> shift))
     }
 
-    /// Decides which irrelevant regions of a band send their means. A region that is not affected is as it was, and what
-    /// it shows is near enough.
+    /// Decides which irrelevant regions of a band send their means. A region that is not affected
+    /// has the same means as before, so the screen still shows it within the level.
     #[inline(always)]
     pub(crate) fn summarize(
         &self,
@@ -116,7 +119,7 @@ impl<T: Lane> PeripheryPlan<T> {
         }
     }
 
-    /// Shows the means of a region of a band on the part of the screen that begins with it.
+    /// Shows the means of one region of a band. `screen` begins with the region's first pixel.
     #[inline(always)]
     pub(crate) fn show(
         &self,
@@ -133,10 +136,11 @@ impl<T: Lane> PeripheryPlan<T> {
         }
     }
 
-    /// Shows the means of blocks side by side in a row, the last of which may be cut off.
+    /// Shows the means of a row of blocks in a row of pixels. The last block may be cut off by the
+    /// frame's border.
     #[inline(always)]
     fn show_row(&self, means: &[T], row: &mut [T]) {
-        // The usual sizes as constants: a move in place of a call.
+        // The usual sizes are constants, so that a fill is a few moves in place of a call.
         match self.side {
             2 => show_constant::<2, T>(means, row),
             4 => show_constant::<4, T>(means, row),
@@ -159,7 +163,7 @@ fn show_constant<const SIDE: usize, T: Copy>(means: &[T], row: &mut [T]) {
     }
 }
 
-/// The columns of a block, added up: at most 4096 pixels.
+/// Returns the sum of a block, at most 4096 pixels, from the sums of its columns.
 #[inline(always)]
 fn sum<T: Lane>(columns: &[T::Sum]) -> u32 {
     columns.iter().map(|&column| -> u32 { column.into() }).sum()

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pixels of one frame as their source holds them: rows some stride apart, nothing copied.
+//! The pixels of one frame in the caller's buffer: rows that start `stride` values apart, without a
+//! copy.
 
 use foveate_camera::Camera;
 
@@ -17,7 +18,7 @@ pub(crate) struct Pixels<'a, T> {
 }
 
 impl<'a, T> Pixels<'a, T> {
-    /// Row `y` of the padded frame, without padding on its right.
+    /// Returns row `y` of the padded frame, without the padding at its right side.
     #[inline(always)]
     pub(crate) fn row(&self, y: usize) -> &'a [T] {
         &self.values[y.min(self.height - 1) * self.stride..][..self.width]
@@ -25,7 +26,7 @@ impl<'a, T> Pixels<'a, T> {
 }
 
 impl<'a, T: Lane> Pixels<'a, T> {
-    /// The pixels as a frame of the camera.
+    /// Checks that the pixels are a frame of the camera.
     pub(crate) fn checked(
         camera: &Camera,
         values: &'a [T],
@@ -39,7 +40,7 @@ impl<'a, T: Lane> Pixels<'a, T> {
         }
         let raw = Self { values, stride, width, height };
         let max = u64::from(camera.pixel_max());
-        // Where the type holds no more than the bits, there is nothing to look for.
+        // A type whose largest value is the largest pixel needs no check.
         let rows = if max < T::MAX.into() { 0..height } else { 0..0 };
         for y in rows {
             let largest = raw.row(y).iter().copied().fold(T::default(), T::max);

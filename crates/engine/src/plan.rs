@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera as the kernels need it: geometry in indices, thresholds in lanes.
+//! A camera in the form that the kernels need: geometry as indices, thresholds as lanes.
 
 use std::ops::Range;
 
@@ -11,26 +11,26 @@ use crate::periphery::PeripheryPlan;
 use foveate_lanes::Aligned;
 use foveate_lanes::{BLOCK, Lane, threshold};
 
-/// Blocks in a batch of rows.
+/// The number of blocks in a batch of rows.
 const BATCH: usize = 32;
 
-/// What a camera asks for.
+/// The parameters of a camera for the kernels.
 #[derive(Clone, Debug)]
 pub(crate) struct CameraPlan<T: Lane> {
-    /// Frame width without padding.
+    /// The frame width without padding.
     pub(crate) width: usize,
-    /// Frame height without padding.
+    /// The frame height without padding.
     pub(crate) height: usize,
-    /// Side of a region.
+    /// The side of a region in pixels.
     pub(crate) side: usize,
-    /// Regions side by side.
+    /// The number of columns of regions.
     pub(crate) columns: usize,
-    /// Regions one below the other.
+    /// The number of rows of regions.
     pub(crate) rows: usize,
-    /// Blocks of a padded row, the last perhaps beyond the padding.
+    /// The number of blocks of a padded row. The last block may reach beyond the padding.
     pub(crate) blocks: usize,
     pub(crate) median: bool,
-    /// Where regions begin and end that do not see each other.
+    /// The masks of the first and last columns of regions, if neighborhoods are isolated.
     pub(crate) seams: Option<SeamMasks<T>>,
     pub(crate) passes: Passes<T>,
     pub(crate) features: Vec<Feature>,
@@ -40,36 +40,36 @@ pub(crate) struct CameraPlan<T: Lane> {
     pub(crate) reference: Reference,
     pub(crate) irrelevant: Irrelevant,
     pub(crate) payload: Payload,
-    /// Whether the pixels that leave are not those that are scored.
+    /// The payload is raw pixels although denoised pixels are scored.
     pub(crate) keeps_raw: bool,
     pub(crate) periphery: Option<PeripheryPlan<T>>,
 }
 
-/// What has to be done with the pixels of a band for the features.
+/// The passes over the pixels of a band that the features need.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passes<T: Lane> {
     /// Half of the level of `edge`.
     pub(crate) edge: Option<T::Signed>,
     /// The level of `corner`.
     pub(crate) corner: Option<T>,
-    /// Whether one of those looks at windows.
+    /// A feature uses windows.
     pub(crate) has_windows: bool,
-    /// Whether pixels are added up.
+    /// A feature needs the sum of the pixels.
     pub(crate) sums: bool,
-    /// Whether their squares are.
+    /// A feature needs the sum of the squares of the pixels.
     pub(crate) squares: bool,
-    /// Fraction bits of the mean of `mad`.
+    /// The fraction bits of the mean of `mad`.
     pub(crate) mad: Option<u32>,
 }
 
-/// A feature in the order of the camera.
+/// A feature of the camera and its threshold.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Feature {
     pub(crate) kind: FeatureKind,
     pub(crate) min_score: u64,
 }
 
-/// Every bit set in the first and in the last column of each region.
+/// Two masks in which every bit is set in the first and in the last column of each region.
 #[derive(Clone, Debug)]
 pub(crate) struct SeamMasks<T: Lane> {
     pub(crate) first: Aligned<T>,
@@ -108,39 +108,40 @@ impl<T: Lane> CameraPlan<T> {
         }
     }
 
-    /// Regions of a frame.
+    /// Returns the number of regions of a frame.
     pub(crate) fn regions(&self) -> usize {
         self.columns * self.rows
     }
 
-    /// Means of the summaries of a band.
+    /// Returns the number of means in the summaries of a band.
     pub(crate) fn band_means(&self) -> usize {
         self.periphery.map_or(0, |own| self.means_in_row() * own.blocks)
     }
 
-    /// Those of a row of blocks.
+    /// Returns the number of means in a row of blocks of the frame.
     pub(crate) fn means_in_row(&self) -> usize {
         self.periphery.map_or(0, |own| self.columns * own.blocks)
     }
 
-    /// Values from one padded row to the next.
+    /// Returns the number of values from one padded row to the next.
     pub(crate) fn stride(&self) -> usize {
         self.blocks * BLOCK
     }
 
-    /// Where a region begins in a padded frame.
+    /// Returns the index of the first pixel of a region in a padded frame.
     pub(crate) fn first_pixel(&self, region: u32) -> usize {
         let (row, column) = (index(region) / self.columns, index(region) % self.columns);
         (row * self.stride() + column) * self.side
     }
 
-    /// Where the means of a region begin, row by row of blocks of the frame, which has `blocks` in a region's side.
+    /// Returns the index of the first mean of a region among the means of the frame. A region has
+    /// `blocks` blocks per side.
     pub(crate) fn first_mean(&self, region: u32, blocks: usize) -> usize {
         let (row, column) = (index(region) / self.columns, index(region) % self.columns);
         row * self.band_means() + column * blocks
     }
 
-    /// Appends the pixels of a region of a padded plane, row by row.
+    /// Appends the pixels of a region of a padded plane in row-major order.
     pub(crate) fn pixels_of(&self, plane: &[T], region: u32, pixels: &mut Vec<u16>) {
         let own = &plane[self.first_pixel(region)..];
         for row in own.chunks(self.stride()).take(self.side) {
@@ -148,7 +149,8 @@ impl<T: Lane> CameraPlan<T> {
         }
     }
 
-    /// Appends the means of a region among those of all, row by row of blocks; nothing where regions send none.
+    /// Appends the means of a region, row by row of blocks, from the means of the frame. Appends
+    /// nothing if regions of this camera send no summaries.
     pub(crate) fn means_of(&self, all: &[T], region: u32, means: &mut Vec<u16>) {
         let Some(own) = self.periphery else { return };
         let rows = all[self.first_mean(region, own.blocks)..].chunks(self.means_in_row());
@@ -157,41 +159,44 @@ impl<T: Lane> CameraPlan<T> {
         }
     }
 
-    /// Width with padding.
+    /// Returns the frame width with padding.
     pub(crate) fn padded_width(&self) -> usize {
         self.columns * self.side
     }
 
-    /// Rows of a run of blocks that go through each step together: in narrow ones several, since a step that reads
-    /// what the one before has only just written waits for it.
+    /// Returns the number of rows of a run of blocks that go through each step together. Short runs
+    /// take several rows, because a step waits for data that the step before it has only just
+    /// written.
     pub(crate) fn batch(&self, run: usize) -> usize {
         (BATCH / run).clamp(1, self.side)
     }
 
-    /// Rows to keep for a batch and the rows around it: a power of two, so that the place of a row is
-    /// found without a division.
+    /// Returns the number of rows to keep for a batch and the rows around it. It is a power of two,
+    /// so that the place of a row is found without a division.
     pub(crate) fn slots(&self, run: usize) -> usize {
         (self.batch(run) + 2).next_power_of_two()
     }
 
-    /// Blocks that have to be denoised on each side of a run, for the windows at its ends.
+    /// Returns the number of blocks to denoise on each side of a run for the windows at its ends.
     pub(crate) fn margin(&self) -> usize {
-        // Without a look over seams, and with none across the end of a block, there are none.
+        // With isolated neighborhoods and regions that do not cross the ends of blocks, no window
+        // reaches beyond the run.
         usize::from(self.seams.is_none() || !BLOCK.is_multiple_of(self.side))
     }
 
-    /// The blocks of a summary, of so many pixels a side, that lie within a run as a whole.
+    /// Returns the range of columns of summary blocks, `side` pixels wide, that lie completely
+    /// within a run.
     pub(crate) fn blocks_under(&self, side: usize, run: &Range<usize>) -> Range<usize> {
         let (start, end) = (run.start * BLOCK, (run.end * BLOCK).min(self.padded_width()));
         start.div_ceil(side)..(end / side).max(start.div_ceil(side))
     }
 
-    /// Pixels of a region.
+    /// Returns the number of pixels of a region.
     pub(crate) fn region_pixels(&self) -> u32 {
         u32::try_from(self.side * self.side).expect("a region has at most 4096 pixels")
     }
 
-    /// The rows that windows of a row in band `band` may reach: first and last.
+    /// Returns the first and the last row that windows of a row in band `band` may reach.
     pub(crate) fn reach(&self, band: usize) -> (usize, usize) {
         match self.seams {
             Some(_) => (band * self.side, (band + 1) * self.side - 1),
@@ -249,7 +254,7 @@ impl<T: Lane> SeamMasks<T> {
     }
 }
 
-/// Half of an edge level, rounded down, as lane type: at most 3 * 65535.
+/// Converts an edge level to half of it, rounded down, at most 3 * 65535.
 fn half<S: TryFrom<u32> + From<T>, T: Lane<Signed = S>>(level: u32) -> S {
     let half = S::try_from(level / 2);
     half.unwrap_or_else(|_| {
@@ -257,13 +262,13 @@ fn half<S: TryFrom<u32> + From<T>, T: Lane<Signed = S>>(level: u32) -> S {
     })
 }
 
-/// A size, coordinate or number of a region as an index. Lossless: `usize` has 32 bits or more on
-/// every platform that can hold a frame.
+/// Converts a size, a coordinate or the number of a region to an index. The conversion is lossless:
+/// `usize` has 32 bits or more on every platform that can hold a frame.
 pub(crate) const fn index(value: u32) -> usize {
     value as usize
 }
 
-/// A pixel as a word, in which each fits.
+/// Converts a pixel to a word. Every pixel fits.
 fn word<T: Lane>(pixel: T) -> u16 {
     u16::try_from(pixel.into()).unwrap_or(u16::MAX)
 }

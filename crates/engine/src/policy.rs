@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! When it pays to ask which regions are bit-identical to the last frame.
+//! The policy that decides when to search for regions that are bit-identical to the last frame.
 //!
-//! Asking costs a comparison of every frame, and a copy of the last of a batch. So the engine asks all
-//! of a batch only while the answer saves work; otherwise it looks at a sample of bands now and then,
-//! less often the longer nothing is found. What is computed never depends on it.
+//! A search costs a comparison of every frame, and a copy of the last frame of a batch. So all of a
+//! batch is searched only while that saves work. Otherwise the engine looks at a sample of bands
+//! from time to time, less often the longer nothing is found. The results never depend on the
+//! policy.
 
-/// What to do with a batch of frames.
+/// The search in one batch of frames.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Step {
-    /// Nothing.
+    /// Do nothing.
     Rest,
     /// Keep a copy of a sample of the last frame's bands.
     Sample,
-    /// Compare the sample in frame 0 with its copy, or in a later one with the frame before.
+    /// Compare the sample: in frame 0 with its copy, in a later frame with the frame before it.
     Judge(usize),
     /// Compare all frames but the first, and keep a copy of the last.
     Keep,
@@ -21,7 +22,7 @@ pub(crate) enum Step {
 }
 
 impl Step {
-    /// Whether a band is looked at.
+    /// Returns true if the step compares or copies this band.
     #[inline(always)]
     pub(crate) fn concerns(self, band: usize) -> bool {
         match self {
@@ -32,14 +33,15 @@ impl Step {
     }
 }
 
-/// One in this many bands is in the sample.
+/// The distance of the bands of the sample: one in this many bands is in it.
 pub(crate) const SAMPLE: usize = 8;
-/// Frames to rest after the first judgement that found little; doubled up to the second.
+/// The number of frames to rest after the first sample that promised little, and the limit up to
+/// which it is doubled.
 const RESTS: (u32, u32) = (4, 32);
-/// A comparison pays when it saves more than this share of the blocks: it costs about half of what
-/// computing a frame of small regions costs.
+/// A comparison pays if it saves more than this share of the blocks. It costs about half as much as
+/// computing a frame of small regions.
 const PAYS: (usize, usize) = (11, 20);
-/// A sample is promising when more than this share of its blocks could be saved; a comparison that
+/// A sample is promising if more than this share of its blocks could be saved. A comparison that
 /// saves as much makes the next rest short again.
 const PROMISES: (usize, usize) = (13, 20);
 
@@ -51,7 +53,7 @@ enum Phase {
     Kept,
 }
 
-/// When to compare.
+/// The policy and its state.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Policy {
     phase: Phase,
@@ -63,7 +65,7 @@ impl Policy {
         Self { phase: if on { Phase::Resting(0) } else { Phase::Off }, rest: RESTS.0 }
     }
 
-    /// What to do with the next frames.
+    /// Returns the step for the next frames.
     pub(crate) fn next(&mut self, frames: usize) -> Step {
         match self.phase {
             Phase::Off => Step::Rest,
@@ -82,7 +84,8 @@ impl Policy {
         }
     }
 
-    /// Learns how many blocks of the sample could be saved; says whether to keep these frames.
+    /// Records how many blocks of the sample could be saved. Returns true if these frames are to be
+    /// kept.
     pub(crate) fn judge(&mut self, saved: usize, blocks: usize) -> bool {
         let promising = exceeds(saved, blocks, PROMISES);
         if promising {
@@ -93,7 +96,7 @@ impl Policy {
         promising
     }
 
-    /// Learns how many blocks a comparison has saved.
+    /// Records how many blocks a comparison has saved.
     pub(crate) fn saved(&mut self, saved: usize, blocks: usize) {
         if exceeds(saved, blocks, PROMISES) {
             self.rest = RESTS.0;
@@ -108,7 +111,7 @@ impl Policy {
     }
 }
 
-/// Whether so many of the blocks are more than a share of them.
+/// Returns true if `saved` is more than this share of `blocks`.
 fn exceeds(saved: usize, blocks: usize, (part, whole): (usize, usize)) -> bool {
     saved * whole > blocks * part
 }

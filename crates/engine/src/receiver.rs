@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The renderer alone: the screen of a receiver that gets actions, pixels and means over a link. It is the engine's own
-//! renderer, which finds pixels where the receiver has put them.
+//! The renderer alone: the screen of a receiver that gets actions, pixels and means over a link. It
+//! is the engine's own renderer, applied to the received pixels.
 
 use foveate_camera::{Action, Camera, Payload, Reference};
 use foveate_frame::Plane;
@@ -10,7 +10,7 @@ use crate::pixels::Pixels;
 use crate::plan::CameraPlan;
 use crate::render::Canvas;
 
-/// A screen, and what was received of the frame that it shows next.
+/// A screen, and the pixels and means that were received for the next frame.
 #[derive(Debug)]
 pub struct Receiver {
     state: State,
@@ -25,9 +25,9 @@ enum State {
 #[derive(Debug)]
 struct Received<T: Lane> {
     plan: CameraPlan<T>,
-    /// The pixels that came last, in a padded frame.
+    /// The pixels that were received last, in a padded frame.
     pixels: Vec<T>,
-    /// The means that came last, row by row of blocks.
+    /// The means that were received last, row by row of blocks.
     means: Vec<T>,
     screen: Vec<T>,
     black: Vec<bool>,
@@ -35,7 +35,7 @@ struct Received<T: Lane> {
 }
 
 impl Receiver {
-    /// A black screen.
+    /// Makes a receiver with a black screen.
     #[must_use]
     pub fn new(camera: &Camera) -> Self {
         let state = if camera.pixel_bits() <= 8 {
@@ -54,7 +54,8 @@ impl Receiver {
         }
     }
 
-    /// Takes the N x N pixels of a region, row by row. Values that are too many or too large are cut off.
+    /// Takes the N x N pixels of a region in row-major order. Pixels beyond the region are dropped,
+    /// and values that are too large lose their high bits.
     pub fn take_pixels(&mut self, region: u32, pixels: &[u16]) {
         match &mut self.state {
             State::Bytes(received) => received.take_pixels(region, pixels),
@@ -62,7 +63,8 @@ impl Receiver {
         }
     }
 
-    /// Takes the means of a region, row by row of blocks, as [`Receiver::take_pixels`] takes pixels.
+    /// Takes the means of a region, row by row of blocks, as [`Receiver::take_pixels`] takes
+    /// pixels.
     pub fn take_means(&mut self, region: u32, means: &[u16]) {
         match &mut self.state {
             State::Bytes(received) => received.take_means(region, means),
@@ -70,7 +72,7 @@ impl Receiver {
         }
     }
 
-    /// Does what was decided for every region, numbered row by row.
+    /// Applies the action of every region, numbered row by row.
     pub fn show(&mut self, actions: &[Action]) {
         match &mut self.state {
             State::Bytes(received) => received.show(actions),
@@ -78,7 +80,7 @@ impl Receiver {
         }
     }
 
-    /// What is on the screen.
+    /// Returns the screen.
     #[must_use]
     pub fn rendered(&self) -> Plane<'_> {
         match &self.state {
@@ -90,7 +92,7 @@ impl Receiver {
 
 impl<T: Lane> Received<T> {
     fn new(camera: &Camera) -> Self {
-        // What is sent is shown as it is, and nothing is compared with it.
+        // Received pixels are shown unchanged, and no reference is needed.
         let plan = CameraPlan {
             payload: Payload::Denoised,
             reference: Reference::Previous,
@@ -154,7 +156,7 @@ impl<T: Lane> Received<T> {
     }
 }
 
-/// Puts rows of `width` values into a plane.
+/// Writes values into a plane, in rows of `width`.
 fn fill<T: Lane>(plane: &mut [T], stride: usize, values: &[u16], width: usize) {
     for (row, to) in values.chunks(width).zip(plane.chunks_mut(stride)) {
         for (to, &value) in to.iter_mut().zip(row) {

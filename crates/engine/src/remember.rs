@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memory of an engine as its callers see it.
+//! The public interface to the state before the last frame.
 
 use foveate_frame::Plane;
 use foveate_lanes::Lane;
@@ -10,8 +10,8 @@ use crate::engine::Lanes;
 use crate::memory::Before;
 
 impl Engine {
-    /// Whether to copy what is known before every frame from the next one on, which costs a copy of two or three planes;
-    /// [`Engine::before`] tells it.
+    /// Turns the copy of the state before every frame on or off, from the next frame on. It costs a
+    /// copy of two or three planes. [`Engine::before`] returns the state.
     pub fn remember(&mut self, on: bool) {
         match &mut self.lanes {
             Lanes::Bytes(core) => core.remember(on),
@@ -19,11 +19,11 @@ impl Engine {
         }
     }
 
-    /// What was known of a region before the last frame that came alone (not in a batch); nothing where it was not
-    /// remembered.
+    /// Returns the state of a region before the last frame that was taken alone, not in a batch.
+    /// Returns `None` if it was not copied.
     ///
     /// # Panics
-    /// When the camera has no such region.
+    /// Panics if the camera has no such region.
     #[must_use]
     pub fn before(&self, region: u32) -> Option<Before> {
         fn of<T: Lane>(core: &Core<T>, region: u32) -> Option<Before> {
@@ -35,7 +35,7 @@ impl Engine {
         }
     }
 
-    /// What was on the screen then.
+    /// Returns the screen before the last frame, or `None` if it was not copied.
     #[must_use]
     pub fn rendered_before(&self) -> Option<Plane<'_>> {
         match &self.lanes {

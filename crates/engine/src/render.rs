@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Screen and references after the decision: copy, keep or clear each region.
+//! The update of screen and references after the decision: copy, keep or clear each region.
 
 use foveate_camera::Action;
 use foveate_camera::{Payload, Reference};
@@ -8,22 +8,22 @@ use crate::pixels::Pixels;
 use crate::plan::CameraPlan;
 use foveate_lanes::Lane;
 
-/// The part of a band's planes that its actions change. The screen has no padding.
+/// The parts of a band's planes that its actions change. The screen has no padding.
 #[derive(Debug)]
 pub(crate) struct Canvas<'a, T> {
     pub(crate) screen: &'a mut [T],
     pub(crate) denoised: &'a [T],
     pub(crate) reference: &'a mut [T],
-    /// Regions that have a reference.
+    /// The regions that have a valid reference.
     pub(crate) valid: &'a mut [bool],
-    /// Regions of the screen that are black already.
+    /// The regions of the screen that are black already.
     pub(crate) black: &'a mut [bool],
-    /// The means that regions have sent last.
+    /// The means that the regions sent last.
     pub(crate) means: &'a [T],
 }
 
 impl<T: Lane> Canvas<'_, T> {
-    /// Does what was decided for every region of band `number`.
+    /// Applies the action of every region of band `number`.
     #[inline(always)]
     pub(crate) fn act<const PERIPHERY: bool>(
         &mut self,
@@ -78,10 +78,11 @@ impl<T: Lane> Canvas<'_, T> {
     }
 }
 
-/// Pixels that are copied in one go in the time that a row of a region takes by itself.
+/// The number of pixels that one long copy moves in the time that one row of a region takes.
 const PIECE: usize = 64;
 
-/// Makes band `number` of a kept screen that of the screen; each comes with the regions that are black.
+/// Copies band `number` of the screen to a kept screen. Each comes with its black regions, which
+/// are not written again.
 #[inline(always)]
 pub(crate) fn show<T: Lane>(
     plan: &CameraPlan<T>,
@@ -109,7 +110,7 @@ pub(crate) fn show<T: Lane>(
     }
 }
 
-/// Makes `width` x `height` values of a plane zero.
+/// Sets `width` x `height` values of a plane to zero.
 #[inline(always)]
 fn clear<T: Lane>(plane: &mut [T], stride: usize, width: usize, height: usize) {
     for y in 0..height {
@@ -117,7 +118,7 @@ fn clear<T: Lane>(plane: &mut [T], stride: usize, width: usize, height: usize) {
     }
 }
 
-/// Copies `width` x `height` values between planes.
+/// Copies `width` x `height` values from one plane to another.
 #[inline(always)]
 fn copy<T: Copy>(
     from: &[T],
@@ -127,7 +128,7 @@ fn copy<T: Copy>(
     width: usize,
     height: usize,
 ) {
-    // The usual widths as constants: a few moves in place of a call.
+    // The usual widths are constants, so that a copy is a few moves in place of a call.
     match width {
         8 => copy_constant::<8, T>(from, from_stride, to, to_stride, height),
         16 => copy_constant::<16, T>(from, from_stride, to, to_stride, height),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What one worker needs while it is at a band: a few rows that stay in the first-level cache.
+//! The working memory of a worker for one band: a few rows that stay in the first-level cache.
 
 use std::ops::Range;
 
@@ -8,7 +8,7 @@ use crate::plan::CameraPlan;
 use foveate_lanes::Aligned;
 use foveate_lanes::{BLOCK, Block, Lane};
 
-/// A row with a block to spare on each side, so that it can be read shifted by one.
+/// A row with a spare block on each side, so that it can be read shifted by one lane.
 #[derive(Clone, Debug)]
 pub(crate) struct BlockRow<T: Lane>(Aligned<T>);
 
@@ -17,37 +17,37 @@ impl<T: Lane> BlockRow<T> {
         Self(Aligned::new((blocks + 2) * BLOCK))
     }
 
-    /// The blocks, to be written.
+    /// Returns some blocks, to be written.
     #[inline(always)]
     pub(crate) fn blocks_mut(&mut self, span: &Range<usize>) -> &mut [Block<T>] {
         &mut self.0.blocks_mut()[1 + span.start..1 + span.end]
     }
 
-    /// One block from any column on, to be written.
+    /// Returns the block that begins at any column, to be written.
     #[inline(always)]
     pub(crate) fn blocks_at(&mut self, start: usize) -> &mut [Block<T>] {
         self.0[BLOCK + start..][..BLOCK].as_chunks_mut().0
     }
 
-    /// The values, to be written; the first is that of column 0.
+    /// Returns the values from column 0 on, to be written.
     #[inline(always)]
     pub(crate) fn values_mut(&mut self) -> &mut [T] {
         &mut self.0[BLOCK..]
     }
 
-    /// The values of some blocks.
+    /// Returns some blocks.
     #[inline(always)]
     pub(crate) fn blocks(&self, span: &Range<usize>) -> &[Block<T>] {
         &self.0.blocks()[1 + span.start..1 + span.end]
     }
 
-    /// The same with one lane more on each side.
+    /// Returns some blocks with one more lane on each side.
     #[inline(always)]
     pub(crate) fn near(&self, span: &Range<usize>) -> Near<'_, T> {
         &self.0[(1 + span.start) * BLOCK - 1..=(1 + span.end) * BLOCK]
     }
 
-    /// Repeats the border pixels of a row of `width` outwards.
+    /// Repeats the border pixels of a row of `width` pixels outwards.
     #[inline(always)]
     pub(crate) fn repeat_border(&mut self, width: usize, padded: usize) {
         let values = &mut self.0[..];
@@ -63,12 +63,12 @@ impl<T: Lane> BlockRow<T> {
 /// A denoised row.
 #[derive(Clone, Debug)]
 pub(crate) struct DenoisedRow<T: Lane> {
-    /// Which row and blocks of the current frame this is.
+    /// The row of the current frame and the run of blocks that are in `pixels`.
     pub(crate) holds: Option<(usize, Range<usize>)>,
     pub(crate) pixels: BlockRow<T>,
 }
 
-/// Column sums of one band.
+/// The column sums of one band.
 #[derive(Clone, Debug)]
 pub(crate) struct Columns<T: Lane> {
     pub(crate) changed: Aligned<T>,
@@ -76,13 +76,13 @@ pub(crate) struct Columns<T: Lane> {
     pub(crate) corner: Aligned<T>,
     pub(crate) sum: Aligned<T::Sum>,
     pub(crate) square: Aligned<T::Square>,
-    /// The whole part of each column's region's mean.
+    /// The whole part of the mean of each column's region.
     pub(crate) mean: Aligned<T>,
     pub(crate) above: Aligned<T::Sum>,
     pub(crate) over: Aligned<T>,
 }
 
-/// The same by region.
+/// The sums of one band by region.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sums {
     pub(crate) changed: Vec<u64>,
@@ -94,26 +94,27 @@ pub(crate) struct Sums {
     pub(crate) over: Vec<u64>,
 }
 
-/// Working memory of one worker.
+/// The working memory of one worker.
 #[derive(Clone, Debug)]
 pub(crate) struct Scratch<T: Lane> {
-    /// Low, mid and high of the columns of each row of a batch.
+    /// The low, mid and high values of the columns, for each row of a batch.
     pub(crate) sorted: Vec<[BlockRow<T>; 3]>,
-    /// A row short of a whole block, three rows of a window.
+    /// Three rows of a window in a frame that is narrower than a block.
     pub(crate) tail: [Block<T>; 3],
-    /// The rows of a batch and those around it.
+    /// The denoised rows of a batch and the rows around it.
     pub(crate) denoised: Vec<DenoisedRow<T>>,
     pub(crate) columns: Columns<T>,
     pub(crate) sums: Sums,
-    /// A raw row with its padding, where summaries are made of raw pixels.
+    /// A raw row with its padding, for summaries of raw pixels.
     pub(crate) raw: BlockRow<T>,
     /// The means of the band's blocks, row by row of blocks.
     pub(crate) means: Vec<T>,
-    /// By column of blocks: not 0 where a mean differs from the one that was sent last.
+    /// One value per column of blocks: not 0 if a mean differs too much from the one that was sent
+    /// last.
     pub(crate) differs: Vec<T>,
-    /// Blocks of the band that have to be computed.
+    /// The runs of blocks of the band that have to be computed.
     pub(crate) runs: Vec<Range<usize>>,
-    /// Regions of the band whose results may have changed.
+    /// The regions of the band whose results may have changed.
     pub(crate) affected: Vec<bool>,
 }
 

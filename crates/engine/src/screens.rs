@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The rendered frames of a batch, kept by the caller from batch to batch.
+//! The rendered frames of a batch. The caller keeps them from batch to batch.
 //!
-//! Most of a rendered frame is black, and was black in the frame that was here before: what is known
-//! to be black already is not written again, which is why the buffers are not simply the caller's.
+//! Most of a rendered frame is black, and was black in the frame that the buffer held before.
+//! Regions that are known to be black are not written again. This is why the buffers are not plain
+//! slices of the caller.
 
 use crate::plan::CameraPlan;
 use foveate_lanes::Lane;
 
-/// Rendered frames, one per frame of the last batch; to be given to batch after batch, of any engine.
-/// Pixels are `u8` up to 8 bits and `u16` beyond.
+/// The rendered frames of the last batch, one per frame. The same value can be given to batch after
+/// batch of any engine. Pixels are `u8` up to 8 bits and `u16` beyond.
 #[derive(Clone, Debug, Default)]
 pub struct Screens<T> {
-    /// Width, height and region of the frames.
+    /// The width and height of the frames and the side of a region.
     shape: (usize, usize, usize),
-    /// Those of longer batches stay for the next one.
+    /// The screens, followed by unused ones if an earlier batch was longer.
     screens: Vec<Screen<T>>,
     used: usize,
 }
@@ -22,30 +23,31 @@ pub struct Screens<T> {
 #[derive(Clone, Debug)]
 pub(crate) struct Screen<T> {
     pub(crate) pixels: Vec<T>,
-    /// Regions that are black.
+    /// The regions that are black.
     pub(crate) black: Vec<bool>,
 }
 
 impl<T> Screens<T> {
-    /// No frames yet.
+    /// Makes a buffer without frames.
     #[must_use]
     pub fn new() -> Self {
         Self { shape: (0, 0, 0), screens: Vec::new(), used: 0 }
     }
 
-    /// The rendered frame after frame `number` of the last batch: row by row with nothing between.
+    /// Returns the rendered frame after frame `number` of the last batch, in row-major order
+    /// without padding.
     #[must_use]
     pub fn get(&self, number: usize) -> Option<&[T]> {
         self.iter().nth(number)
     }
 
-    /// All of them in order.
+    /// Returns all rendered frames of the last batch in order.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = &[T]> {
         self.screens[..self.used].iter().map(|screen| &screen.pixels[..])
     }
 }
 
-/// As many screens as there are frames, to be written.
+/// Returns one screen per frame, to be written.
 pub(crate) fn prepare<'a, T: Lane>(
     screens: &'a mut Screens<T>,
     plan: &CameraPlan<T>,

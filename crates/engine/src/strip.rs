@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Consecutive bands as one worker's share of a batch of frames.
+//! A strip: consecutive bands, the share of one worker in a batch of frames.
 //!
-//! What is kept between frames belongs to a region, and what is seen of other regions are raw pixels
-//! of the same frame: so a strip goes through all frames of a batch without waiting for the others.
+//! The state that is kept between frames belongs to single regions, and windows see only raw pixels
+//! of the same frame in other regions. So a strip goes through all frames of a batch without
+//! waiting for the others.
 
 use std::ops::{AddAssign, Range};
 
@@ -18,12 +19,12 @@ use crate::scratch::Scratch;
 use foveate_lanes::Lane;
 use foveate_lanes::Task;
 
-/// What did not have to be computed.
+/// The work that was skipped.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Skipped {
-    /// Regions whose results cannot have changed.
+    /// The number of regions whose results cannot have changed.
     pub(crate) regions: usize,
-    /// Blocks that were left out: a block is computed for each of its regions that needs it.
+    /// The number of blocks that were left out. A block is computed if one of its regions needs it.
     pub(crate) blocks: usize,
 }
 
@@ -34,17 +35,17 @@ impl AddAssign for Skipped {
     }
 }
 
-/// A strip's part of what is kept of one frame.
+/// A strip's part of the results that are kept of one frame.
 #[derive(Debug)]
 pub(crate) struct Kept<'a, T> {
     pub(crate) results: Results<'a>,
-    /// Empty where the screen is not asked for.
+    /// The screen, or empty if screens are not kept.
     pub(crate) screen: &'a mut [T],
-    /// Regions of it that are black.
+    /// The regions of the screen that are black.
     pub(crate) black: &'a mut [bool],
 }
 
-/// Takes a batch of frames through some bands.
+/// A task that takes a batch of frames through some bands.
 #[derive(Debug)]
 pub(crate) struct Strip<'a, T: Lane> {
     pub(crate) plan: &'a CameraPlan<T>,
@@ -55,25 +56,26 @@ pub(crate) struct Strip<'a, T: Lane> {
     pub(crate) screen: &'a mut [T],
     pub(crate) valid: &'a mut [bool],
     pub(crate) black: &'a mut [bool],
-    /// Regions whose summary the screen shows, and its means; empty where irrelevant regions send none.
+    /// The regions whose summary the screen shows; empty if irrelevant regions send no summaries.
     pub(crate) shown: &'a mut [bool],
     pub(crate) means: &'a mut [T],
-    /// By band: no result, reference or pixel of the screen would change if it stood still again.
+    /// One flag per band: the same raw pixels once more would change no result, reference or pixel
+    /// of the screen.
     pub(crate) settled: &'a mut [bool],
-    /// Of the last frame.
+    /// The results of the last frame.
     pub(crate) results: Results<'a>,
-    /// By frame, or empty.
+    /// The kept results of each frame, or empty.
     pub(crate) kept: Vec<Kept<'a, T>>,
     pub(crate) scratch: &'a mut Scratch<T>,
     pub(crate) changes: Changes<'a>,
-    /// By frame.
+    /// The skipped work of each frame.
     pub(crate) skipped: &'a mut Vec<Skipped>,
 }
 
 impl<T: Lane> Task for Strip<'_, T> {
     #[inline(always)]
     fn run(self) {
-        // Twice, so that what a periphery needs costs nothing where there is none.
+        // The function is compiled twice, so that cameras without a periphery do not pay for it.
         match self.plan.periphery {
             Some(_) => self.run_as::<true>(),
             None => self.run_as::<false>(),
@@ -82,7 +84,8 @@ impl<T: Lane> Task for Strip<'_, T> {
 }
 
 impl<T: Lane> Strip<'_, T> {
-    /// `PERIPHERY`: whether irrelevant regions send their means.
+    /// Takes all frames through the strip. `PERIPHERY` is true if irrelevant regions send their
+    /// means.
     #[inline(always)]
     fn run_as<const PERIPHERY: bool>(mut self) {
         self.skipped.clear();
@@ -93,7 +96,8 @@ impl<T: Lane> Strip<'_, T> {
             self.skipped.push(Skipped::default());
             for row in 0..self.bands.len() {
                 self.band::<PERIPHERY>(frame, row);
-                // Not the band that has only just been written: its stores are still on their way.
+                // The band that has just been written is not copied yet, because its stores are
+                // still under way.
                 if let Some(last) = row.checked_sub(1) {
                     self.keep_screen(frame, last);
                 }
@@ -105,7 +109,7 @@ impl<T: Lane> Strip<'_, T> {
         }
     }
 
-    /// Takes a frame through the strip's `row`th band.
+    /// Takes a frame through the strip's band number `row`.
     #[inline(always)]
     fn band<const PERIPHERY: bool>(&mut self, frame: usize, row: usize) {
         let (plan, raw, number) = (self.plan, self.frames[frame], self.bands.start + row);
@@ -117,7 +121,7 @@ impl<T: Lane> Strip<'_, T> {
         if still && self.settled[row] {
             return;
         }
-        // Any count and action is followed by the same ones from the second still frame on.
+        // From the second still frame on, counts and actions repeat.
         self.settled[row] = still && plan.reference.settles();
         let reference = rows.start.min(self.reference.len())..rows.end.min(self.reference.len());
         if !still {
@@ -152,7 +156,7 @@ impl<T: Lane> Strip<'_, T> {
         canvas.act::<PERIPHERY>(plan, raw, number, results.actions);
     }
 
-    /// Chooses what of band `number` has to be computed.
+    /// Chooses the runs of band `number` that have to be computed.
     #[inline(always)]
     fn select(&mut self, frame: usize, number: usize) {
         let (plan, scratch) = (self.plan, &mut *self.scratch);
@@ -172,7 +176,7 @@ impl<T: Lane> Strip<'_, T> {
         }
     }
 
-    /// Copies what is on the screen, where it is kept, while it is in the cache.
+    /// Copies a band of the screen to the kept screen while it is in the cache.
     #[inline(always)]
     fn keep_screen(&mut self, frame: usize, row: usize) {
         let plan = self.plan;

@@ -1,35 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Who does the work: the thread that asks, and others that take strips from the same queue.
+//! The threads that do the work: the calling thread, and others that take strips from the same
+//! queue.
 //!
-//! The caller never waits for a thread to wake up; it waits only for strips that others have begun.
+//! The caller never waits for a thread to wake up. It waits only for strips that other threads have
+//! begun.
 
 use std::sync::{Mutex, PoisonError};
 
 use foveate_lanes::{Level, Task};
 
-/// The most threads that one may ask for. Beyond a thread per processor nothing is gained, and a system that is
-/// asked for thousands is busy with nothing else.
+/// The largest number of threads that an engine takes. More threads than processors gain nothing,
+/// and thousands of threads would keep the system busy.
 pub const MAX_THREADS: usize = 256;
-/// Strips per thread: a thread that is interrupted holds up the others by half of its work at most.
+/// The number of strips per thread. A thread that is interrupted delays the others by at most half
+/// of its work.
 const STRIPS_PER_THREAD: usize = 2;
-/// Pixels of the smallest strip that is worth handing to another thread.
+/// The number of pixels of the smallest strip that is worth handing to another thread.
 const SMALLEST_STRIP: usize = 1 << 15;
 
-/// Threads and instructions.
+/// The threads and the instruction set of an engine.
 #[derive(Debug)]
 pub(crate) struct Workers {
     pub(crate) level: Level,
-    /// The threads beside the one that asks.
+    /// The threads other than the calling one.
     pub(crate) others: Option<rayon::ThreadPool>,
 }
 
 impl Workers {
-    /// The thread that asks, alone.
+    /// Makes the workers of an engine that uses only the calling thread.
     pub(crate) fn alone(level: Level) -> Self {
         Self { level, others: None }
     }
 
-    /// `threads` threads, the one that asks among them.
+    /// Makes `threads` workers, the calling thread included.
     pub(crate) fn new(level: Level, threads: usize) -> Result<Self, rayon::ThreadPoolBuildError> {
         if threads <= 1 {
             return Ok(Self::alone(level));
@@ -42,7 +45,8 @@ impl Workers {
         self.others.as_ref().map_or(0, rayon::ThreadPool::current_num_threads)
     }
 
-    /// Into how many strips, at most `most`, so many pixels of one frame or several are divided.
+    /// Returns the number of strips, at most `most`, into which this number of pixels is divided.
+    /// The pixels may be those of several frames.
     pub(crate) fn strips(&self, most: usize, pixels: usize) -> usize {
         match self.others() {
             0 => 1,
@@ -77,7 +81,8 @@ impl Workers {
         }
     }
 
-    /// Runs a task. Not inlined: a task is large, and is compiled once in place of once per call.
+    /// Runs a task. It is not inlined: a task is large, and is compiled once instead of once per
+    /// call.
     #[inline(never)]
     fn work<W: Task>(&self, task: W) {
         self.level.run(task);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `corner`: FAST 5/8.
+//! The feature `corner`: FAST 5/8.
 
 use crate::kernel::{Sides, Windows, near};
 use foveate_lanes::{BLOCK, Block, Lane, best_arc};
 
-/// Adds one to every lane that is a corner at `level`.
+/// Adds one to every lane whose pixel is a corner at `level`.
 #[inline(always)]
 pub(crate) fn count<T: Lane>(
     windows: Windows<'_, T>,

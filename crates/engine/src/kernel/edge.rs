@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `edge`: `|Gx| + |Gy| > level` without either gradient.
+//! The feature `edge`: `|Gx| + |Gy| > level`, computed without either gradient.
 //!
 //! `|Gx| + |Gy|` is the larger of `|Gx + Gy|` and `|Gx - Gy|`. Both are even, and half of each is a
-//! sum of three differences of pixels, which is compared with half the level, rounded down.
+//! sum of three differences of pixels. It is compared with half the level, rounded down.
 
 use crate::kernel::{Sides, Windows, near};
 use foveate_lanes::{BLOCK, Block, Lane};
 
-/// Adds one to every lane whose window is an edge; `half` is half of the level, rounded down.
+/// Adds one to every lane whose window is an edge. `half` is half of the level, rounded down.
 #[inline(always)]
 pub(crate) fn count<T: Lane>(
     windows: Windows<'_, T>,

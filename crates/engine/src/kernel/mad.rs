@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `mad` in whole grey levels.
+//! `mad` with a mean in whole grey levels.
 //!
-//! With the mean `mu = 2^f m + r`, `0 <= r < 2^f`, a pixel is above `mu` or not as it is above `m` or
-//! not, and deviations above and below differ by `n mu - 2^f S` in all. So, with `Q` the sum of
-//! `max(x - m, 0)` and `K` the number of pixels above `m`, the score is
-//! `2 (2^f Q - r K) + n mu - 2^f S`: one saturating subtraction of bytes per pixel, whatever f.
+//! Let the mean be `mu = 2^f m + r` with `0 <= r < 2^f`. A pixel is above `mu` exactly if it is
+//! above `m`, and the sums of the deviations above and below `mu` differ by `n mu - 2^f S`, where
+//! `S` is the sum of the pixels. With `Q` the sum of `max(x - m, 0)` and `K` the number of pixels
+//! above `m`, the score is `2 (2^f Q - r K) + n mu - 2^f S`. So one saturating subtraction per
+//! pixel is enough for any f.
 
 use foveate_lanes::{BLOCK, Block, Lane};
 
-/// Adds to every column what its pixels are above `mean`.
+/// Adds to every column the amounts by which its pixels exceed `mean`.
 #[inline(always)]
 pub(crate) fn add_above<T: Lane>(
     pixels: &[Block<T>],
@@ -22,7 +23,7 @@ pub(crate) fn add_above<T: Lane>(
     }
 }
 
-/// Adds one to every lane that is above `mean`.
+/// Adds one to every lane whose pixel is above `mean`.
 #[inline(always)]
 pub(crate) fn count_above<T: Lane>(pixels: &[Block<T>], mean: &[Block<T>], hits: &mut [Block<T>]) {
     for ((pixels, mean), hits) in pixels.iter().zip(mean).zip(hits) {
@@ -32,14 +33,14 @@ pub(crate) fn count_above<T: Lane>(pixels: &[Block<T>], mean: &[Block<T>], hits:
     }
 }
 
-/// The rounded mean of a region in units of `2^-f` grey levels.
+/// Returns the rounded mean of a region in units of `2^-f` grey levels.
 #[inline(always)]
 pub(crate) fn mean(sum: u64, n: u64, fraction_bits: u32) -> u64 {
     ((sum << fraction_bits) + n / 2) / n
 }
 
-/// The score, from the sum of the pixels, what they are above the whole part of the mean, and how
-/// many are above it.
+/// Returns the score. `sum` is the sum of the pixels, `above` the sum of the amounts by which
+/// pixels exceed the whole part of the mean, and `over` the number of pixels that exceed it.
 #[inline(always)]
 pub(crate) fn score(n: u64, fraction_bits: u32, sum: u64, above: u64, over: u64) -> u64 {
     let mean = mean(sum, n, fraction_bits);

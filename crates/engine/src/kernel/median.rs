@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The median of nine: sort the three pixels of each column once, then combine three columns.
+//! The median of nine pixels: sort the three pixels of each column once, then combine three
+//! columns.
 //!
-//! Of the nine, the median is the median of the largest low, the middle mid and the smallest high.
+//! The median of the nine is the median of three values: the largest of the columns' lows, the
+//! middle one of their mids and the smallest of their highs.
 
 use crate::kernel::{Near, Sides, near};
 use foveate_lanes::prefetch;
 use foveate_lanes::{BLOCK, Block, Lane};
 
-/// The three pixels of every column, sorted.
+/// Sorts the three pixels of every column.
 #[inline(always)]
 pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block<T>]; 3]) {
     let ([a, b, c], [low, mid, high]) = (rows, sorted);
@@ -28,8 +30,8 @@ pub(crate) fn sort_columns<T: Lane>(rows: [&[Block<T>]; 3], sorted: [&mut [Block
     }
 }
 
-/// The median of every window, from its three sorted columns. Raw pixels that will be sorted some
-/// rows later, `ahead`, are asked for meanwhile.
+/// Computes the median of every window from its three sorted columns. Prefetches `ahead`, raw
+/// pixels that will be sorted some rows later.
 #[inline(always)]
 pub(crate) fn combine<T: Lane>(
     [low, mid, high]: [Near<'_, T>; 3],
@@ -56,7 +58,7 @@ fn of_columns<T: Lane>(low: (T, T, T), mid: (T, T, T), high: (T, T, T)) -> T {
     middle((low.0.max(low.1).max(low.2), middle(mid), high.0.min(high.1).min(high.2)))
 }
 
-/// The second of three sorted values.
+/// Returns the second of three values in sorted order.
 #[inline(always)]
 fn middle<T: Lane>((a, b, c): (T, T, T)) -> T {
     a.min(b).max(a.max(b).min(c))
@@ -67,12 +69,13 @@ mod tests {
     use super::*;
     use crate::kernel::Open;
 
-    /// A network of minima and maxima sorts everything iff it sorts zeros and ones.
+    /// The 0-1 principle: a network of minima and maxima is right for all values if it is right for
+    /// zeros and ones.
     #[test]
     fn every_window_of_zeros_and_ones_has_its_median() {
         for bits in 0..512u32 {
             let pixel = |place: usize| u8::from(bits >> place & 1 == 1);
-            // The window is seen by lane 0; the first lane of the row before it.
+            // Lane 0 sees the window, whose left column is the lane before the first block.
             let rows = [0, 3, 6].map(|row| {
                 let mut lanes = [0; 3 * BLOCK];
                 lanes[BLOCK - 1] = pixel(row);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The arithmetic on blocks of lanes: one file per step, plain loops that vectorise.
+//! The arithmetic on blocks of lanes: one file per step, with plain loops that the compiler
+//! vectorises.
 //!
-//! Slices of blocks of one call are equally long; a loop that pairs them stops at the shortest.
+//! The slices of blocks that one call takes are equally long. A loop that pairs them stops at the
+//! shortest.
 #![allow(
     clippy::needless_range_loop,
     clippy::manual_memcpy,
@@ -17,16 +19,16 @@ pub(crate) mod temporal;
 
 use foveate_lanes::{BLOCK, Block, Lane};
 
-/// A row from one lane before its first block to one lane after its last.
+/// A row that has one lane before its first block and one lane after its last.
 pub(crate) type Near<'a, T> = &'a [T];
 
-/// Block `at` of such a row, with the lane before it and the lane after it.
+/// Returns block `at` of such a row, with the lane before it and the lane after it.
 #[inline(always)]
 pub(crate) fn near<T>(row: Near<'_, T>, at: usize) -> &[T; BLOCK + 2] {
     row[at * BLOCK..].first_chunk().expect("one lane more on each side")
 }
 
-/// The rows above, at and below.
+/// The three rows that the windows of a row cover.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Windows<'a, T> {
     pub(crate) above: Near<'a, T>,
@@ -34,17 +36,19 @@ pub(crate) struct Windows<'a, T> {
     pub(crate) below: Near<'a, T>,
 }
 
-/// What windows see beyond the side of a region.
+/// The pixels that windows see beyond the sides of a region.
 pub(crate) trait Sides<T: Lane>: Copy {
-    /// What the window of lane `i` of block `at` sees at its left, center and right, in a row.
+    /// Returns the pixels at the left, center and right of the window of lane `i` of block `at`, in
+    /// one row.
     fn see(self, row: &[T; BLOCK + 2], at: usize, i: usize) -> (T, T, T);
 }
 
-/// The real neighbors.
+/// The neighborhood `shared`: windows see the real neighbors.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Open;
 
-/// The region's own border pixel: every bit is set in the first and last columns of regions.
+/// The neighborhood `isolated`: windows see the region's own border pixel. Every bit of a mask is
+/// set in the first and in the last columns of regions.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Seams<'a, T> {
     pub(crate) first: &'a [Block<T>],
@@ -70,7 +74,7 @@ impl<T: Lane> Sides<T> for Seams<'_, T> {
     }
 }
 
-/// `yes` where the mask is set, otherwise `no`.
+/// Returns `yes` where the mask is set, otherwise `no`.
 #[inline(always)]
 fn select<T: Lane>(mask: T, yes: T, no: T) -> T {
     no ^ ((yes ^ no) & mask)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Column sums of pixels and of their squares, and how columns become regions.
+//! Column sums of pixels and of their squares, and the sums of columns by region.
 
 use std::ops::Range;
 
 use foveate_lanes::{BLOCK, Block, Lane};
 
-/// Adds every pixel to its column.
+/// Adds every pixel to the sum of its column.
 #[inline(always)]
 pub(crate) fn add<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Sum>]) {
     for (pixels, sums) in pixels.iter().zip(sums) {
@@ -15,7 +15,7 @@ pub(crate) fn add<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Sum>]) {
     }
 }
 
-/// The sums of the columns of some rows of a plane, which begin with the first column of `sums`.
+/// Computes the column sums of some rows of a plane. `plane` begins at the first column of `sums`.
 #[inline(always)]
 pub(crate) fn add_rows<T: Lane>(
     plane: &[T],
@@ -24,7 +24,7 @@ pub(crate) fn add_rows<T: Lane>(
     sums: &mut [Block<T::Sum>],
 ) {
     for (at, sums) in sums.iter_mut().enumerate() {
-        // In registers over all rows.
+        // The sums stay in registers over all rows.
         let mut own = [T::Sum::default(); BLOCK];
         for row in rows.clone() {
             if let Some(pixels) = plane[row * stride + at * BLOCK..].first_chunk::<BLOCK>() {
@@ -37,7 +37,7 @@ pub(crate) fn add_rows<T: Lane>(
     }
 }
 
-/// Adds the square of every pixel to its column.
+/// Adds the square of every pixel to the sum of its column.
 #[inline(always)]
 pub(crate) fn add_squares<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Square>]) {
     for (pixels, sums) in pixels.iter().zip(sums) {
@@ -47,10 +47,10 @@ pub(crate) fn add_squares<T: Lane>(pixels: &[Block<T>], sums: &mut [Block<T::Squ
     }
 }
 
-/// The columns of every region, added up; `side` columns to a region.
+/// Adds up the columns of every region. A region has `side` columns.
 #[inline(always)]
 pub(crate) fn by_region<V: Copy + Into<u64>>(columns: &[V], side: usize, regions: &mut [u64]) {
-    // The usual sizes as constants: then the inner loop has no counter.
+    // The usual sizes are constants, so that the inner loop has no counter.
     match side {
         4 => by_constant::<4, V>(columns, regions),
         8 => by_constant::<8, V>(columns, regions),
@@ -72,7 +72,7 @@ fn by_constant<const SIDE: usize, V: Copy + Into<u64>>(columns: &[V], regions: &
     }
 }
 
-/// Puts a value of each region under its columns.
+/// Writes a value of each region into all of its columns.
 #[inline(always)]
 pub(crate) fn spread<T: Copy>(
     regions: &[u64],

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The temporal score: pixels that differ from their reference by more than a level.
+//! The temporal score: the number of pixels that differ from their reference by more than a level.
 
 use foveate_lanes::{BLOCK, Block, Lane};
 
-/// Adds one to every lane that has changed, and makes what is now the next reference.
+/// Adds one to every lane that has changed, and replaces the reference by the current pixels.
 #[inline(always)]
 pub(crate) fn count_and_replace<T: Lane>(
     now: &[Block<T>],
@@ -21,7 +21,8 @@ pub(crate) fn count_and_replace<T: Lane>(
     }
 }
 
-/// Adds one to every lane that has changed, and keeps what is now beside the reference.
+/// Adds one to every lane that has changed, and writes the current pixels to `store`. The reference
+/// stays.
 #[inline(always)]
 pub(crate) fn count_and_store<T: Lane>(
     now: &[Block<T>],
@@ -40,7 +41,7 @@ pub(crate) fn count_and_store<T: Lane>(
     }
 }
 
-/// One when the pixel has changed.
+/// Returns one if the pixel has changed, otherwise zero.
 #[inline(always)]
 fn changed<T: Lane>(now: T, reference: T, level: T) -> T {
     now.distance(reference).minus(level).min(T::ONE)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several frames at once give what they give one by one, for every camera, film, division into
-//! batches, number of threads and instruction set.
+//! Several frames in one call give the results of single calls, for every camera, clip, division
+//! into batches, number of threads and instruction set.
 
 use foveate_camera::{Camera, FeatureKind, Neighborhood, Reference, SpatialConfig};
 use foveate_engine::{Engine, FrameOutcome, Level, Options, Screens};
@@ -14,15 +14,15 @@ use crate::hard_cases::camera;
 use crate::properties::assert_same;
 use crate::recipe::cameras;
 
-/// One call.
+/// One call of an engine.
 #[derive(Clone, Copy, Debug)]
 struct Call {
     frames: usize,
-    /// Whether the screens are asked for.
+    /// Asks for the screens.
     screens: bool,
-    /// Whether everything is forgotten before.
+    /// Resets the engine before the call.
     reset: bool,
-    /// Whether frames are given one by one all the same.
+    /// Gives the frames one by one in spite of their number.
     single: bool,
 }
 
@@ -37,20 +37,20 @@ fn calls() -> impl Strategy<Value = Vec<Call>> {
     proptest::collection::vec(call, 1..6)
 }
 
-/// Rows with a gap between them, of values that no frame could have.
+/// Returns the rows of a frame with a gap between them, filled with values that no frame can have.
 fn strided(camera: &Camera, frame: &Frame, gap: usize) -> Vec<u16> {
     let rows = frame.pixels().chunks(usize::try_from(camera.width()).unwrap());
     rows.flat_map(|row| row.iter().copied().chain(vec![u16::MAX; gap])).collect()
 }
 
-/// Screens of both widths, which all engines write to in turn.
+/// Screens of both widths, which all engines write in turn.
 #[derive(Default)]
 struct Kept {
     bytes: Screens<u8>,
     words: Screens<u16>,
 }
 
-/// Outcomes of some frames at once, and their screens where they are asked for.
+/// Returns the outcomes of frames that are given in one call, and their screens if `kept` is given.
 fn step(
     engine: &mut Engine,
     frames: &[Frame],
@@ -77,8 +77,8 @@ fn step(
     (outcomes.unwrap().to_vec(), screens)
 }
 
-/// Runs a film through the model frame by frame and through engines call by call, over and over until
-/// the calls end; returns how many regions were skipped with one thread.
+/// Runs a clip through the model frame by frame and through engines call by call. The clip is
+/// repeated until the calls end. Returns how many regions one thread skipped.
 fn check(camera: &Camera, film: &[Frame], calls: &[Call], options: Options, gap: usize) -> usize {
     let mut model = FunctionalCamera::new(camera);
     let engine = |threads| Engine::with_options(camera, Options { threads, ..options }).unwrap();
@@ -96,7 +96,7 @@ fn check(camera: &Camera, film: &[Frame], calls: &[Call], options: Options, gap:
             (true, [frame]) => (vec![engine.step(frame).unwrap().clone()], Vec::new()),
             _ => step(engine, &frames, gap, call.screens.then_some(&mut kept)),
         });
-        // Not even what is skipped depends on the number of threads.
+        // The number of skipped regions does not depend on the number of threads either.
         assert_eq!(found[0], found[1], "two threads, {context}");
         assert_eq!(found[0], found[2], "three threads, {context}");
         let [(outcomes, screens), ..] = &found;
@@ -148,7 +148,7 @@ fn strips_go_through_a_batch_without_a_seam() {
     use Change::{Noise, Patch, Spot, Still};
     let script =
         [Still, Still, Patch(0.4, 0.2), Still, Still, Noise, Still, Spot(0.5, 0.5), Still, Still];
-    // Any two values meet.
+    // These four cases contain every pair of values.
     let cameras = [
         (Neighborhood::Isolated, Reference::Previous, 8),
         (Neighborhood::Isolated, Reference::LastSent, 10),
@@ -171,7 +171,7 @@ fn strips_go_through_a_batch_without_a_seam() {
     }
 }
 
-/// What lies still is found within a batch, without one before it.
+/// A still clip is found within a batch, without a batch before it.
 #[test]
 fn a_single_batch_is_skipped_where_it_stands_still() {
     let camera = camera(250, 70, 8, |_| {});
@@ -180,7 +180,7 @@ fn a_single_batch_is_skipped_where_it_stands_still() {
     assert_eq!(skipped, 7 * usize::try_from(camera.regions()).unwrap());
 }
 
-/// More frames than go through the engine together.
+/// The batches have more frames than go through the engine together.
 #[test]
 fn long_batches_are_one_film() {
     let camera = camera(1500, 1100, 64, |_| {});

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Films with everything that matters between two frames: noise, stillness, small changes, flat
-//! and stepped areas.
+//! Clips with the changes that matter between two frames: noise, no change, small changes, flat and
+//! stepped areas.
 
 use foveate_camera::Camera;
 use foveate_frame::Frame;
 use proptest::prelude::*;
 
-/// How a frame comes from the one before.
+/// The change from one frame to the next.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Change {
-    /// Every pixel anew.
+    /// Every pixel is new.
     Noise,
-    /// Nothing.
+    /// No pixel changes.
     Still,
-    /// One pixel, at these fractions of width and height.
+    /// One pixel changes, at these fractions of width and height.
     Spot(f64, f64),
-    /// A square of a quarter of the width anew.
+    /// A square of a quarter of the width is new.
     Patch(f64, f64),
-    /// The same square, of one value: what was relevant there is no longer.
+    /// The same square gets one value, so that a relevant region becomes irrelevant.
     Wipe(f64, f64),
-    /// One value everywhere.
+    /// All pixels get one value.
     Flat,
-    /// Two values, so that hits and ties are many.
+    /// The pixels get two values, so that hits and ties are many.
     Binary,
-    /// Every pixel one level up.
+    /// Every pixel rises by one level.
     Fade,
 }
 
@@ -42,7 +42,7 @@ pub(crate) fn scripts() -> impl Strategy<Value = (u64, Vec<Change>)> {
     (any::<u64>(), proptest::collection::vec(change, 2..9))
 }
 
-/// The frames of a script; the first is noise.
+/// Returns the frames of a script. The first frame is noise.
 pub(crate) fn film(camera: &Camera, seed: u64, script: &[Change]) -> Vec<Frame> {
     let mut random = Random(seed | 1);
     let (width, height, bits) = (camera.width(), camera.height(), camera.pixel_bits());
@@ -82,11 +82,11 @@ fn floor(x: f64) -> u32 {
     x as u32
 }
 
-/// A small generator of random numbers, the same on every machine.
+/// A small generator of random numbers that is the same on every machine.
 struct Random(u64);
 
 impl Random {
-    /// A number in `0..=max`.
+    /// Returns a number in `0..=max`.
     fn below(&mut self, max: u16) -> u16 {
         self.0 ^= self.0 << 13;
         self.0 ^= self.0 >> 7;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cases that random cameras would meet too seldom.
+//! Cases that random cameras reach too seldom.
 
 use foveate_camera::{
     Camera, CameraConfig, FeatureKind, Irrelevant, Neighborhood, Reference, SpatialConfig,
@@ -27,7 +27,7 @@ fn every_feature(config: &mut CameraConfig) {
     config.spatial = FeatureKind::ALL.iter().map(|&kind| SpatialConfig::new(kind)).collect();
 }
 
-/// The largest sums there are: 64 x 64 regions of extreme pixels, in both lane widths.
+/// Regions of 64 x 64 extreme pixels give the largest sums, in both lane widths.
 #[test]
 fn the_largest_sums_stay_inside_their_lanes() {
     for bits in [8, 16] {
@@ -47,8 +47,8 @@ fn the_largest_sums_stay_inside_their_lanes() {
     }
 }
 
-/// A scene that stands still is skipped for every rule of reference and screen, and nothing is
-/// lost by it when it moves again.
+/// A still scene is skipped with every kind of reference and screen, and the results are right when
+/// it moves again.
 #[test]
 fn stillness_is_skipped_and_exact() {
     use Change::{Noise, Patch, Spot, Still};
@@ -96,8 +96,8 @@ fn stillness_is_skipped_and_exact() {
     }
 }
 
-/// A spot changes what its neighbors' windows see, two pixels away and no further: each spot near
-/// a region's border, in a scene that is skipped everywhere else.
+/// A spot changes the windows of its neighbors up to two pixels away. Each spot is near a region's
+/// border, in a scene that is skipped everywhere else.
 #[test]
 fn the_halo_of_a_skipped_region_is_watched() {
     let camera = camera(200, 24, 8, |config| {
@@ -116,7 +116,8 @@ fn the_halo_of_a_skipped_region_is_watched() {
     }
 }
 
-/// Changes far apart in one band are computed as several runs, none of which takes rows of another.
+/// Changes that lie far apart in one band are computed as several runs, none of which uses rows of
+/// another.
 #[test]
 fn several_runs_of_one_band_do_not_mix() {
     for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
@@ -140,8 +141,8 @@ fn several_runs_of_one_band_do_not_mix() {
     }
 }
 
-/// A region that was sent, is wiped and then stands still: what its reference is worth changes in
-/// frames in which its pixels do not.
+/// A region is sent, wiped, and then stands still. Its reference becomes invalid in a frame in
+/// which its pixels do not change.
 #[test]
 fn what_is_still_after_a_wipe_loses_its_reference() {
     let script = [
@@ -162,7 +163,7 @@ fn what_is_still_after_a_wipe_loses_its_reference() {
     }
 }
 
-/// Other columns of one block are computed again, and stay what they were.
+/// The other columns of a block are computed again, and keep their values.
 #[test]
 fn regions_that_share_a_block_with_a_change_stay_exact() {
     for side in [3, 5, 6, 7, 12, 48] {
@@ -173,13 +174,13 @@ fn regions_that_share_a_block_with_a_change_stay_exact() {
     }
 }
 
-/// Frames that are large enough to be divided among threads: strips see their neighbors' pixels, and
+/// The frames are large enough to be divided among threads. Strips see their neighbors' pixels, and
 /// the results are those of one thread.
 #[test]
 fn strips_of_several_threads_meet_without_a_seam() {
     use Change::{Noise, Patch, Spot, Still};
     let script = [Still, Still, Patch(0.4, 0.2), Still, Noise, Still, Spot(0.5, 0.5)];
-    // Every pair of side, neighborhood and reference.
+    // The cases contain every pair of side, neighborhood and reference.
     for (number, side) in [5, 8, 32].into_iter().enumerate() {
         for neighborhood in [Neighborhood::Isolated, Neighborhood::Shared] {
             let is_isolated = neighborhood == Neighborhood::Isolated;

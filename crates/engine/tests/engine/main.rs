@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The engine against the functional model: every camera, every way to run, many frames.
+//! The engine against the functional model: every camera, all options, many frames.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod batches;

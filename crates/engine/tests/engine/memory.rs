@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From what an engine remembers of the time before a frame, a model goes on as one that has seen every frame.
+//! A model that is resumed from the copied state of an engine continues as one that has seen every
+//! frame.
 
 use foveate_engine::{Before, Engine};
 use foveate_frame::{Frame, Plane};
@@ -9,7 +10,8 @@ use proptest::prelude::*;
 use crate::film::{film, scripts};
 use crate::recipe::cameras;
 
-/// What a model makes of a frame that goes on from the memory of an engine which has just taken that frame.
+/// Returns the outcome of a model that is resumed from the state of an engine before its last
+/// frame, and then takes that frame.
 fn resumed(engine: &Engine, frame: &Frame) -> FunctionalOutcome {
     let camera = engine.camera();
     let shown = engine.rendered_before().map(Plane::to_words).unwrap();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Engine and model give the same results for every camera, film, instruction set and number of
-//! threads, whether regions are skipped or not.
+//! Property tests: engine and model give the same results for every camera, clip, instruction set
+//! and number of threads, with and without skipping.
 
 use foveate_camera::Camera;
 use foveate_engine::{Engine, FrameOutcome, Level, Options};
@@ -25,12 +25,13 @@ pub(crate) fn assert_same(
     assert_eq!(fast.actions, clear.actions, "actions, {context}");
 }
 
-/// Runs a film through both; returns how many regions were skipped.
+/// Runs a clip through the model and the engine. Returns how many regions were skipped.
 pub(crate) fn check(camera: &Camera, frames: &[Frame], options: Options) -> usize {
     check_all(camera, frames, [options])[0]
 }
 
-/// Runs a film through the model and an engine for each way to run; returns how many regions each of them skipped.
+/// Runs a clip through the model and one engine for each of the options. Returns how many regions
+/// each engine skipped.
 pub(crate) fn check_all<const N: usize>(
     camera: &Camera,
     frames: &[Frame],
@@ -49,7 +50,7 @@ pub(crate) fn check_all<const N: usize>(
             assert_eq!(engine.rendered().to_words(), clear.rendered.pixels(), "screen, {context}");
         }
     }
-    // A reset forgets everything.
+    // After a reset, both give the same results again.
     model.reset();
     if let Some(frame) = frames.last() {
         let clear = model.step(frame).unwrap();
@@ -82,7 +83,7 @@ proptest! {
         check(&camera, &film(&camera, seed, &script), options);
     }
 
-    /// A frame where it lies, with a stride, gives what a copy of it gives.
+    /// A frame with a stride gives the same results as a copy without one.
     #[test]
     fn rows_with_a_stride_equal_a_whole_frame(
         camera in cameras(),

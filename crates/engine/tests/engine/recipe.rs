@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random cameras that the engine and the model are both given.
+//! Random cameras, the inputs of the comparison of engine and model.
 
 use foveate_camera::{
     Camera, CameraConfig, Combine, Decimal, FeatureKind, Filter, Irrelevant, Neighborhood, Payload,
@@ -8,7 +8,8 @@ use foveate_camera::{
 use proptest::prelude::*;
 use proptest::sample::{select, subsequence};
 
-/// Every kind of camera: frames of one block of lanes, of several, and ragged ones.
+/// Returns cameras of every kind, with frames of one block of lanes, of several blocks, and ragged
+/// ones.
 pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
     let side = prop_oneof![
         4 => select(vec![2u32, 4, 8, 16, 32, 64]),
@@ -64,7 +65,7 @@ pub(crate) fn cameras() -> impl Strategy<Value = Camera> {
     })
 }
 
-/// Mostly small numbers up to `max`, so that thresholds are both passed and missed.
+/// Returns mostly small numbers up to `max`, so that scores lie on both sides of thresholds.
 fn small(max: u32) -> impl Strategy<Value = u32> {
     prop_oneof![2 => 0..=max.min(4), 2 => 0..=max / 4, 1 => 0..=max]
 }

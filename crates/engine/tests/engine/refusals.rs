@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is no frame of the camera is refused by name, and changes nothing.
+//! Pixels that are not a frame of the camera are refused by name, and change nothing.
 
 use foveate_camera::{Camera, CameraConfig};
 use foveate_engine::{Engine, EngineError, FrameOutcome, MAX_THREADS, Options, Screens};
@@ -33,7 +33,7 @@ fn what_is_no_frame_of_the_design_is_refused() {
     assert!(engine.step_u8(&[0; 1000], 19).is_err());
     assert!(engine.step_u8(&[0; 1000], usize::MAX).is_err());
     let mut pixels = [63; 8 * 30 + 20];
-    // Between the rows anything may lie.
+    // The engine does not read the values between the rows.
     pixels[25] = 200;
     assert!(engine.step_u8(&pixels, 30).is_ok());
     let before = (engine.outcome().clone(), engine.rendered().to_words());
