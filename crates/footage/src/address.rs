@@ -1,30 +1,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Addresses of cameras, and how any address may be shown: without users, passwords and keys, wherever they stand.
+//! The addresses of cameras, and the form in which any address may be shown: without users,
+//! passwords and keys, wherever they occur.
 //!
-//! * User and password before the host are left out.
-//! * Values of a query, and of a path such as `/user=me_password=secret`, become `***`, as fragments do.
-//! * An address that is not written as it should be, so that a part of a password may pass for a host or a path, is
-//!   shown by its scheme alone.
+//! * The user and the password before the host are left out.
+//! * The values of a query, and of a path such as `/user=me_password=secret`, become `***`. So do
+//!   fragments.
+//! * An address with a syntax error may hold a part of a password where a host or a path should be.
+//!   Only its scheme is shown.
 
 use std::fmt;
 use std::path::Path;
 
-/// The text in place of a secret.
+/// The text that replaces a secret.
 const HIDDEN: &str = "***";
-/// The text behind the scheme of an address of which no part may be shown.
+/// The text that follows the scheme of an address of which no other part may be shown.
 const HIDDEN_ADDRESS: &str = "://***";
-/// Secrets from this length on are replaced wherever they stand, shorter ones where they are words.
+/// Secrets of at least this length are replaced everywhere, shorter ones only if they are a whole
+/// word.
 const LONG: usize = 4;
 
-/// The address of a camera in the network.
+/// The address of a network camera, with its secrets.
 #[derive(Clone, PartialEq, Eq)]
 pub(crate) struct Address {
     url: String,
 }
 
 impl Address {
-    /// The address that an input is, if it is one of a camera; the scheme may be written in capitals, which ffmpeg
-    /// does not know.
+    /// Returns the address if the input is one of a network camera. The scheme may have capital
+    /// letters, which ffmpeg does not accept, so it is converted to small letters.
     pub(crate) fn of_camera(input: &Path) -> Option<Self> {
         let (scheme, rest) = input.to_str()?.split_once("://")?;
         let scheme = scheme.to_ascii_lowercase();
@@ -32,7 +35,7 @@ impl Address {
         is_camera.then(|| Self { url: format!("{scheme}://{rest}") })
     }
 
-    /// With all secrets, for ffmpeg.
+    /// Returns the address with all secrets, for ffmpeg.
     pub(crate) fn url(&self) -> &str {
         &self.url
     }
@@ -41,7 +44,8 @@ impl Address {
         shown_url(&self.url)
     }
 
-    /// A message of ffmpeg without the secrets of this address, as it was given or percent-decoded.
+    /// Removes the secrets of this address from a message of ffmpeg, as they were given and
+    /// percent-decoded.
     pub(crate) fn redact(&self, said: &str) -> String {
         let mut text = said.replace(&self.url, &self.shown());
         for secret in self.secrets() {
@@ -50,7 +54,7 @@ impl Address {
         redacted(&text)
     }
 
-    /// Everything that [`shown_url`] hides, the longest first.
+    /// Returns everything that [`shown_url`] hides, the longest secret first.
     fn secrets(&self) -> Vec<String> {
         let rest = self.url.split_once("://").map_or("", |(_, rest)| rest);
         let mut found = Vec::new();
@@ -62,7 +66,7 @@ impl Address {
         }
         found.extend(values(rest));
         if self.shown().ends_with(HIDDEN_ADDRESS) {
-            // Any part may be one of a password, and ffmpeg may repeat it alone.
+            // Any part may belong to a password, and ffmpeg may repeat it alone.
             found.extend(rest.split([':', '/', '?', '#', '@', '&', '=', ';']).map(str::to_owned));
         }
         let decoded: Vec<String> = found.iter().map(|secret| percent_decoded(secret)).collect();
@@ -74,14 +78,15 @@ impl Address {
     }
 }
 
-/// Not even for those who look for faults.
+/// The debug format hides the secrets, too.
 impl fmt::Debug for Address {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(&self.shown())
     }
 }
 
-/// An input as results and messages may name it: an address without secrets, everything else as it is.
+/// Returns an input as results and messages may name it: an address without its secrets, any other
+/// input unchanged.
 #[must_use]
 pub fn shown_input(input: &Path) -> String {
     let text = input.display().to_string();
@@ -91,7 +96,7 @@ pub fn shown_input(input: &Path) -> String {
     if input.exists() {
         return text;
     }
-    // An address with a slash too few is none, but it may hold a password.
+    // An address that lacks a slash is not valid, but it may hold a password.
     let scheme = text.split_once(':').map(|(scheme, _)| scheme.to_ascii_lowercase());
     let is_known = |scheme: &str| ["rtsp", "rtsps", "rtmp", "http", "https"].contains(&scheme);
     match scheme {
@@ -101,7 +106,7 @@ pub fn shown_input(input: &Path) -> String {
     }
 }
 
-/// A text in which every address is without secrets.
+/// Returns a text with the secrets of every address in it removed.
 #[must_use]
 pub fn redacted(text: &str) -> String {
     let is_scheme = |c: char| c.is_ascii_alphanumeric() || "+.-".contains(c);
@@ -118,7 +123,7 @@ pub fn redacted(text: &str) -> String {
     shown + rest
 }
 
-/// One address without secrets.
+/// Returns one address without its secrets.
 fn shown_url(url: &str) -> String {
     let Some((scheme, rest)) = url.split_once("://") else { return url.to_owned() };
     let (authority, after) = rest.split_at(rest.find(['/', '?', '#']).unwrap_or(rest.len()));
@@ -145,14 +150,14 @@ fn shown_url(url: &str) -> String {
     shown
 }
 
-/// Whether what follows the host is a port, so that it is no password.
+/// Returns true if only a decimal port follows the host, so that it cannot be a password.
 fn has_plain_port(host: &str) -> bool {
     let after_address = host.rsplit_once(']').map_or(host, |(_, after)| after);
     let mut parts = after_address.split(':').skip(1);
     parts.all(|port| port.bytes().all(|byte| byte.is_ascii_digit()))
 }
 
-/// A segment of a path: `user=me&password=secret` becomes `user=***`.
+/// Hides the value in a segment of a path: `user=me&password=secret` becomes `user=***`.
 fn hidden_value(segment: &str) -> String {
     match segment.split_once('=') {
         Some((key, _)) => format!("{key}={HIDDEN}"),
@@ -160,7 +165,7 @@ fn hidden_value(segment: &str) -> String {
     }
 }
 
-/// The values that stand behind an equals sign, a question mark or a hash.
+/// Returns the values that follow an equals sign, a question mark or a hash.
 fn values(rest: &str) -> impl Iterator<Item = String> + '_ {
     let parts = rest.split(['/', '?', '&', '#', ';']).filter_map(|part| part.split_once('='));
     let bare = rest.split_once(['?', '#']).map(|(_, query)| query.split(['&', '#']));
@@ -168,7 +173,7 @@ fn values(rest: &str) -> impl Iterator<Item = String> + '_ {
     parts.map(|(_, value)| value.to_owned()).chain(bare.map(str::to_owned))
 }
 
-/// A text in which a secret is replaced: everywhere if it is long, else where it is a word.
+/// Replaces a secret in a text: everywhere if it is long, otherwise only as a whole word.
 fn without(text: &str, secret: &str) -> String {
     let mut shown = String::with_capacity(text.len());
     let mut rest = text;
@@ -184,7 +189,7 @@ fn without(text: &str, secret: &str) -> String {
     shown + rest
 }
 
-/// `%73ecret` is `secret`.
+/// Decodes percent escapes: `%73ecret` becomes `secret`.
 fn percent_decoded(text: &str) -> String {
     let mut bytes = Vec::with_capacity(text.len());
     let mut rest = text.as_bytes();
@@ -226,7 +231,7 @@ mod tests {
             ("rtsp://camera/user=me&password=secret&channel=1", "rtsp://camera/user=***"),
             ("rtsp://camera/live;password=secret/1", "rtsp://camera/live;password=***/1"),
             ("http://me:secret@host/a", "http://host/a"),
-            // A separator in a password, not percent-encoded; nobody can tell where the host begins.
+            // With an unescaped separator in the password, the start of the host is not known.
             ("rtsp://me:se/cret@10.0.0.7:554/live", "rtsp://***"),
             ("rtsp://me:secret?more@10.0.0.7/live", "rtsp://***"),
             ("rtsp://me:secret/10.0.0.7/live", "rtsp://***"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Warnings about inputs that can be read, but perhaps not as intended: some files are ignored, or a file
-//! looks like something else.
+//! Warnings about inputs that can be read, but perhaps not as the user expects: some files are
+//! ignored, or a file looks like another kind of file.
 
 use std::path::Path;
 
@@ -16,7 +16,8 @@ use crate::sets::{cifar, idx};
 use crate::source::files::ImageFile;
 use crate::{ImagesAs, InputOptions, picture};
 
-/// Warnings about the inputs, one sentence each. What [`open`](crate::open) refuses is not among them.
+/// Returns warnings about the inputs, one sentence each. Inputs that [`open`](crate::open) refuses
+/// give no warning.
 #[must_use]
 pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let mut said = Vec::new();
@@ -29,7 +30,7 @@ pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<Strin
             let bare = others.filter(|file| idx::lacks_labels(&file.path));
             said.extend(bare.map(|file| no_labels(&file.path)));
         }
-        // The first speaks for the others.
+        // The first file stands for the others.
         if let Some(file) = files.first() {
             said.extend(other_shape(&file.path, options.images));
         }
@@ -37,14 +38,15 @@ pub fn advice<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<Strin
     said
 }
 
-/// Entries of the folders and patterns among the inputs that are not read although they might have been meant.
+/// Returns the entries of folders and patterns among the inputs that are not read although the user
+/// may have meant them.
 #[must_use]
 pub fn skipped<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<SkippedInput> {
     let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
     inputs.flat_map(|input| skipped_of(input, options.images)).collect()
 }
 
-/// The entries of an input that are not read. An input that cannot be read at all has none.
+/// Returns the entries of an input that are not read. An input that cannot be read at all has none.
 fn skipped_of(input: &Path, images: ImagesAs) -> Vec<SkippedInput> {
     let mut found = Vec::new();
     if input.is_dir() {
@@ -63,14 +65,15 @@ fn skipped_of(input: &Path, images: ImagesAs) -> Vec<SkippedInput> {
     found
 }
 
-/// The [`skipped`] entries in words: a sentence for each reason, with how many there are and one of them.
+/// Describes the [`skipped`] entries: one sentence for each reason, with the number of entries and
+/// one example.
 #[must_use]
 pub fn skipped_in_words<P: AsRef<Path>>(inputs: &[P], options: &InputOptions) -> Vec<String> {
     let inputs = inputs.iter().map(AsRef::as_ref).filter(|input| !is_special(input));
     inputs.flat_map(|input| sentences(input, &skipped_of(input, options.images))).collect()
 }
 
-/// Two frames of a clip with one number.
+/// Warns of two frames of a clip that have the same number.
 fn twice(files: &[ImageFile], images: ImagesAs) -> Option<String> {
     let paths: Vec<&Path> = files.iter().map(|file| file.path.as_path()).collect();
     let (one, other) = same_number(&paths).filter(|_| images == ImagesAs::Clip)?;
@@ -90,7 +93,8 @@ fn no_labels(path: &Path) -> String {
     )
 }
 
-/// A CIFAR sheet that is taken for a photograph, or a photograph for a sheet.
+/// Warns of a CIFAR sheet that is read as a photograph, and of a photograph that is read as a
+/// sheet.
 fn other_shape(path: &Path, images: ImagesAs) -> Option<String> {
     let wide = is_image_name(path) && picture::width(path) == Some(cifar::WIDTH);
     let sheet = wide && looks_like_sheet(&picture::read(path, 8).ok()?);
@@ -108,8 +112,9 @@ fn other_shape(path: &Path, images: ImagesAs) -> Option<String> {
     }
 }
 
-/// Whether the rows of a picture are pictures themselves: the pixel below one of them is 32 further in its
-/// row, and more like it than what stands in the next row, which is another picture.
+/// Returns true if every row of a picture is probably a picture of its own. Then a pixel resembles
+/// the pixel 32 columns further, which is below it in the small picture, more than the pixel in the
+/// next row, which belongs to another one.
 fn looks_like_sheet(frame: &Frame) -> bool {
     const SIDE: usize = 32;
     let (mut along, mut across) = ((0_u64, 0_u64), (0_u64, 0_u64));
@@ -124,6 +129,7 @@ fn looks_like_sheet(frame: &Frame) -> bool {
             }
         }
     }
-    // Mean differences, as products; a single row of this width is no photograph.
+    // The mean differences are compared as products. A single row of this width is not a
+    // photograph.
     across.1 == 0 || along.0 * across.1 < across.0 * along.1
 }

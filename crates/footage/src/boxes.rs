@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Ground-truth boxes of objects, and the regions of a camera that belong to them.
 //!
-//! [`Boxes`] reads a file of MOT, COCO or CSV, or a folder of YOLO files, and gives the boxes of a frame by
-//! its number or its name. [`assign`] finds the boxes of several clips. A [`View`] moves boxes into a frame
-//! that is cropped and scaled, and a [`Grid`] says which regions a box owns. Nothing here reads
-//! pixels.
+//! [`Boxes`] reads a file of MOT, COCO or CSV, or a folder of YOLO files, and returns the boxes of
+//! a frame by its number or its name. [`assign`] finds the boxes of several clips. A [`View`]
+//! transforms boxes into a frame that is cropped and scaled, and a [`Grid`] finds the regions that
+//! belong to a box. This module reads no pixels.
 
 mod assign;
 mod error;

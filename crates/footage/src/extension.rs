@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the extension of a file says.
+//! The kind of a file according to its extension.
 
 use std::path::Path;
 
-/// Files with these extensions are taken from folders and patterns as images.
+/// Files with these extensions are read from folders and patterns as images.
 const IMAGE_EXTENSIONS: [&str; 11] =
     ["png", "jpg", "jpeg", "jpe", "jfif", "bmp", "pgm", "ppm", "pbm", "pnm", "pam"];
-/// And these as clips.
+/// Files with these extensions are read from folders and patterns as clips.
 const VIDEO_EXTENSIONS: [&str; 17] = [
     "mp4", "m4v", "mov", "avi", "mkv", "webm", "mpg", "mpeg", "ts", "mts", "m2ts", "wmv", "flv",
     "ogv", "3gp", "gif", "y4m",
 ];
-/// Images of types that are not read, with the names of the types.
+/// The types of images that are not read, with their extensions.
 const OTHER_IMAGES: [(&str, &[&str]); 14] = [
     ("WebP", &["webp"]),
     ("TIFF", &["tif", "tiff"]),
@@ -28,13 +28,13 @@ const OTHER_IMAGES: [(&str, &[&str]); 14] = [
     ("raw camera", &["dng", "cr2", "cr3", "nef", "arw", "raf", "orf", "rw2", "raw"]),
     ("animated PNG", &["apng"]),
 ];
-/// Videos that are read where they are named, but not looked for in folders.
+/// Videos with these extensions are read if they are named, but not searched in folders.
 const OTHER_VIDEOS: [&str; 27] = [
     "264", "265", "h264", "h265", "hevc", "avc", "ivf", "nut", "mxf", "vob", "asf", "rm", "rmvb",
     "dv", "divx", "f4v", "qt", "m1v", "m2v", "mpv", "3g2", "ogm", "mjpg", "mjpeg", "mj2", "yuv",
     "av1",
 ];
-/// Text and tables, which often stand beside images.
+/// The extensions of text and tables, which are often beside images.
 const NOTES: [&str; 12] =
     ["txt", "csv", "tsv", "json", "xml", "yaml", "yml", "toml", "md", "log", "ini", "html"];
 
@@ -51,7 +51,7 @@ pub(crate) fn is_video_name(path: &Path) -> bool {
     extension_in(path, &VIDEO_EXTENSIONS)
 }
 
-/// The type of an image that is not read.
+/// Returns the name of an image type that is not read.
 pub(crate) fn other_image(path: &Path) -> Option<&'static str> {
     let found = OTHER_IMAGES.iter().find(|(_, extensions)| extension_in(path, extensions));
     found.map(|(name, _)| *name)

@@ -1,26 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How a run over the frames of a source reports what is done, and hears that it is to stop.
+//! The callbacks of a run over the frames of a source: progress and cancellation.
 
 use foveate_toolchain::Interrupt;
 
-/// Progress of a run.
+/// The progress of a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Frames that are done.
+    /// The number of frames that are done.
     pub done: u64,
-    /// Frames in all, if that is known.
+    /// The number of all frames, if it is known.
     pub total: Option<u64>,
 }
 
-/// Callbacks of a run, called once per frame.
+/// The callbacks of a run, called once per frame.
 pub trait Hooks {
     /// Reports that another frame is done.
     fn progress(&mut self, progress: Progress);
 
-    /// Returns whether to stop. The result is then what was done so far, marked as incomplete.
+    /// Returns true if the run is to stop. The result is then incomplete, and is marked so.
     fn cancelled(&self) -> bool;
 
-    /// The same as a request that waits look at; hooks without one let a wait last as long as it does.
+    /// Returns the request to stop in a form that also ends waits. Hooks without one cannot end a
+    /// wait.
     fn interrupt(&self) -> Interrupt {
         Interrupt::default()
     }

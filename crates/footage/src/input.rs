@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From what a user names to a source: a scene, a camera, standard input, files, folders, patterns.
+//! The way from an input to a source: scenes, cameras, standard input, files, folders and patterns.
 //!
-//! Arguments keep the order in which they are given; the files of one folder or pattern are in natural
-//! order. What a file is follows from its content, and from its extension where content is silent.
+//! Inputs keep the order in which they are given; the files of one folder or pattern are in natural
+//! order. The content of a file decides its kind. Its extension decides if the content does not.
 
 mod content;
 mod entry;
@@ -38,14 +38,15 @@ use crate::video::{Medium, Video};
 use crate::y4m::Y4m;
 use crate::{FootageError, Kind, Source, picture};
 
-/// Side of a scene where the configuration does not say.
+/// The side of a scene in pixels if the configuration gives no size.
 const SCENE_SIDE: u32 = 224;
 
 /// Opens inputs as one source of frames with the configuration's bits per pixel. Scenes also take
-/// their size from it.
+/// their size from the configuration.
 ///
 /// # Errors
-/// When an input does not exist or cannot be read, or when there are several inputs other than images.
+/// Fails if an input does not exist or cannot be read, or if there are several inputs that are not
+/// all images.
 pub fn open<P: AsRef<Path>>(
     inputs: &[P],
     config: &CameraConfig,
@@ -57,33 +58,35 @@ pub fn open<P: AsRef<Path>>(
     Ok(Box::new(Input::new(names, feed, Adjustment::of(options))?))
 }
 
-/// What follows a prefix, such as the name of a scene.
+/// Returns the part of an input that follows a prefix, such as the name of a scene.
 fn after<'a>(prefix: &str, input: &'a Path) -> Option<&'a str> {
     input.to_str()?.strip_prefix(prefix)
 }
 
-/// Whether an input is neither a file nor a folder, but bytes that come once: a FIFO, a socket, `/dev/stdin`.
+/// Returns true if an input is neither a file nor a folder, but can be read only once: a FIFO, a
+/// socket, `/dev/stdin`.
 fn is_pipe(input: &Path) -> bool {
     std::fs::metadata(input).is_ok_and(|known| !known.is_file() && !known.is_dir())
 }
 
-/// Whether it is a camera by its name on this machine.
+/// Returns true if the input has the name of a camera of this machine.
 fn is_camera_device(input: &Path) -> bool {
     input.to_str().is_some_and(|name| name.starts_with("/dev/video"))
 }
 
-/// Whether an input is a source by itself that is no file.
+/// Returns true if an input is a source of its own and not a regular file.
 pub(crate) fn is_special(input: &Path) -> bool {
     is_read_once(input) || after("scene:", input).is_some()
 }
 
-/// Whether an input cannot be read a second time: standard input, a pipe, a camera.
+/// Returns true if an input cannot be read a second time: standard input, a pipe, a camera.
 #[must_use]
 pub fn is_read_once(input: &Path) -> bool {
     input == Path::new("-") || is_camera(input) || is_pipe(input)
 }
 
-/// Whether an input is a camera, on this machine or in the network: its frames come when they come, and do not wait.
+/// Returns true if an input is a camera, on this machine or in the network. A camera delivers
+/// frames at its own rate.
 #[must_use]
 pub fn is_camera(input: &Path) -> bool {
     after("v4l2:", input).is_some() || Address::of_camera(input).is_some()
@@ -97,7 +100,7 @@ fn feed(
     if let (Some(special), 2..) = (inputs.iter().find(|input| is_special(input)), inputs.len()) {
         return Err(FootageError::NotAlone { input: shown_input(special) });
     }
-    // A depth out of range is refused here, with the name of its key, not by a frame.
+    // A depth out of range is refused here, so that the message names its key.
     let bits = config.validate()?.pixel_bits();
     let (rate, interrupt) = (options.frame_rate, &options.interrupt);
     if let [input] = inputs {
@@ -127,7 +130,8 @@ fn feed(
         images.append(&mut pictures);
         clips.append(&mut others);
     }
-    // On its own it is a clip; among others it would be one frame of many.
+    // An animated PNG on its own is a clip. Among other images only one of its frames would be
+    // read.
     if let ([image], ImagesAs::Clip) = (images.as_slice(), options.images)
         && clips.is_empty()
         && picture::is_animated(&image.path)
@@ -146,7 +150,7 @@ fn feed(
     }
 }
 
-/// A stream of raw frames that comes once, from standard input or a pipe.
+/// Opens a stream of raw frames that can be read once, from standard input or a pipe.
 fn stream(input: &Path, bits: u32, options: &InputOptions) -> Result<Y4m, FootageError> {
     let (rate, interrupt) = (options.frame_rate, &options.interrupt);
     if is_camera_device(input) {

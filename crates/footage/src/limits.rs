@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Limits and parts of frames, which readers follow and errors name.
+//! The limits of frames and files, and the part of a frame that is cropped.
 
-/// Largest width and height of an image, in pixels.
+/// The largest width and height of an image in pixels.
 pub use foveate_camera::MAX_SIDE;
 
-/// Largest file in GiB, and the most memory that decoding may take.
+/// The largest file in GiB, and the largest memory of a decoder in GiB.
 pub(crate) const MAX_FILE_GIB: u64 = 1;
 
 /// A part of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Crop {
-    /// Width and height.
+    /// The width and height of the part.
     pub size: (u32, u32),
-    /// Its left and upper pixel.
+    /// The column and row of the part's upper left pixel.
     pub at: (u32, u32),
 }

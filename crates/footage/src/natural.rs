@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Natural order of file names: numbers compare as numbers, so `frame2` comes before `frame10`.
+//! The natural order of file names: numbers compare by value, so `frame2` comes before `frame10`.
 
 use std::cmp::Ordering;
 use std::path::Path;
 
-/// Compares two paths folder by folder, each name naturally. A total order: names that are equal up
-/// to leading zeros are ordered by their bytes.
+/// Compares two paths folder by folder in natural order. The order is total: names that differ only
+/// in leading zeros are ordered by their bytes.
 #[must_use]
 pub fn natural_order(a: &Path, b: &Path) -> Ordering {
     let mut left = a.components();
@@ -43,7 +43,7 @@ fn names(mut a: &[u8], mut b: &[u8]) -> Ordering {
     }
 }
 
-/// Splits the digits off the front, without leading zeros.
+/// Takes the digits from the front of a text, and returns them without leading zeros.
 fn take_number<'a>(text: &mut &'a [u8]) -> &'a [u8] {
     let end = text.iter().position(|byte| !byte.is_ascii_digit()).unwrap_or(text.len());
     let (digits, rest) = text.split_at(end);
@@ -52,12 +52,12 @@ fn take_number<'a>(text: &mut &'a [u8]) -> &'a [u8] {
     &digits[zeros..]
 }
 
-/// Without leading zeros the longer number is the larger.
+/// Compares numbers without leading zeros: the one with more digits is larger.
 fn numbers(a: &[u8], b: &[u8]) -> Ordering {
     a.len().cmp(&b.len()).then_with(|| a.cmp(b))
 }
 
-/// Whether two names, without their extensions, differ at most in leading zeros.
+/// Returns true if two names without their extensions differ at most in leading zeros.
 pub(crate) fn is_same_number(a: &Path, b: &Path) -> bool {
     let stem = |path: &Path| path.with_extension("").as_os_str().as_encoded_bytes().to_owned();
     let (a, b) = (stem(a), stem(b));

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads image files as frames: PNG, JPEG, BMP, PNM. The content decides the type, not the name.
+//! The reader of image files: PNG, JPEG, BMP and PNM. The content decides the type, not the name.
 //!
-//! * Colour becomes luma by [`luma`], on 8-bit samples or, where the file has more, on 16-bit ones.
-//!   Alpha, colour profiles and EXIF orientation are ignored.
-//! * Samples of fewer bits (1-, 2-, 4-bit PNG, PNM with another maximum than 255 or 65535) count as the
-//!   nearest of the full range of 8 or 16 bits.
-//! * Those 8 or 16 bits become P bits by [`convert_depth`].
-//! * Files that end early or are damaged are refused, even where a decoder would fill up with grey.
-//!   Each format has a check of its own for what its decoder passes over.
+//! * Colour becomes luma by [`luma`], on 8-bit samples or, if the file has more bits, on 16-bit
+//!   samples. Alpha, colour profiles and EXIF orientation are ignored.
+//! * Samples of fewer bits (1-, 2-, 4-bit PNG, PNM with another maximum than 255 or 65535) become
+//!   the nearest value of the full range of 8 or 16 bits.
+//! * These 8 or 16 bits become P bits by [`convert_depth`].
+//! * Files that end early or are damaged are refused, even if a decoder would fill the missing part
+//!   with grey. Each format has its own check for errors that its decoder ignores.
 
 mod bmp;
 mod fault;
@@ -32,15 +32,16 @@ use foveate_frame::{convert_depth, luma};
 /// Reads an image file as a frame of `bits` bits per pixel.
 ///
 /// # Errors
-/// When the file cannot be read, is too large, truncated, damaged, or no supported image.
+/// Fails if the file cannot be read, is too large, truncated or damaged, or is not a supported
+/// image.
 pub fn read(path: &Path, bits: u32) -> Result<Frame, FootageError> {
     decode(&bytes_of(path)?, path, bits)
 }
 
-/// Decodes the bytes of an image; `path` is what errors name.
+/// Decodes the bytes of an image. Errors name `path`.
 ///
 /// # Errors
-/// When it is too large, truncated, damaged, or no supported image.
+/// Fails if the image is too large, truncated or damaged, or is not a supported image.
 pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageError> {
     let format = supported(bytes).ok_or_else(|| match other_image(bytes) {
         Some(name) => FootageError::ImageType { path: path.to_owned(), name },
@@ -67,7 +68,7 @@ pub fn decode(bytes: &[u8], path: &Path, bits: u32) -> Result<Frame, FootageErro
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
     let image = reader.decode().map_err(|error| refusal(path, &error))?;
-    // These headers were read within the limits by now.
+    // The decoder has read these headers within the limits.
     match format {
         ImageFormat::Pnm => pnm::check(bytes).map_err(refused)?,
         ImageFormat::Bmp => bmp::check(bytes).map_err(refused)?,
@@ -95,7 +96,7 @@ fn bytes_of(path: &Path) -> Result<Vec<u8>, FootageError> {
     }
 }
 
-/// Opens a file. Whatever else has a name, such as a FIFO, might be waited for without end.
+/// Opens a regular file. A wait for another kind of file, such as a FIFO, might never end.
 fn open_file(path: &Path) -> std::io::Result<File> {
     if !std::fs::metadata(path)?.is_file() {
         return Err(std::io::Error::other("it is not a file"));
@@ -103,33 +104,34 @@ fn open_file(path: &Path) -> std::io::Result<File> {
     File::open(path)
 }
 
-/// Whether a file starts as an image of a supported type does.
+/// Returns true if a file starts as an image of a supported type does.
 pub(crate) fn is_image(path: &Path) -> bool {
     let mut start = Vec::new();
     let read = open_file(path).map(|file| file.take(16).read_to_end(&mut start));
     matches!(read, Ok(Ok(_))) && supported(&start).is_some()
 }
 
-/// Width of an image, by its header.
+/// Returns the width in the header of an image.
 pub(crate) fn width(path: &Path) -> Option<u32> {
     let reader =
         ImageReader::new(BufReader::new(open_file(path).ok()?)).with_guessed_format().ok()?;
     reader.into_dimensions().ok().map(|(width, _)| width)
 }
 
-/// Whether a file is an animated PNG.
+/// Returns true if a file is an animated PNG.
 pub(crate) fn is_animated(path: &Path) -> bool {
-    // What says so stands before the pixels; what can stand before it is small.
+    // The chunk that announces an animation comes before the pixels, and the chunks before it are
+    // small.
     const HEAD: u64 = 1 << 20;
     let mut start = Vec::new();
     let read = open_file(path).map(|file| file.take(HEAD).read_to_end(&mut start));
     matches!(read, Ok(Ok(_))) && has_animation(&start)
 }
 
-/// Whether a PNG has a chunk `acTL` before its pixels.
+/// Returns true if a PNG has a chunk `acTL` before its pixels.
 fn has_animation(bytes: &[u8]) -> bool {
     const SIGNATURE: &[u8] = b"\x89PNG\r\n\x1a\n";
-    /// Length, type and checksum.
+    /// The bytes of length, type and checksum.
     const FRAME: usize = 12;
     let Some(mut rest) = bytes.strip_prefix(SIGNATURE) else { return false };
     while let [a, b, c, d, kind @ ..] = rest {
@@ -169,13 +171,14 @@ fn refusal(path: &Path, error: &ImageError) -> FootageError {
     }
 }
 
-/// The decoder's message without line breaks and whatever else a damaged file put into it.
+/// Returns a decoder's message without line breaks and other control characters, which a damaged
+/// file may have put into it.
 fn one_line(text: &str) -> String {
     let plain = text.replace(char::is_control, " ");
     plain.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
-/// One luma sample per pixel, and how many bits it has.
+/// Returns one luma sample per pixel, and the number of bits of a sample.
 fn luma_samples(image: DynamicImage) -> (Vec<u16>, u32) {
     let wide = |value: &u8| u16::from(*value);
     match image {

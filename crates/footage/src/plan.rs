@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Decides whether inputs are one clip or many, and where the output of each goes.
+//! The decision whether inputs are one clip or many, and the place of each clip's output.
 //!
-//! * Image files and patterns together are one clip, a single file or special input is one, and so is
-//!   a folder of images.
-//! * Several videos, data sets or folders are a clip each.
-//! * A folder without images is a tree: every video below it and every folder of images below it is
-//!   a clip, at the same place in the output; the first folder on the way to it is its label.
+//! * Image files and patterns together are one clip. A single file or special input is one clip,
+//!   and so is a folder of images.
+//! * Several videos, data sets or folders are one clip each.
+//! * A folder without images is a tree: every video and every folder of images below it is a clip,
+//!   at the same place in the output. The first folder on the way to a clip is its label.
 
 use std::collections::HashSet;
 use std::path::{Path, PathBuf};
@@ -26,25 +26,26 @@ const DEPTH: usize = 8;
 pub struct Clip {
     /// The inputs to open.
     pub inputs: Vec<PathBuf>,
-    /// The folder of its output, below the output of the batch.
+    /// The folder of the clip's output, relative to the output of the batch.
     pub place: PathBuf,
-    /// Its class, in a labelled tree.
+    /// The class of the clip in a labelled tree.
     pub label: Option<String>,
 }
 
-/// How inputs are to be simulated.
+/// The way in which inputs are to be simulated.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum ClipPlan {
-    /// As one clip or set.
+    /// The inputs are one clip or set.
     One,
-    /// As several clips.
+    /// The inputs are several clips.
     Batch(Vec<Clip>),
 }
 
 /// Decides between one clip and a batch.
 ///
 /// # Errors
-/// When a folder cannot be read, an image is of a type that is not read, or an input cannot be one of several clips.
+/// Fails if a folder cannot be read, an image has a type that is not read, or an input cannot be
+/// one of several clips.
 pub fn plan<P: AsRef<Path>>(
     inputs: &[P],
     options: &InputOptions,
@@ -88,7 +89,7 @@ pub fn plan<P: AsRef<Path>>(
     Ok(ClipPlan::Batch(clips))
 }
 
-/// The error of folders without a clip.
+/// Returns the error for folders without a clip.
 fn no_clip(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
     let other = skipped.into_iter().find_map(|one| match one.reason {
         SkipReason::ImageType { name } => Some(FootageError::ImageType { path: one.path, name }),
@@ -97,7 +98,7 @@ fn no_clip(folder: PathBuf, skipped: Vec<SkippedInput>) -> FootageError {
     other.unwrap_or(FootageError::EmptyFolder { path: folder })
 }
 
-/// The type of an image that is not read.
+/// Returns the name of an image type that is not read.
 fn other_type(path: &Path) -> Option<&'static str> {
     match entry_kind(path) {
         EntryKind::Skipped(Some(SkipReason::ImageType { name })) => Some(name),
@@ -109,30 +110,32 @@ fn holds_images(entries: &[PathBuf]) -> bool {
     entries.iter().any(|entry| entry_kind(entry) == EntryKind::Image)
 }
 
-/// An image file, a pattern, or something that is not there, which opening will say.
+/// Returns true for an image file, a pattern, and a path that does not exist. Opening reports the
+/// latter.
 fn belongs_to_a_clip(path: &Path) -> bool {
     !is_special(path)
         && !path.is_dir()
         && (!path.exists() || is_image_name(path) || picture::is_image(path))
 }
 
-/// The clips of a folder without images, and what is no clip although it might have been meant as one.
+/// The clips of a folder without images, and its entries that are not read although the user may
+/// have meant them.
 #[derive(Default)]
 pub(crate) struct Tree {
     clips: Vec<Clip>,
     pub(crate) skipped: Vec<SkippedInput>,
 }
 
-/// A folder of a tree on the way down.
+/// A folder of a tree during the search.
 struct TreeFolder<'a> {
-    /// Where its clips go in the output.
+    /// The place of the folder's clips in the output.
     place: &'a Path,
     label: Option<&'a str>,
-    /// It and the folders above it, without links.
+    /// The folder and the folders above it, with links resolved.
     above: &'a [PathBuf],
 }
 
-/// Searches a folder without images.
+/// Searches a folder without images for clips.
 pub(crate) fn tree(folder: &Path) -> Result<Tree, FootageError> {
     let mut tree = Tree::default();
     let above = [real(folder)];
@@ -141,7 +144,7 @@ pub(crate) fn tree(folder: &Path) -> Result<Tree, FootageError> {
     Ok(tree)
 }
 
-/// A path without links, to tell a loop of them.
+/// Resolves the links in a path, so that a loop of links can be found.
 fn real(folder: &Path) -> PathBuf {
     folder.canonicalize().unwrap_or_else(|_| folder.to_owned())
 }
@@ -157,13 +160,14 @@ impl Tree {
                 EntryKind::Skipped(reason) => {
                     self.skipped.extend(reason.map(|reason| SkippedInput::new(entry, reason)));
                 }
-                // Images make their folder a clip, and the top of a tree has none.
+                // Images make their folder a clip, and a tree has no images at its top.
                 EntryKind::Image => {}
             }
         }
     }
 
-    /// A folder in a folder: a clip if it holds images, else a further branch.
+    /// Searches a folder in a folder. It is a clip if it has images, otherwise a branch of the
+    /// tree.
     fn enter(&mut self, branch: &TreeFolder<'_>, folder: &Path) {
         let real = real(folder);
         if branch.above.contains(&real) {
@@ -187,7 +191,8 @@ impl Tree {
             in_clip(&listed, &mut self.skipped);
             return;
         }
-        // A folder of images names a clip; only what is above clips names a class.
+        // The name of a folder of images is the name of a clip; a class is the name of a folder
+        // above clips.
         let own = folder.file_name().map(|name| name.to_string_lossy().into_owned());
         let above = [branch.above, &[real]].concat();
         let label = branch.label.or(own.as_deref());
@@ -201,14 +206,14 @@ impl TreeFolder<'_> {
     }
 }
 
-/// The name of a clip: that of its file without the extension, or of its folder.
+/// Returns the name of a clip: that of its file without the extension, or that of its folder.
 fn name_of(path: &Path) -> PathBuf {
     let name = if path.is_dir() { path.file_name() } else { path.file_stem() };
-    // `..` and `/` have none.
+    // `..` and `/` have no name.
     name.map_or_else(|| PathBuf::from("clip"), PathBuf::from)
 }
 
-/// Numbers clips whose place is taken, by another or as the folder of others.
+/// Adds a number to clips whose place is already used, by another clip or as the folder of others.
 fn set_apart(clips: &mut [Clip]) {
     let above =
         |clip: &Clip| clip.place.ancestors().skip(1).map(Path::to_owned).collect::<Vec<_>>();

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames per second: as people write them, and the times of frames.
+//! The frame rate, its notation, and the times of frames.
 
 use crate::FootageError;
 
-/// Frames per second as a fraction; frame t of a set of images is at t / rate.
+/// The number of frames per second as a fraction. Frame t of a sequence of images has the time t /
+/// rate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameRate {
     frames: u32,
@@ -11,10 +12,10 @@ pub struct FrameRate {
 }
 
 impl FrameRate {
-    /// `frames` in `seconds`: 30 in 1, or 30000 in 1001.
+    /// Makes a rate of `frames` in `seconds`, such as 30 in 1 or 30000 in 1001.
     ///
     /// # Errors
-    /// When one of the numbers is zero.
+    /// Fails if one of the numbers is zero.
     pub fn new(frames: u32, seconds: u32) -> Result<Self, FootageError> {
         if frames == 0 || seconds == 0 {
             return Err(FootageError::FrameRate { frames, seconds });
@@ -22,10 +23,10 @@ impl FrameRate {
         Ok(Self { frames, seconds })
     }
 
-    /// A rate as people write it: `30`, `29.97` or `30000/1001`.
+    /// Parses a rate such as `30`, `29.97` or `30000/1001`.
     ///
     /// # Errors
-    /// When the text is not a rate; the error says what would be right.
+    /// Fails if the text is not a rate. The error says what is expected.
     pub fn parse(text: &str) -> Result<Self, String> {
         let wrong = || "expected frames per second, such as 30, 29.97 or 30000/1001".to_owned();
         let digits = |part: &str| part.bytes().all(|byte| byte.is_ascii_digit());
@@ -47,7 +48,7 @@ impl FrameRate {
         Self::new(frames, seconds).map_err(|_| wrong())
     }
 
-    /// Time of a frame in microseconds, rounded to the nearest.
+    /// Returns the time of a frame in microseconds, rounded to the nearest.
     #[must_use]
     pub fn time_us(self, frame: u64) -> u64 {
         let scaled = u128::from(frame) * u128::from(self.seconds) * 1_000_000;
@@ -55,12 +56,12 @@ impl FrameRate {
         u64::try_from(rounded).unwrap_or(u64::MAX)
     }
 
-    /// How many whole frame times have passed at a time.
+    /// Returns the number of whole frame times that have passed at a time.
     pub(crate) fn passed(self, time_us: u64) -> u128 {
         u128::from(time_us) * u128::from(self.frames) / (u128::from(self.seconds) * 1_000_000)
     }
 
-    /// An eighth of the time of a frame.
+    /// Returns an eighth of the time of a frame in microseconds.
     pub(crate) fn eighth_us(self) -> u64 {
         u64::from(self.seconds) * 1_000_000 / (8 * u64::from(self.frames))
     }

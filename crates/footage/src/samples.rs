@@ -1,35 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From samples as they lie in a pipe or a file to a frame: 8-bit luma for a design of 8 bits stays
-//! where it is, everything else is converted in one pass.
+//! The conversion of samples, as a pipe or a file has them, to a frame. 8-bit luma for a design of
+//! 8 bits is not copied; all other samples are converted in one pass.
 
 use foveate_frame::{FrameError, Raster, convert_depth, luma};
 
-/// How samples lie.
+/// The layout of the samples of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Layout {
     pub(crate) width: u32,
     pub(crate) height: u32,
-    /// Bits per sample; above 8 they are words.
+    /// The number of bits per sample. Above 8 bits, samples are words.
     pub(crate) depth: u32,
-    /// Red, green and blue instead of one value.
+    /// A pixel has red, green and blue samples instead of one.
     pub(crate) colour: bool,
-    /// Whether words have their high bytes first.
+    /// Words have their high byte first.
     pub(crate) big_endian: bool,
 }
 
 impl Layout {
-    /// One value for each pixel, low bytes first.
+    /// Makes the layout of one sample per pixel with the low byte first.
     pub(crate) fn flat(width: u32, height: u32, depth: u32) -> Self {
         Self { width, height, depth, colour: false, big_endian: false }
     }
 
-    /// Bytes of a frame.
+    /// Returns the number of bytes of a frame.
     pub(crate) fn bytes(self) -> usize {
         let channels = if self.colour { 3 } else { 1 };
         self.width as usize * self.height as usize * channels * if self.depth > 8 { 2 } else { 1 }
     }
 
-    /// The frame of `bits` bits per pixel; samples beyond their depth count as its largest value.
+    /// Makes the frame with `bits` bits per pixel. Samples above the largest value of their depth
+    /// are limited to it.
     pub(crate) fn raster(self, bytes: Vec<u8>, bits: u32) -> Result<Raster, FrameError> {
         let Self { width, height, depth, colour, big_endian } = self;
         if depth == bits && depth == 8 && !colour {

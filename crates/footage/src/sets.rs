@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sets of small images in one file: IDX (MNIST and its kin) and CIFAR. Every image is a first frame.
+//! Sets of small images in one file: IDX (MNIST and similar) and CIFAR. Every image is a first
+//! frame.
 
 pub(crate) mod cifar;
 pub(crate) mod idx;
@@ -13,15 +14,15 @@ use foveate_toolchain::{Interrupt, InterruptibleReader, open_interruptibly};
 
 use crate::FootageError;
 
-/// What a gzipped file starts with.
+/// The first bytes of a gzipped file.
 const GZIP: [u8; 2] = [0x1F, 0x8B];
 
-/// Opens a file, unpacked if it is gzipped.
+/// Opens a file, and unpacks it if it is gzipped.
 pub(crate) fn open_unpacked(path: &Path) -> Result<Box<dyn BufRead + Send>, FootageError> {
     unpacked(File::open(path).map_err(unreadable(path))?).map_err(unreadable(path))
 }
 
-/// Opens a FIFO or another pipe, which is read once, unpacked if it is gzipped.
+/// Opens a FIFO or another pipe that can be read once, and unpacks it if it is gzipped.
 pub(crate) fn open_pipe(
     path: &Path,
     interrupt: &Interrupt,
@@ -42,7 +43,7 @@ fn unpacked(input: impl Read + Send + 'static) -> io::Result<Box<dyn BufRead + S
     Ok(Box::new(input))
 }
 
-/// Whether a file is gzipped.
+/// Returns true if a file is gzipped.
 fn is_packed(path: &Path) -> Result<bool, FootageError> {
     let mut file = BufReader::new(File::open(path).map_err(unreadable(path))?);
     Ok(file.fill_buf().map_err(unreadable(path))?.starts_with(&GZIP))
@@ -52,7 +53,7 @@ fn unreadable(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
     |error| FootageError::Unreadable { path: path.to_owned(), problem: error.to_string() }
 }
 
-/// Names the file in what is wrong with it.
+/// Returns an error that names the file.
 fn damaged(path: &Path, problem: impl Into<String>) -> FootageError {
     FootageError::DataSet { path: path.to_owned(), problem: problem.into() }
 }
@@ -64,7 +65,8 @@ fn cut(path: &Path) -> impl Fn(io::Error) -> FootageError + '_ {
     }
 }
 
-/// Reads to the end of a file, where nothing may be left; a gzipped one has its checksum there.
+/// Reads to the end of a file, after which nothing may be left. A gzipped file has its checksum
+/// there.
 fn end(input: &mut dyn BufRead, path: &Path, after: &str) -> Result<(), FootageError> {
     let left = io::copy(&mut input.take(u64::MAX), &mut io::sink()).map_err(cut(path))?;
     if left > 0 {

@@ -17,9 +17,9 @@ use form::SetForm;
 /// A frame with its name and time.
 #[derive(Clone, Debug)]
 pub struct SourceFrame {
-    /// File name, or the name of the scene.
+    /// The name of the file, or of the scene.
     pub name: String,
-    /// Time since the first frame of the clip in microseconds.
+    /// The time since the first frame of the clip in microseconds.
     pub time_us: u64,
     /// The class of an image of a labelled set.
     pub label: Option<String>,
@@ -27,29 +27,31 @@ pub struct SourceFrame {
     pub frame: Raster,
 }
 
-/// Where a frame was in its input, before any option took, cropped or scaled it.
+/// The origin of a frame: its number and size in the input, before frames are selected, cropped and
+/// scaled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Origin {
-    /// Its number among all frames of the input, from 0. After a sought start only with
+    /// The number among all frames of the input, counted from 0. After a seek it is right only with
     /// [`InputOptions::numbered`](crate::InputOptions::numbered).
     pub number: u64,
-    /// Width and height.
+    /// The width and height before cropping and scaling.
     pub size: (u32, u32),
-    /// Whether its name is that of a file of its own.
+    /// The name of the frame is that of a file that holds only this frame.
     pub own_file: bool,
 }
 
-/// How the frames of a source are related.
+/// The relation between the frames of a source.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// They follow each other in time.
+    /// The frames follow each other in time.
     Clip,
-    /// They are unrelated: each is a first frame.
+    /// The frames are independent: each is a first frame.
     Set,
 }
 
 impl Kind {
-    /// The time of a frame without one of its own: by the rate in a clip, zero in a set.
+    /// Returns the time in microseconds of a frame that has none of its own: by the rate in a clip,
+    /// zero in a set.
     pub(crate) fn time_us(self, rate: FrameRate, frame: u64) -> u64 {
         match self {
             Self::Clip => rate.time_us(frame),
@@ -58,44 +60,45 @@ impl Kind {
     }
 }
 
-/// Frames of one size and depth, one at a time.
+/// A source of frames of one size and depth, which come one at a time.
 pub trait Source: Send {
-    /// Width and height of every frame.
+    /// Returns the width and height of every frame.
     fn size(&self) -> (u32, u32);
 
-    /// The inputs as the user named them, for the summary.
+    /// Returns the inputs as the user named them, for the summary.
     fn inputs(&self) -> &[String];
 
-    /// The number of all frames, if it is known. For a video it comes from the container, and may be
-    /// wrong.
+    /// Returns the number of all frames, if it is known. For a video the number comes from the
+    /// container, and may be wrong.
     fn frames(&self) -> Option<u64>;
 
-    /// The next frame, or `None` after the last.
+    /// Returns the next frame, or `None` after the last.
     ///
     /// # Errors
-    /// When it cannot be read or does not have the size of the others.
+    /// Fails if the frame cannot be read, or does not have the size of the others.
     fn next_frame(&mut self) -> Result<Option<SourceFrame>, FootageError>;
 
     /// Takes back a frame that is no longer needed, to use its memory again.
     fn give_back(&mut self, _frame: SourceFrame) {}
 
-    /// Where the frame that was given last was in its input; `None` where a source has no such place, and
-    /// before the first frame.
+    /// Returns the origin of the frame that was returned last. Returns `None` before the first
+    /// frame, and for sources that do not know it.
     fn origin(&self) -> Option<Origin> {
         None
     }
 
-    /// Whether frames follow each other in time. In a set, every frame is a first frame.
+    /// Returns the relation between the frames. In a set, every frame is a first frame.
     fn kind(&self) -> Kind {
         Kind::Clip
     }
 
-    /// For a set: the kind of its files, and its labels.
+    /// Returns the kind of the files and of the labels of a set.
     fn form(&self) -> SetForm {
         SetForm::default()
     }
 
-    /// After the last frame: why the source ended too early, if it did. The frames before are good.
+    /// After the last frame, returns the problem because of which the source ended too early. The
+    /// frames before it are valid.
     fn problem(&self) -> Option<String> {
         None
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clips and sets to compare: every input is a clip or set with a name, and a folder of clips is several.
+//! The clips and sets of a comparison. Every input is a clip or set with a name, and a folder of
+//! clips is several.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -10,16 +11,17 @@ use crate::{ClipPlan, FootageError, ImagesAs, InputOptions, plan};
 /// A clip or set with a name.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Subject {
-    /// Its unique name in tables and charts.
+    /// The unique name in tables and charts.
     pub name: String,
     /// The inputs for [`open`](crate::open).
     pub inputs: Vec<PathBuf>,
 }
 
-/// Image files together are one clip, unless they are sheets of many images. Every other input is a clip or set of its own.
+/// Makes the clips and sets of a comparison. Image files together are one clip, unless they are
+/// sheets of many images. Every other input is a clip or set of its own.
 ///
 /// # Errors
-/// As [`plan`].
+/// The errors are those of [`plan`].
 pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<Subject>, FootageError> {
     let mut found = Vec::new();
     let sheets = options.images == ImagesAs::CifarSheet;
@@ -32,7 +34,7 @@ pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<Subjec
                 found.push(Subject { name: name_of(input), inputs: vec![input.clone()] });
             }
             ClipPlan::Batch(clips) => found.extend(clips.into_iter().map(|clip| {
-                // A clip has an input.
+                // Every clip has an input.
                 Subject { name: name_of(&clip.inputs[0]), inputs: clip.inputs }
             })),
         }
@@ -41,9 +43,9 @@ pub fn subjects(inputs: &[PathBuf], options: &InputOptions) -> Result<Vec<Subjec
     Ok(found)
 }
 
-/// The name of a file without folder and extension, or of a scene.
+/// Returns the name of a file without folder and extension, or the name of a scene.
 fn name_of(path: &Path) -> String {
-    // The name of an address is what may be shown of it.
+    // The name of an address is the part of it that may be shown.
     let address = path.to_string_lossy().contains("://").then(|| shown_input(path));
     let path = address.as_ref().map_or(path, Path::new);
     let text = path.to_string_lossy();
@@ -56,11 +58,12 @@ fn name_of(path: &Path) -> String {
 
 fn stem(name: &std::ffi::OsStr) -> &std::ffi::OsStr {
     let once = Path::new(name).file_stem().unwrap_or(name);
-    // Of `train-images-idx3-ubyte.gz` and `clip.y4m.gz` alike only the first part is a name.
+    // `train-images-idx3-ubyte.gz` and `clip.y4m.gz` lose two extensions.
     Path::new(once).file_stem().unwrap_or(once)
 }
 
-/// Names that are there twice get the folder in front, and a number if that does not help.
+/// Makes names unique: names that occur twice get their folder in front, and a number if that is
+/// not enough.
 fn set_apart(subjects: &mut [Subject]) {
     let mut times: HashMap<String, u32> = HashMap::new();
     for subject in subjects.iter() {

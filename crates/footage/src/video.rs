@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Video through an ffmpeg process, frame by frame through a pipe: memory does not grow with it.
+//! Video through an ffmpeg process, frame by frame through a pipe: memory does not grow with the
+//! length.
 //!
-//! * Luma is the Y plane as it was coded, without a change of range: what was 16..235 stays so, and a
-//!   clip gives the same bits by way of `ffmpeg -f yuv4mpegpipe`. RGB video becomes luma as images do.
-//! * ffmpeg's `showinfo` filter says size, format and time of a frame on the standard error before the
-//!   frame itself comes through the pipe, so that times are the container's, and a change of size in
-//!   mid-stream is seen. `-fps_mode passthrough` keeps ffmpeg from repeating or dropping frames.
-//! * Only [`formats`] that hold their frames themselves are read: a file that is a list of others is refused.
-//! * A late start is sought where that gives the same frames, see [`seek`].
-//! * Rotation is ignored, as EXIF is.
+//! * Luma is the Y plane as it was coded, without a change of range: 16..235 stays 16..235. A clip
+//!   gives the same values through `ffmpeg -f yuv4mpegpipe`. RGB video becomes luma as images do.
+//! * ffmpeg's `showinfo` filter writes size, format and time of a frame to the standard error
+//!   before the frame itself comes through the pipe. So times are those of the container, and a
+//!   change of size in the stream is detected. `-fps_mode passthrough` prevents ffmpeg from
+//!   repeating or dropping frames.
+//! * Only [`formats`] that hold their frames themselves are read: a file that is a list of other
+//!   files is refused.
+//! * A late start uses a seek if that gives the same frames, see [`seek`].
+//! * Rotation is ignored, as is the EXIF orientation of images.
 
 mod decoder;
 mod formats;
@@ -30,22 +33,22 @@ use crate::address::Address;
 use crate::source::feed::Feed;
 use crate::{FootageError, FrameRate, SourceFrame};
 
-/// How long a camera in the network may be silent, in microseconds, before ffmpeg gives up.
+/// The time in microseconds after which ffmpeg gives up on a silent network camera.
 const NETWORK_TIMEOUT_US: &str = "10000000";
 
-/// What to read.
+/// The medium from which a video is read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(crate) enum Medium {
     File(PathBuf),
     /// A Video4Linux device.
     Camera(PathBuf),
-    /// A camera in the network, by its address.
+    /// A network camera with its address.
     Network(Address),
 }
 
 impl Medium {
-    /// As ffmpeg takes it: nothing else than what it is, whatever the name looks like, and nothing that reads other
-    /// files or addresses.
+    /// Returns the arguments for ffmpeg. They allow only this kind of medium, whatever the name
+    /// looks like, and no format that reads other files or addresses.
     fn arguments(&self) -> Vec<std::ffi::OsString> {
         let name = |prefix: &str, path: &Path| {
             let mut name = std::ffi::OsString::from(prefix);
@@ -63,7 +66,7 @@ impl Medium {
                 let only = ["-format_whitelist", "video4linux2,v4l2", "-f", "v4l2"];
                 (words(&only), name("", path))
             }
-            // Over TCP no packet is lost, and every router lets it through.
+            // TCP loses no packet, and most routers let it pass.
             Self::Network(address) => {
                 let only =
                     ["-protocol_whitelist", "rtsp,tcp,tls,udp,rtp", "-format_whitelist", "rtsp"];
@@ -75,7 +78,7 @@ impl Medium {
         options
     }
 
-    /// As it may be shown: without a password.
+    /// Returns the name in the form in which it may be shown, without a password.
     fn name(&self) -> String {
         match self {
             Self::File(path) | Self::Camera(path) => path.display().to_string(),
@@ -83,7 +86,7 @@ impl Medium {
         }
     }
 
-    /// Why there is no frame.
+    /// Returns the error for a medium without a frame.
     fn refused(&self, problem: String) -> FootageError {
         match self.clone() {
             Self::File(path) => FootageError::Video { path, problem },
@@ -92,7 +95,7 @@ impl Medium {
         }
     }
 
-    /// Whether it may refuse to be opened twice.
+    /// Returns true if the medium may refuse to be opened twice.
     fn is_camera(&self) -> bool {
         matches!(self, Self::Camera(_) | Self::Network(_))
     }
@@ -103,12 +106,12 @@ pub(crate) struct Video {
     medium: Medium,
     decoder: Decoder,
     total: Option<u64>,
-    /// The number of its coded frames, as far as is known.
+    /// The pixel format as ffprobe names it.
     pixel_format: String,
     interrupt: Interrupt,
     bits: u32,
     rate: FrameRate,
-    /// Memory for the next frame.
+    /// The memory for the next frame.
     bytes: Vec<u8>,
     first_pts: Option<i64>,
     frames: u64,
@@ -116,7 +119,7 @@ pub(crate) struct Video {
 }
 
 impl Video {
-    /// Opens it; frames before `start_us` are not wanted, and may be missing.
+    /// Opens a medium. Frames before `start_us` are not needed, and may be missing.
     pub(crate) fn open(
         medium: Medium,
         bits: u32,
@@ -125,7 +128,8 @@ impl Video {
         interrupt: &Interrupt,
     ) -> Result<Self, FootageError> {
         let tools = Toolchain::system().cancelled_by(interrupt.flag());
-        // Starting a program of ffmpeg's size takes as long as decoding some dozen frames.
+        // Starting ffmpeg takes as long as decoding some dozen frames, so it runs in parallel with
+        // ffprobe.
         let (found, probe) = std::thread::scope(|scope| {
             let found = scope.spawn(|| tools.find(Tool::Ffmpeg));
             let probe = Probe::of(&tools, &medium);
@@ -162,19 +166,20 @@ impl Video {
         shown.layout.raster(bytes, self.bits).map_err(|error| error.to_string())
     }
 
-    /// Time since the first frame by the container; of frames to which it gives none, by the rate.
+    /// Returns the time since the first frame in microseconds, by the container, or by the rate if
+    /// the container gives the frame no time.
     fn time_us(&mut self, shown: &Shown) -> u64 {
         let Some(pts) = shown.pts else { return self.rate.time_us(self.frames) };
         let first = *self.first_pts.get_or_insert(pts);
         self.decoder.time_us(first, pts)
     }
 
-    /// What is to be said once there are no more frames.
+    /// Determines the problem of the video, if any, once there are no more frames.
     fn conclude(&mut self) -> Result<(), FootageError> {
         let mut problem = self.decoder.conclude()?;
         match &self.medium {
             Medium::File(path) => problem = truncated::problem(path).or(problem),
-            // ffmpeg repeats the address and its parts.
+            // Messages of ffmpeg repeat the address and its parts.
             Medium::Network(address) => problem = problem.map(|text| address.redact(&text)),
             Medium::Camera(_) => {}
         }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! YUV4MPEG2, the stream of raw frames that ffmpeg and others write: the Y plane of every frame, of
-//! 8 bits or more, whatever the other planes are. Read from a file or from standard input, without
-//! ffmpeg. Times follow from the rate in the header.
+//! YUV4MPEG2, the stream of raw frames that ffmpeg and other programs write. The Y plane of every
+//! frame is read, with 8 bits or more; the other planes are ignored. The stream comes from a file
+//! or from standard input, without ffmpeg. Times follow from the rate in the header.
 
 mod header;
 
@@ -15,7 +15,7 @@ use crate::samples::Layout;
 use crate::source::feed::Feed;
 use crate::{FootageError, FrameRate, SourceFrame};
 
-/// What a stream starts with.
+/// The first bytes of a stream.
 pub(crate) const MAGIC: &[u8] = b"YUV4MPEG2";
 
 /// The frames of a stream.
@@ -25,7 +25,7 @@ pub(crate) struct Y4m {
     header: Header,
     rate: FrameRate,
     bits: u32,
-    /// Memory for the next frame.
+    /// The memory for the next frame.
     bytes: Vec<u8>,
     frames: u64,
     problem: Option<String>,
@@ -33,7 +33,7 @@ pub(crate) struct Y4m {
 }
 
 impl Y4m {
-    /// Reads the header; `rate` is for streams that say none.
+    /// Reads the header. `rate` is used for streams that state no rate.
     pub(crate) fn new(
         name: String,
         mut input: Box<dyn BufRead + Send>,

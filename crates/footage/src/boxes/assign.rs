@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which boxes belong to which clip.
+//! The assignment of box files to clips.
 //!
-//! One file is for all clips, several are for one each, in their order. A path that does not exist as given is
-//! looked for in the folder of the clip, and in the one above it. So `gt/gt.txt` finds the boxes of every
-//! sequence of MOT whose images are in `img1`.
+//! One file is for all clips; several files are for one clip each, in their order. A path that does
+//! not exist as given is searched in the folder of the clip, and in the folder above it. So
+//! `gt/gt.txt` finds the boxes of every MOT sequence whose images are in `img1`.
 
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
@@ -14,17 +14,17 @@ use crate::boxes::{BoxError, Boxes};
 /// A clip that needs boxes.
 #[derive(Clone, Copy, Debug)]
 pub struct Clip<'a> {
-    /// Its name in messages.
+    /// The name of the clip in messages.
     pub name: &'a str,
-    /// Its folder, or its first file.
+    /// The folder of the clip, or its first file.
     pub input: &'a Path,
 }
 
 /// Reads the boxes of every clip, in the order of the clips. A file that several clips share is read once.
 ///
 /// # Errors
-/// When there are more or fewer files than clips, a file does not exist or cannot be read, or clips would share
-/// a file that goes by frame numbers.
+/// Fails if the numbers of files and of clips differ, a file does not exist or cannot be read, or
+/// clips would share a file that goes by frame numbers.
 pub fn assign(files: &[PathBuf], clips: &[Clip<'_>]) -> Result<Vec<Arc<Boxes>>, BoxError> {
     let per_clip: Vec<&PathBuf> = match files {
         [one] => clips.iter().map(|_| one).collect(),
@@ -50,7 +50,7 @@ pub fn assign(files: &[PathBuf], clips: &[Clip<'_>]) -> Result<Vec<Arc<Boxes>>, 
     Ok(found)
 }
 
-/// The file as given, or beside the clip.
+/// Finds the file as given, or in the folder of the clip or the one above it.
 fn find(file: &Path, clip: &Clip<'_>) -> Result<PathBuf, BoxError> {
     let folder = if clip.input.is_dir() { Some(clip.input) } else { clip.input.parent() };
     let above = folder.and_then(Path::parent);

@@ -1,42 +1,42 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why there are no boxes. Every message names the file, and the line where there is one.
+//! The errors of box files. Every message names the file, and the line if there is one.
 
 use std::io;
 use std::path::PathBuf;
 
 use thiserror::Error;
 
-/// Boxes that cannot be read, or that do not fit the clips.
+/// The error that is returned if boxes cannot be read, or do not fit the clips.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BoxError {
     /// The file or folder cannot be read.
     #[error("cannot read boxes `{}`: {source}", path.display())]
     Io {
-        /// The file.
+        /// The path of the file or folder.
         path: PathBuf,
-        /// What the system says.
+        /// The error of the system.
         source: io::Error,
     },
-    /// The file is wrong as a whole, or in a place that its problem names.
+    /// The file is wrong as a whole, or at a place that its problem names.
     #[error("cannot read boxes `{}`: {problem}", path.display())]
     File {
-        /// The file.
+        /// The path of the file or folder.
         path: PathBuf,
-        /// What is wrong, and what would be right.
+        /// The text that says what is wrong, and what is expected.
         problem: String,
     },
     /// A line of the file is wrong.
     #[error("cannot read boxes `{}`, line {line}: {problem}", path.display())]
     Line {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The line, from 1.
+        /// The number of the line, counted from 1.
         line: u64,
-        /// What is wrong, and what would be right.
+        /// The text that says what is wrong, and what is expected.
         problem: String,
     },
-    /// There is no such file, neither as given nor beside the clip.
+    /// The file does not exist, neither as given nor near the clip.
     #[error(
         "boxes `{}` do not exist, neither as given nor in the folder of the clip `{clip}` or the one above it; \
          check the path",
@@ -45,31 +45,31 @@ pub enum BoxError {
     Missing {
         /// The path as given.
         path: PathBuf,
-        /// The clip.
+        /// The name of the clip.
         clip: String,
     },
-    /// As many files as clips are needed, or one for all.
+    /// The number of files is neither one nor the number of clips.
     #[error(
         "{files} files of boxes are given for {clips} clips; give one for each in their order, or one for all"
     )]
     Count {
-        /// How many files are given.
+        /// The number of files that are given.
         files: usize,
-        /// How many clips there are.
+        /// The number of clips.
         clips: usize,
     },
-    /// Frame numbers mean frames of one clip.
+    /// Several clips share a file that goes by frame numbers, which count the frames of one clip.
     #[error(
         "boxes `{}` go by frame number, so they belong to one clip, but `{one}` and `{other}` would share them; \
          give a file for each clip",
         path.display()
     )]
     Shared {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// A clip.
+        /// The name of one clip.
         one: String,
-        /// Another.
+        /// The name of another clip.
         other: String,
     },
     /// A name in the file fits two images.
@@ -78,34 +78,34 @@ pub enum BoxError {
         path.display(), one.display(), other.display()
     )]
     Ambiguous {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The name in it.
+        /// The name in the file.
         name: String,
-        /// An image.
+        /// One of the images.
         one: PathBuf,
-        /// Another.
+        /// The other image.
         other: PathBuf,
     },
-    /// Names of images count from 0, frames of MOT from 1.
+    /// An image has the number 0, but the frames of MOT are numbered from 1.
     #[error(
         "the image `{}` would be frame 0, but frames in `{}` begin at 1; rename the images so that they begin at 1",
         image.display(), path.display()
     )]
     FrameZero {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The image.
+        /// The path of the image.
         image: PathBuf,
     },
-    /// No frame of the clip is in the file.
+    /// No frame of the clip has an entry in the file.
     #[error("no frame of the clip `{clip}` has an entry in `{}`, which {holds}; check that they belong together", path.display())]
     NoneFit {
-        /// The file.
+        /// The path of the file or folder.
         path: PathBuf,
-        /// The clip.
+        /// The name of the clip.
         clip: String,
-        /// What it holds instead.
+        /// A text that describes the entries of the file, for the message.
         holds: String,
     },
 }

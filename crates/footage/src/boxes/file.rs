@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The boxes of a file, by frames.
+//! The boxes of a file, by frame.
 //!
-//! MOT files go by the number of a frame. It is the number that the image file has as its name (`000012.jpg`),
-//! as in every such set; frames without such a name are counted from 1 in their order in the input, also those
-//! that are not seen. All other formats go by the name of the image. The name in the file may have folders: it
-//! fits an image whose path ends with it.
+//! MOT files go by the number of a frame. It is the number in the name of the image file
+//! (`000012.jpg`), as in every MOT sequence. Frames without such a name are numbered from 1 in
+//! their order in the input, and frames that are not selected count, too. All other formats go by
+//! the name of the image. The name in the file may have folders: it fits an image whose path ends
+//! with it.
 
 use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
@@ -18,21 +19,21 @@ use super::view::View;
 use crate::{Crop, Origin, SourceFrame};
 use foveate_frame::Rect;
 
-/// A frame, as boxes are found for it.
+/// The properties of a frame by which its boxes are found.
 #[derive(Clone, Copy, Debug)]
 pub struct Place<'a> {
-    /// The path of its file, or another name.
+    /// The path of the frame's file, or another name.
     pub name: &'a Path,
-    /// Whether that is a file of its own.
+    /// `name` is the path of a file that holds only this frame.
     pub own_file: bool,
-    /// Its number in the input, from 0.
+    /// The number of the frame in the input, counted from 0.
     pub number: u64,
-    /// Width and height before it is cropped and scaled.
+    /// The width and height of the frame before it is cropped and scaled.
     pub size: (u32, u32),
 }
 
 impl<'a> Place<'a> {
-    /// Of a frame that a source gave from this place in its input.
+    /// Makes the key of a frame that a source returned with this origin.
     #[must_use]
     pub fn of(frame: &'a SourceFrame, origin: &Origin) -> Self {
         let name = Path::new(&frame.name);
@@ -40,7 +41,7 @@ impl<'a> Place<'a> {
     }
 }
 
-/// The boxes of a frame; `None` if the file has no entry for it.
+/// The boxes of a frame, or `None` if the file has no entry for it.
 pub type Found = Option<Vec<Labelled>>;
 
 /// The boxes of a file or folder.
@@ -49,7 +50,7 @@ pub struct Boxes {
     path: PathBuf,
     format: Format,
     entries: Entries,
-    /// Which image took the boxes of a name.
+    /// The image that took the boxes of each name.
     taken: Mutex<HashMap<String, PathBuf>>,
 }
 
@@ -57,15 +58,16 @@ pub struct Boxes {
 enum Entries {
     Numbers(BTreeMap<u64, Vec<Labelled>>),
     Names(HashMap<String, Vec<Labelled>>),
-    /// Read when an image asks for them.
+    /// The entries are files of a folder, which are read when an image needs them.
     Folder,
 }
 
 impl Boxes {
-    /// Reads a file, or looks at a folder of YOLO files.
+    /// Reads a file, or opens a folder of YOLO files without reading them.
     ///
     /// # Errors
-    /// When it cannot be read; the message names the file and, where there are lines, the line.
+    /// Fails if the file cannot be read. The message names the file, and the line if the format has
+    /// lines.
     pub fn read(path: &Path) -> Result<Self, BoxError> {
         let format = Format::of(path)?;
         let entries = match format {
@@ -77,29 +79,29 @@ impl Boxes {
         Ok(Self { path: path.to_owned(), format, entries, taken: Mutex::default() })
     }
 
-    /// The file or folder.
+    /// Returns the path of the file or folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Its format.
+    /// Returns the format.
     #[must_use]
     pub fn format(&self) -> Format {
         self.format
     }
 
-    /// Whether they belong to one clip, because they go by numbers of frames.
+    /// Returns true if the boxes go by frame numbers and therefore belong to one clip.
     #[must_use]
     pub fn are_of_one_clip(&self) -> bool {
         matches!(self.entries, Entries::Numbers(_))
     }
 
-    /// The boxes of a frame.
+    /// Returns the boxes of a frame.
     ///
     /// # Errors
-    /// When a file of a YOLO folder cannot be read, a name fits two images, or an image has the number 0 where
-    /// frames begin at 1.
+    /// Fails if a file of a YOLO folder cannot be read, a name fits two images, or an image has the
+    /// number 0 although frames are numbered from 1.
     pub fn at(&self, place: &Place<'_>) -> Result<Found, BoxError> {
         match &self.entries {
             Entries::Numbers(frames) => Ok(frames.get(&self.number(place)?).cloned()),
@@ -119,10 +121,12 @@ impl Boxes {
         }
     }
 
-    /// Where the objects of a frame lie in it, cropped and scaled as it is, without those that lie mostly outside; `None` if there is no entry for it.
+    /// Returns the rectangles of a frame's objects in the frame as it is cropped and scaled,
+    /// without those that lie mostly outside. Returns `None` if the file has no entry for the
+    /// frame.
     ///
     /// # Errors
-    /// As [`Boxes::at`].
+    /// The errors are those of [`Boxes::at`].
     pub fn objects(
         &self,
         frame: &SourceFrame,
@@ -134,7 +138,7 @@ impl Boxes {
         Ok(found.map(|found| found.iter().filter_map(|one| view.see(&one.rect)).collect()))
     }
 
-    /// What to say where no frame of a clip has an entry.
+    /// Returns the error for a clip of which no frame has an entry.
     #[must_use]
     pub fn none_fit(&self, clip: &str) -> BoxError {
         let first = match &self.entries {
@@ -150,7 +154,7 @@ impl Boxes {
         BoxError::NoneFit { path: self.path.clone(), clip: clip.to_owned(), holds }
     }
 
-    /// The number of a frame, from 1.
+    /// Returns the number of a frame, counted from 1.
     fn number(&self, place: &Place<'_>) -> Result<u64, BoxError> {
         let stem = place.name.file_stem().and_then(|stem| stem.to_str());
         let digits = stem.filter(|stem| stem.bytes().all(|byte| byte.is_ascii_digit()));
@@ -164,7 +168,7 @@ impl Boxes {
         }
     }
 
-    /// Gives the boxes of a name to an image, unless another has them.
+    /// Assigns the boxes of a name to an image, unless another image has them.
     fn take(&self, name: String, place: &Place<'_>) -> Result<(), BoxError> {
         let mut taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
         let owner = taken.entry(name.clone()).or_insert_with(|| place.name.to_owned());

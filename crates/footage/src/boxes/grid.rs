@@ -1,36 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which regions belong to a box.
+//! The regions that belong to a box.
 //!
-//! A column of regions belongs to a box if at least half of the column's width lies between the left and the
-//! right side of the box, and a row in the same way. The regions of the box are those in its columns and its
-//! rows. So a box is rounded to whole regions, and regions that are mostly background do not count. A box
-//! that no column fills by half, because it is narrow, has the column in which most of it lies, the first of
-//! two equal ones. So every box has a region, and a narrow one has a line of them.
+//! A column of regions belongs to a box if at least half of the column's width lies between the
+//! left and the right side of the box. The same rule holds for rows. The regions of the box are
+//! those in its columns and its rows. So a box is rounded to whole regions, and regions that are
+//! mostly background do not count. If a narrow box covers no column by half, it has the column in
+//! which most of it lies, or the first of two equal ones. So every box has at least one region in
+//! each direction.
 
 use std::ops::Range;
 
 use foveate_frame::Rect;
 
-/// The regions of a frame: squares from the upper left, cut at the right and below.
+/// The grid of regions of a frame. Regions are squares from the upper left corner, cut at the right
+/// and lower border.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Grid {
-    /// Side of a region.
+    /// The side of a region in pixels.
     pub side: u32,
-    /// Width of the frame.
+    /// The width of the frame in pixels.
     pub width: u32,
-    /// Height of the frame.
+    /// The height of the frame in pixels.
     pub height: u32,
 }
 
 impl Grid {
-    /// How many regions of a box say yes, and how many it has.
+    /// Returns how many regions of a box have their vote set, and how many regions the box has.
     #[must_use]
     pub fn votes(&self, rect: &Rect, votes: &[bool]) -> (u64, u64) {
         self.regions(rect)
             .fold((0, 0), |(yes, all), region| (yes + u64::from(votes[region]), all + 1))
     }
 
-    /// The regions of a box that lies in the frame and has an area, by their numbers in rows.
+    /// Returns the regions of a box, numbered row by row. The box must lie in the frame and have an
+    /// area.
     pub fn regions(&self, rect: &Rect) -> impl Iterator<Item = usize> + use<> {
         let columns = lines((rect.x0, rect.x1), self.side, self.width);
         let rows = lines((rect.y0, rect.y1), self.side, self.height);
@@ -41,7 +44,8 @@ impl Grid {
     }
 }
 
-/// The columns of a box from its left to its right side, or the rows, in a frame of this size.
+/// Returns the columns of a box from its left and right side, or the rows from its upper and lower
+/// side, in a frame of this size.
 fn lines((from, to): (f64, f64), side: u32, size: u32) -> Range<u32> {
     let begin = |line: u32| f64::from(line * side);
     let end = |line: u32| f64::from((line * side).saturating_add(side).min(size));
@@ -60,7 +64,8 @@ fn lines((from, to): (f64, f64), side: u32, size: u32) -> Range<u32> {
     }
 }
 
-/// The line in which a coordinate lies; what lies on the far side of the frame is in the last one.
+/// Returns the row or column in which a coordinate lies. A coordinate at the far border belongs to
+/// the last one.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "within the frame")]
 fn line_of(at: f64, side: u32, count: u32) -> u32 {
     ((at / f64::from(side)).floor() as u32).min(count - 1)
@@ -78,7 +83,8 @@ mod tests {
 
     #[test]
     fn regions_of_known_boxes() {
-        // Five columns, the last 4 pixels wide, and three rows, the last 4 pixels high.
+        // The grid has five columns, the last 4 pixels wide, and three rows, the last 4 pixels
+        // high.
         assert_eq!(of([0., 0., 8., 8.]), [0]);
         assert_eq!(of([4., 0., 12., 8.]), [0, 1], "half of two columns");
         assert_eq!(of([5., 0., 12., 8.]), [1], "less than half of the first");

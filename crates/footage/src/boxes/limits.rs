@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Limits of box files, so that none takes all memory.
+//! The limits of box files, which keep their memory bounded.
 
 use std::fs::File;
 use std::io::BufReader;
@@ -9,12 +9,13 @@ use foveate_reading::LimitedReader;
 
 use crate::boxes::BoxError;
 
-/// The most boxes of a file, or of a file of a YOLO folder.
+/// The largest number of boxes in a file. In a YOLO folder the limit holds for each file.
 pub const MAX_BOXES: usize = 4_000_000;
-/// The largest file.
+/// The largest size of a file in bytes.
 const MAX_FILE: u64 = 1 << 30;
 
-/// Opens a file that is not too large. A pipe, whose length is not known before, fails where it exceeds the limit.
+/// Opens a file that is not too large. The length of a pipe is not known in advance, so reading
+/// fails at the limit.
 pub(crate) fn open(path: &Path) -> Result<BufReader<LimitedReader<File>>, BoxError> {
     let unreadable = |source| BoxError::Io { path: path.to_owned(), source };
     let file = File::open(path).map_err(unreadable)?;
@@ -25,7 +26,7 @@ pub(crate) fn open(path: &Path) -> Result<BufReader<LimitedReader<File>>, BoxErr
     Ok(BufReader::new(LimitedReader::new(file, MAX_FILE)))
 }
 
-/// What is said of a file with too many boxes.
+/// Returns the message for a file with too many boxes.
 pub(crate) fn too_many() -> String {
     format!("more than {MAX_BOXES} boxes, which is the limit; split it by clip")
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Names of images as files of boxes give them and as inputs have them.
+//! The names of images in box files, and their comparison with the paths of inputs.
 
 use std::path::{Component, Path};
 
-/// A name in a file as it is compared: folders and name with `/` between them. `None` if there is no name.
+/// Returns a name from a file in the form in which it is compared, with `/` between folders and
+/// name. Returns `None` if there is no name.
 pub(crate) fn key(name: &str) -> Option<String> {
     let parts = parts(Path::new(&name.replace('\\', "/")));
     (!parts.is_empty()).then(|| parts.join("/"))
@@ -17,7 +18,8 @@ fn parts(path: &Path) -> Vec<String> {
     path.components().filter_map(part).collect()
 }
 
-/// The path of an image, then what is left without its first folders, down to the name.
+/// Returns the path of an image, and every shorter path that remains when its first folders are
+/// removed, down to the name.
 pub(super) fn endings(path: &Path) -> Vec<String> {
     let parts = parts(path);
     (0..parts.len()).map(|first| parts[first..].join("/")).collect()

@@ -1,32 +1,34 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! From a frame as the file describes it to the frame that a camera sees: cropped, then scaled.
+//! The transformation from the frame that a box file describes to the frame that a camera sees:
+//! first cropped, then scaled.
 
 use crate::{Crop, Origin, SourceFrame};
 use foveate_frame::Rect;
 
-/// Boxes of which less than this share lies in the frame are not counted.
+/// A box is not counted if less than this share of it lies in the frame.
 const LEAST_INSIDE: f64 = 0.25;
 
-/// A part of a frame, scaled.
+/// A part of a frame, and the size to which it is scaled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct View {
-    /// The left and upper pixel of the part.
+    /// The column and row of the part's upper left pixel.
     pub at: (u32, u32),
-    /// Width and height of the part before it is scaled.
+    /// The width and height of the part before it is scaled.
     pub part: (u32, u32),
-    /// Width and height after that.
+    /// The width and height of the part after it is scaled.
     pub seen: (u32, u32),
 }
 
 impl View {
-    /// Of a frame from this place in its input, of which a part may have been taken.
+    /// Makes the view of a frame with this origin, which may have been cropped.
     #[must_use]
     pub fn of(frame: &SourceFrame, origin: &Origin, crop: Option<Crop>) -> Self {
         let Crop { size: part, at } = crop.unwrap_or(Crop { size: origin.size, at: (0, 0) });
         Self { at, part, seen: (frame.frame.width(), frame.frame.height()) }
     }
 
-    /// Where a box lies in the frame that is seen, also what lies outside.
+    /// Transforms a box into the coordinates of the scaled frame, without cutting it at the
+    /// borders.
     #[must_use]
     pub fn place(&self, rect: &Rect) -> Rect {
         let scale = |seen: u32, part: u32| f64::from(seen) / f64::from(part);
@@ -34,8 +36,8 @@ impl View {
             .scaled(scale(self.seen.0, self.part.0), scale(self.seen.1, self.part.1))
     }
 
-    /// Where a box lies in the frame that is seen, without what lies outside. `None` if less than a quarter of
-    /// its area lies inside, or if it has none.
+    /// Transforms a box into the coordinates of the scaled frame and cuts it at the borders.
+    /// Returns `None` if less than a quarter of its area lies inside, or if it has no area.
     #[must_use]
     pub fn see(&self, rect: &Rect) -> Option<Rect> {
         let whole = self.place(rect);
@@ -57,7 +59,7 @@ mod tests {
     fn boxes_follow_the_crop_and_the_scale() {
         let view = View { at: (100, 50), part: (200, 100), seen: (100, 100) };
         assert_eq!(view.see(&rect([110., 60., 130., 80.])), Some(rect([5., 10., 15., 30.])));
-        // A half, a quarter and less than a quarter of it is inside.
+        // A half, a quarter, and less than a quarter of the box lie inside.
         assert_eq!(view.see(&rect([90., 60., 110., 80.])), Some(rect([0., 10., 5., 30.])));
         assert_eq!(view.see(&rect([85., 60., 105., 80.])), Some(rect([0., 10., 2.5, 30.])));
         assert_eq!(view.see(&rect([84., 60., 104., 80.])), None);

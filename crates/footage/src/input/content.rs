@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The kind of a file by its first bytes, whatever its name.
+//! The kind of a file according to its first bytes, independent of its name.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -10,13 +10,13 @@ use image::ImageFormat;
 use crate::sets::idx;
 use crate::y4m;
 
-/// Bytes that are looked at.
+/// The number of bytes that are read.
 const START: u64 = 512;
 
-/// The kind of file that the first bytes belong to.
+/// The kind of a file according to its first bytes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Content {
-    /// An image that is read.
+    /// An image that can be read.
     Image,
     /// An image of a type that is not read, with the name of the type.
     OtherImage(&'static str),
@@ -26,7 +26,8 @@ pub(crate) enum Content {
     Unknown,
 }
 
-/// Looks at a file. A pipe or a device is not opened, since what is read from it is gone.
+/// Reads the first bytes of a file. A pipe or a device is not opened, since bytes that are read
+/// from it are lost.
 pub(crate) fn content(path: &Path) -> io::Result<Content> {
     let mut start = Vec::new();
     if path.metadata()?.is_file() {
@@ -35,7 +36,7 @@ pub(crate) fn content(path: &Path) -> io::Result<Content> {
     Ok(of_start(&start))
 }
 
-/// The type of an image that is not read.
+/// Returns the name of an image type that is not read.
 pub(crate) fn other_image(start: &[u8]) -> Option<&'static str> {
     const JPEG_XL: &[u8] = b"\0\0\0\x0cJXL ";
     const JPEG_2000: &[u8] = b"\0\0\0\x0cjP  ";
@@ -57,7 +58,7 @@ pub(crate) fn other_image(start: &[u8]) -> Option<&'static str> {
     })
 }
 
-/// The kind of a file with these first bytes.
+/// Returns the kind of a file that starts with these bytes.
 pub(crate) fn of_start(start: &[u8]) -> Content {
     if let Some(name) = other_image(start) {
         return Content::OtherImage(name);
@@ -75,7 +76,8 @@ pub(crate) fn of_start(start: &[u8]) -> Content {
     }
 }
 
-/// More is asked of the types that two letters announce, or much text would be an image.
+/// Returns true for the start of a supported image. Types whose signature has two letters need more
+/// evidence, or much text would pass for an image.
 fn is_image(start: &[u8]) -> bool {
     match image::guess_format(start) {
         Ok(ImageFormat::Png | ImageFormat::Jpeg) => true,
@@ -112,11 +114,11 @@ fn is_video(start: &[u8]) -> bool {
         || (start.len() > 376 && [0, 188, 376].iter().all(|&place| start[place] == 0x47))
 }
 
-/// Characters and white space alone, in UTF-8.
+/// Returns true for valid UTF-8 that has only printable characters and white space.
 fn is_text(start: &[u8]) -> bool {
     let text = match str::from_utf8(start) {
         Ok(text) => text,
-        // The last character may be cut.
+        // The last character may be incomplete.
         Err(error) if error.error_len().is_none() => {
             str::from_utf8(&start[..error.valid_up_to()]).unwrap_or_default()
         }

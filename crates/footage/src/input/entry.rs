@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The kind of an entry of a folder. One function decides it, for entries that are read and for those that are said to be
-//! skipped.
+//! The kind of an entry of a folder. One function decides it, for entries that are read and for
+//! entries that are reported as skipped.
 
 use std::fs;
 use std::io;
@@ -18,11 +18,11 @@ pub(crate) enum EntryKind {
     Image,
     Video,
     Folder,
-    /// It is not read; there is a reason where it might have been meant.
+    /// An entry that is not read, with a reason if the user may have meant it.
     Skipped(Option<SkipReason>),
 }
 
-/// Says what an entry is.
+/// Returns the kind of an entry.
 pub(crate) fn entry_kind(path: &Path) -> EntryKind {
     let known = match fs::metadata(path) {
         Ok(known) => known,
@@ -48,7 +48,8 @@ pub(crate) fn entry_kind(path: &Path) -> EntryKind {
     }
 }
 
-/// Why a file that has the name of no image and no video might have been meant as one.
+/// Returns the reason why a file without the name of an image or a video may have been meant as
+/// one.
 fn reason(path: &Path) -> Option<SkipReason> {
     if let Some(name) = other_image(path) {
         return Some(SkipReason::ImageType { name });
@@ -70,7 +71,8 @@ fn reason(path: &Path) -> Option<SkipReason> {
     }
 }
 
-/// The entries of a folder in natural order, without hidden ones and those that systems leave behind.
+/// Returns the entries of a folder in natural order, without hidden entries and those that
+/// operating systems create.
 pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, FootageError> {
     let unreadable = |error: io::Error| FootageError::Unreadable {
         path: folder.to_owned(),
@@ -83,14 +85,14 @@ pub(crate) fn entries(folder: &Path) -> Result<Vec<PathBuf>, FootageError> {
     Ok(in_order(entries))
 }
 
-/// Paths in natural order, without hidden ones and those that systems leave behind.
+/// Sorts paths in natural order, and removes hidden ones and those that operating systems create.
 pub(crate) fn in_order(mut paths: Vec<PathBuf>) -> Vec<PathBuf> {
     paths.retain(|path| !is_hidden(path));
     paths.sort_by(|a, b| natural_order(a, b));
     paths
 }
 
-/// Whether an entry is nobody's footage: it is hidden, or a system left it behind.
+/// Returns true if an entry cannot be footage: it is hidden, or an operating system created it.
 fn is_hidden(path: &Path) -> bool {
     const LEFT_BEHIND: [&str; 8] = [
         "thumbs.db",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The files that an argument stands for. Hidden files are passed over.
+//! The files that an input stands for. Hidden files are ignored.
 
 use std::path::{Path, PathBuf};
 
@@ -13,7 +13,7 @@ use crate::options::ImagesAs;
 use crate::source::files::ImageFile;
 use crate::{FootageError, picture};
 
-/// The files that one argument stands for, with labels.
+/// Returns the files that one input stands for, with their labels.
 pub(crate) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, FootageError> {
     if input.is_dir() {
         return match images {
@@ -31,7 +31,7 @@ pub(crate) fn expand(input: &Path, images: ImagesAs) -> Result<Vec<ImageFile>, F
     }
 }
 
-/// `https://...` and its kin.
+/// Returns true if a text begins with a scheme such as `https://`.
 fn is_url(text: &str) -> bool {
     let scheme = text.split_once("://").map(|(scheme, _)| scheme);
     scheme.is_some_and(|scheme| {
@@ -39,7 +39,7 @@ fn is_url(text: &str) -> bool {
     })
 }
 
-/// Images apart from files that are a source each.
+/// Separates images from files that are a source of their own.
 #[allow(clippy::type_complexity, reason = "two lists")]
 pub(super) fn split(
     files: &mut Vec<ImageFile>,
@@ -55,7 +55,7 @@ pub(super) fn split(
     Ok((images, others))
 }
 
-/// The images of a folder, or the one clip that it holds.
+/// Returns the images of a folder, or its clips if it has no images.
 fn folder(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     let files = entries(path)?;
     let of = |kind: EntryKind| -> Vec<ImageFile> {
@@ -84,7 +84,8 @@ fn folder(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     }
 }
 
-/// The error of a folder with nothing to read: it is empty, or its images are of a type that is not read.
+/// Returns the error for a folder with nothing to read. It is empty, or its images have a type that
+/// is not read.
 fn no_footage(folder: &Path, files: &[PathBuf]) -> FootageError {
     let other = files.iter().find_map(|path| match entry_kind(path) {
         EntryKind::Skipped(Some(SkipReason::ImageType { name })) => Some((path, name)),
@@ -96,7 +97,8 @@ fn no_footage(folder: &Path, files: &[PathBuf]) -> FootageError {
     )
 }
 
-/// The images of a folder without a label, then those of each sub-folder under its name.
+/// Returns the images of a folder without a label, then the images of each sub-folder with the
+/// folder's name as label.
 fn labelled(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     let entries_here = entries(path)?;
     let is = |kind: EntryKind| move |path: &&PathBuf| entry_kind(path) == kind;
@@ -105,7 +107,7 @@ fn labelled(path: &Path) -> Result<Vec<ImageFile>, FootageError> {
     let mut all = entries_here.clone();
     for class in entries_here.iter().filter(is(EntryKind::Folder)) {
         let label = class.file_name().map(|name| name.to_string_lossy().into_owned());
-        // One that cannot be read is told with the other entries that are skipped.
+        // A folder that cannot be read is reported with the other skipped entries.
         let listed = entries(class).unwrap_or_default();
         let images = listed.iter().filter(is(EntryKind::Image)).cloned();
         files.extend(images.map(|path| ImageFile { path, label: label.clone() }));

@@ -12,12 +12,12 @@ use super::skipped::in_clip;
 use crate::FootageError;
 use crate::source::files::ImageFile;
 
-/// Whether a name is a pattern where it is not that of a file.
+/// Returns true if a name that is not that of a file is a pattern.
 pub(crate) fn is_pattern(text: &str) -> bool {
     text.contains(['*', '?', '['])
 }
 
-/// The images that a pattern names.
+/// Returns the images that a pattern matches.
 pub(super) fn pattern(text: &str) -> Result<Vec<ImageFile>, FootageError> {
     let files = matches(text, true)?;
     let of = |kind: EntryKind| -> Vec<&PathBuf> {
@@ -59,7 +59,7 @@ fn no_match(text: &str, files: &[PathBuf]) -> FootageError {
     other.unwrap_or_else(|| FootageError::NoMatch { pattern: text.to_owned() })
 }
 
-/// The files that a pattern names and that are not read.
+/// Returns the files that a pattern matches and that are not read.
 pub(crate) fn skipped_by_pattern(text: &str) -> Vec<SkippedInput> {
     let Ok(files) = matches(text, true) else { return Vec::new() };
     let mut found = Vec::new();
@@ -72,7 +72,7 @@ pub(crate) fn skipped_by_pattern(text: &str) -> Vec<SkippedInput> {
     found
 }
 
-/// All that has such a name.
+/// Returns all paths that a pattern matches.
 fn matches(text: &str, case_sensitive: bool) -> Result<Vec<PathBuf>, FootageError> {
     let invalid = |error: glob::PatternError| FootageError::Pattern {
         pattern: text.to_owned(),

@@ -1,55 +1,55 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why an entry of a folder or pattern is not read, as a value and in words.
+//! The reasons why entries of folders or patterns are not read, as values and as text.
 
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use crate::natural::is_same_number;
 
-/// Why an entry is not read.
+/// The reason why an entry is not read.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 #[non_exhaustive]
 pub enum SkipReason {
-    /// An image of a type that is not read.
+    /// It is an image of a type that is not read.
     ImageType {
         /// The name of the type.
         name: &'static str,
     },
-    /// A link whose target does not exist.
+    /// It is a link whose target does not exist.
     BrokenLink,
-    /// A file or folder that cannot be opened.
+    /// It is a file or folder that cannot be opened.
     Unreadable {
         /// The message of the system.
         problem: String,
     },
-    /// A device, a pipe or a folder with the name of an image or a video.
+    /// It is a device, a pipe or a folder with the name of an image or a video.
     NoFile,
-    /// A file whose name does not say what it is.
+    /// It is a file without an extension, so its name does not give its kind.
     NoExtension,
-    /// An image or a video with the name of something else.
+    /// It is an image or a video with the extension of another kind of file.
     OtherName,
-    /// A video whose extension is not looked for.
+    /// It is a video with an extension that is not searched in folders.
     VideoName,
-    /// A file of many images.
+    /// It is a file of many images.
     DataSet,
-    /// A video in a set of images.
+    /// It is a video in a set of images.
     VideoInSet,
-    /// A folder with images or videos below a folder of images.
+    /// It is a folder with images or videos below a folder of images.
     Below,
-    /// A folder with images or videos deeper than a set or tree is searched.
+    /// It is a folder with images or videos that lies deeper than a set or tree is searched.
     TooDeep,
-    /// A link to a folder in which it lies itself.
+    /// It is a link to a folder that contains the link.
     Loop,
-    /// A file that a pattern names in other capital or small letters.
+    /// It is a file that a pattern matches only if capital and small letters are equal.
     OtherCase,
 }
 
 /// An entry of a folder or pattern that is not read.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct SkippedInput {
-    /// The entry.
+    /// The path of the entry.
     pub path: PathBuf,
-    /// Why it is not read.
+    /// The reason why it is not read.
     pub reason: SkipReason,
 }
 
@@ -59,7 +59,8 @@ impl SkippedInput {
     }
 }
 
-/// Sentences about skipped entries, one for each reason, with how many there are and one of them.
+/// Returns sentences about skipped entries: one for each reason, with the number of entries and one
+/// example.
 pub(crate) fn sentences(place: &Path, skipped: &[SkippedInput]) -> Vec<String> {
     let mut groups: Vec<Vec<&SkippedInput>> = Vec::new();
     for one in skipped {
@@ -122,7 +123,7 @@ impl fmt::Display for SkipReason {
     }
 }
 
-/// Files that follow each other in a clip although their names have the same number.
+/// Returns two consecutive files of a clip whose names have the same number.
 pub(crate) fn same_number<'a>(files: &[&'a Path]) -> Option<(&'a Path, &'a Path)> {
     let mut pairs = files.iter().zip(files.get(1..)?);
     pairs.find(|(one, other)| is_same_number(one, other)).map(|(one, other)| (*one, *other))

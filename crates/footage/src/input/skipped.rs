@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Entries of folders and sets that are not read although they might have been meant. A clip without
-//! them has other times than one with them, so nobody should learn of it by chance.
+//! Entries of folders and sets that are not read although the user may have meant them. Without
+//! them the frames of a clip have other times, so the user is told about them.
 
 use std::path::{Path, PathBuf};
 
@@ -9,7 +9,7 @@ use super::reason::{SkipReason, SkippedInput};
 use crate::FootageError;
 use crate::extension::is_image_name;
 
-/// The skipped entries of a folder of images.
+/// Collects the skipped entries of a folder of images.
 pub(crate) fn in_clip(listed: &[PathBuf], found: &mut Vec<SkippedInput>) {
     for path in listed {
         match entry_kind(path) {
@@ -25,7 +25,7 @@ pub(crate) fn in_clip(listed: &[PathBuf], found: &mut Vec<SkippedInput>) {
     }
 }
 
-/// The skipped entries of a set and of its classes.
+/// Collects the skipped entries of a set and of its class folders.
 pub(crate) fn in_set(listed: &[PathBuf], depth: u32, found: &mut Vec<SkippedInput>) {
     for path in listed {
         match entry_kind(path) {
@@ -43,7 +43,7 @@ pub(crate) fn in_set(listed: &[PathBuf], depth: u32, found: &mut Vec<SkippedInpu
     }
 }
 
-/// A folder that is not searched, if it holds footage or cannot be read.
+/// Returns a folder that is not searched if it has footage or cannot be read.
 pub(crate) fn below(folder: &Path, reason: SkipReason) -> Option<SkippedInput> {
     match holds_footage(folder, 0) {
         Ok(true) => Some(SkippedInput::new(folder, reason)),
@@ -60,7 +60,7 @@ pub(crate) fn unreadable(path: &Path, error: &FootageError) -> SkippedInput {
     SkippedInput::new(path, SkipReason::Unreadable { problem })
 }
 
-/// Whether a folder, or one below it, holds an image or a video.
+/// Returns true if a folder, or one below it, has an image or a video.
 fn holds_footage(folder: &Path, depth: u32) -> Result<bool, FootageError> {
     const DEPTH: u32 = 4;
     let listed = entries(folder)?;

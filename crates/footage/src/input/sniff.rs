@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The reader of a file that is no image, chosen by the first bytes.
+//! The choice of a reader for a file that is not an image, by its first bytes.
 
 use std::io::Read;
 use std::path::Path;
@@ -10,22 +10,22 @@ use crate::extension::{is_video_name, other_image};
 use crate::sets::{cifar, idx, open_unpacked};
 use crate::y4m;
 
-/// Files that are read as one source each.
+/// The kinds of files that are one source each.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum FileKind {
     Idx,
     CifarBatch,
     Y4m,
-    /// Whatever ffmpeg makes of it.
+    /// Any file that ffmpeg can read.
     Video,
 }
 
-/// Bytes that are looked at.
+/// The number of bytes that are read.
 const START: u64 = 512;
 
 pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
     let mut start = Vec::new();
-    // What does not unpack is no IDX; ffmpeg will say what it thinks of it.
+    // A file that cannot be unpacked is not IDX; ffmpeg reports what is wrong with it.
     let _ = open_unpacked(path)?.take(START).read_to_end(&mut start);
     let frameless = |problem: &str| FootageError::Frameless {
         path: path.to_owned(),
@@ -57,7 +57,7 @@ pub(crate) fn kind(path: &Path) -> Result<FileKind, FootageError> {
     let other = match of_start(&start) {
         Content::OtherImage(name) => Some(name),
         Content::Unknown => other_image(path),
-        // ffmpeg would draw it, letter by letter.
+        // ffmpeg would render the text as frames.
         Content::Text if !is_video_name(path) => {
             return Err(FootageError::Video {
                 path: path.to_owned(),

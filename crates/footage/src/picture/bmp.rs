@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether the runs of a BMP fill its rows. The decoder draws black where they do not, and does not ask for
-//! their end.
+//! The check of run-length coded BMP files: the runs must fill the rows. The decoder draws black
+//! for missing pixels, and does not require the end code.
 
 use super::fault::PictureFault;
 
-/// Follows the runs of a picture of which the decoder has read the header; other pictures have none.
+/// Follows the runs of a file whose header the decoder has read. Files without runs have nothing to
+/// check.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     let Some(RunLengthReader { width, height, half, mut codes }) = runs(bytes) else {
         return Ok(());
@@ -46,11 +47,11 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     }
 }
 
-/// A picture coded in runs.
+/// The run-length codes of a file, and the size of its picture.
 struct RunLengthReader<'a> {
     width: u32,
     height: u32,
-    /// Whether a pixel has four bits.
+    /// A pixel has four bits instead of eight.
     half: bool,
     codes: &'a [u8],
 }
@@ -63,7 +64,7 @@ fn runs(bytes: &[u8]) -> Option<RunLengthReader<'_>> {
         2 => true,
         _ => return None,
     };
-    // Shorter headers have no field for it.
+    // Shorter headers do not have the field `compression`.
     (header >= 40).then_some(())?;
     let height = i32::from_le_bytes(word(22)?.to_le_bytes()).unsigned_abs();
     Some(RunLengthReader { width: word(18)?, height, half, codes: bytes.get(offset as usize..)? })

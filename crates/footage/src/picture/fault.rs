@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Damage that a reader finds in the bytes of an image.
+//! The damage that a check finds in the bytes of an image.
 
-/// Why the bytes of an image are not a whole image.
+/// The fault because of which the bytes are not a complete image.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum PictureFault {
-    /// The file ends before the image does; the text says what is missing.
+    /// The file ends before the image does. The text says what is missing.
     Truncated(String),
-    /// The image holds bytes that its format does not allow; the text says which.
+    /// The image has bytes that its format does not allow. The text says which.
     Damaged(String),
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether a JPEG is whole. Decoders are lenient with this format: where data is missing or wrong they
-//! fill up with grey, or draw what the wrong codes say. This check follows the segments and the codes of
+//! The check that a JPEG is complete. Decoders are lenient with this format: they fill missing or
+//! wrong data with grey, or draw the wrong codes. This check follows the segments and the codes of
 //! every scan without computing a pixel, and refuses what the format does not allow.
 //!
-//! A JPEG has no checksums. Damage shows when it leaves a code that is in no table, a block with too many
-//! coefficients, a restart marker out of turn, or when data is left over or missing at the end of a scan.
-//! Damage that gives as many valid codes as there were cannot be told from another picture.
+//! A JPEG has no checksums. Damage is found if it leaves a code that is in no table, a block with
+//! too many coefficients, a restart marker out of order, or missing or excess data at the end of a
+//! scan. Damage that leaves the same number of valid codes cannot be found.
 
 mod bits;
 mod block;
@@ -19,12 +19,13 @@ use self::huffman::HuffmanTable;
 use self::scan::{HuffmanTables, ScanHeader};
 use super::fault::PictureFault;
 
-/// Finds damage between the start and the end marker; what comes after it is of no concern. Kinds of
-/// JPEG that the decoder does not read either, such as lossless ones, are left to it.
+/// Finds damage between the start marker and the end marker; bytes after the end marker are
+/// ignored. Kinds of JPEG that the decoder does not support either, such as lossless ones, are left
+/// to the decoder.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     let mut tables = HuffmanTables::default();
     let mut frame: Option<FrameHeader> = None;
-    // After the start marker, SOI.
+    // The start marker SOI has two bytes.
     let mut at = 2;
     loop {
         let (marker, next) = match marker_at(bytes, at) {
@@ -37,7 +38,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
         at = next;
         match marker {
             0xD9 => return whole(frame.as_ref()),
-            // A restart marker may also end the last run, and TEM says nothing.
+            // A restart marker may also end the last run, and TEM has no content.
             0x01 | 0xD0..=0xD7 => continue,
             0xD8 => return Err(PictureFault::damaged("a second picture begins inside it (SOI)")),
             _ => {}
@@ -56,7 +57,7 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
                     return Ok(());
                 }
             }
-            // Lossless, hierarchical, arithmetic.
+            // These are lossless, hierarchical and arithmetic-coded files.
             0xC3 | 0xC5..=0xC7 | 0xC9..=0xCF | 0xDE | 0xDF => return Ok(()),
             0xC4 => huffman_tables(segment, &mut tables)?,
             0xDD => {
@@ -70,13 +71,13 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
                     .ok_or_else(|| PictureFault::damaged("a scan comes before the frame (SOF)"))?;
                 at = ScanHeader::read(frame, segment)?.follow(frame, &tables, bytes, at)?;
             }
-            // Quantization and application data, comments.
+            // These are quantization tables, application data and comments.
             _ => {}
         }
     }
 }
 
-/// The content of the segment whose length stands at a place.
+/// Returns the content of the segment whose length is at position `at`.
 fn segment(bytes: &[u8], at: usize) -> Result<&[u8], PictureFault> {
     let short = || PictureFault::truncated("it ends inside a segment");
     let rest = bytes.get(at..).unwrap_or_default();
@@ -87,7 +88,7 @@ fn segment(bytes: &[u8], at: usize) -> Result<&[u8], PictureFault> {
     rest.get(2..length).ok_or_else(short)
 }
 
-/// Reads the tables of a segment DHT.
+/// Reads the tables of a DHT segment.
 fn huffman_tables(mut segment: &[u8], tables: &mut HuffmanTables) -> Result<(), PictureFault> {
     let wrong = || PictureFault::damaged("a segment of Huffman tables (DHT) is wrong");
     while let Some((&name, rest)) = segment.split_first() {
@@ -106,7 +107,7 @@ fn huffman_tables(mut segment: &[u8], tables: &mut HuffmanTables) -> Result<(), 
     Ok(())
 }
 
-/// Whether every component has been sent, to its lowest bits, when the end marker comes.
+/// Checks at the end marker that every component has been sent down to its lowest bits.
 fn whole(frame: Option<&FrameHeader>) -> Result<(), PictureFault> {
     let frame = frame.ok_or_else(|| PictureFault::damaged("it has no frame (SOF)"))?;
     let lacks = |component: &Component| {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether a PNG is whole: the checksum of every chunk, its end chunk, and that its compressed data are as
-//! long as its pixels and have the right checksum. The decoder stops at the last pixel, and passes over
-//! checksums of chunks that it does not need.
+//! The check that a PNG is complete: every chunk has a correct checksum, there is an end chunk, and
+//! the compressed data has the length of the pixels and a correct checksum. The decoder stops at
+//! the last pixel, and ignores the checksums of chunks that it does not need.
 
 use std::io::{self, Read};
 
@@ -12,13 +12,13 @@ use crate::limits::{MAX_FILE_GIB, MAX_SIDE};
 
 const SIGNATURE: usize = 8;
 
-/// A chunk: its name, and its data.
+/// A chunk with its name and its data.
 struct Chunk<'a> {
     name: [u8; 4],
     data: &'a [u8],
 }
 
-/// Finds damage from the signature to the end chunk; bytes after it are of no concern.
+/// Finds damage between the signature and the end chunk; bytes after it are ignored.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     let mut rest = bytes.get(SIGNATURE..).unwrap_or_default();
     let mut header = None;
@@ -32,14 +32,14 @@ pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
             _ => {}
         }
     }
-    // Without a size, or with one that is beyond the limits, the decoder says what is wrong.
+    // If there is no size, or it is beyond the limits, the decoder reports the problem.
     match header.and_then(raw_length) {
         Some(length) if length <= MAX_FILE_GIB << 30 => inflate(&pixels, length),
         _ => Ok(()),
     }
 }
 
-/// Takes the next chunk off the front: length, name, data, checksum.
+/// Takes the next chunk from the front: length, name, data, checksum.
 fn next<'a>(rest: &mut &'a [u8]) -> Result<Chunk<'a>, PictureFault> {
     let short = || PictureFault::truncated("it has no end chunk (IEND)");
     let (length, body) = rest.split_first_chunk().ok_or_else(short)?;
@@ -55,9 +55,9 @@ fn next<'a>(rest: &mut &'a [u8]) -> Result<Chunk<'a>, PictureFault> {
     Ok(Chunk { name: *name, data })
 }
 
-/// Bytes of all rows with their filters, as the header says.
+/// Returns the number of bytes of all rows with their filter bytes, according to the header.
 fn raw_length(header: &[u8]) -> Option<u64> {
-    /// First pixel and step of the passes of Adam7, across and down.
+    /// The first pixel and the step of each pass of Adam7, across and down.
     const PASSES: [[u32; 4]; 7] = [
         [0, 8, 0, 8],
         [4, 8, 0, 8],
@@ -96,7 +96,7 @@ fn raw_length(header: &[u8]) -> Option<u64> {
     }
 }
 
-/// Unpacks the compressed data, which are as long as the rows, and nothing else.
+/// Unpacks the compressed data, and checks that it has exactly the length of the rows.
 fn inflate(pixels: &[&[u8]], length: u64) -> Result<(), PictureFault> {
     let packed = pixels.concat();
     let mut rows = ZlibDecoder::new(packed.as_slice());

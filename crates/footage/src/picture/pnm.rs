@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether a PNM file holds one whole image: no sample beyond its maximum, and nothing after the last
-//! pixel. The decoder takes larger samples for white, and does not look further.
+//! The check that a PNM file has exactly one complete image: no sample above its maximum, and
+//! nothing after the last pixel. The decoder reads larger samples as white, and ignores what
+//! follows.
 
 use super::fault::PictureFault;
 use crate::limits::MAX_SIDE;
@@ -15,7 +16,7 @@ struct Header {
     largest: u64,
 }
 
-/// Finds what the decoder passes over. A header that is wrong is left to it.
+/// Finds damage that the decoder ignores. A wrong header is left to the decoder.
 pub(super) fn check(bytes: &[u8]) -> Result<(), PictureFault> {
     let Some((header, raster)) = header(bytes) else { return Ok(()) };
     match header.kind {
@@ -57,7 +58,7 @@ fn text(header: &Header, raster: &[u8]) -> Result<(), PictureFault> {
     let mut found = 0;
     while found < needed {
         rest = rest.trim_ascii_start();
-        // The digits of a bitmap may stand without spaces between them.
+        // The digits of a bitmap may follow each other without spaces.
         let most = if header.kind == b'1' { 1 } else { rest.len() };
         let length = rest.iter().take(most).take_while(|byte| byte.is_ascii_digit()).count();
         let digits = str::from_utf8(&rest[..length]).unwrap_or_default();
@@ -88,7 +89,7 @@ fn refuse_sample(header: &Header, sample: Option<u64>) -> Result<(), PictureFaul
     })
 }
 
-/// Only white space may stand after the pixels.
+/// Refuses everything but white space after the pixels.
 fn refuse_more(after: &[u8]) -> Result<(), PictureFault> {
     match after.trim_ascii_start() {
         [] => Ok(()),
@@ -99,7 +100,7 @@ fn refuse_more(after: &[u8]) -> Result<(), PictureFault> {
     }
 }
 
-/// The header, and what stands after it.
+/// Returns the header and the bytes after it.
 fn header(bytes: &[u8]) -> Option<(Header, &[u8])> {
     let (&[b'P', kind @ b'1'..=b'7'], mut rest) = bytes.split_first_chunk()? else { return None };
     if kind == b'7' {
@@ -114,14 +115,14 @@ fn header(bytes: &[u8]) -> Option<(Header, &[u8])> {
     known(Header { kind, width, height, samples, largest }, raster)
 }
 
-/// A header within the limits.
+/// Returns the header if it is within the limits.
 fn known(header: Header, raster: &[u8]) -> Option<(Header, &[u8])> {
     let sides = header.width.max(header.height) <= u64::from(MAX_SIDE);
     (sides && header.samples <= 4 && (1..=65_535).contains(&header.largest))
         .then_some((header, raster))
 }
 
-/// A number after white space and comments.
+/// Reads a number after white space and comments.
 fn number(rest: &mut &[u8]) -> Option<u64> {
     loop {
         *rest = rest.trim_ascii_start();
@@ -139,7 +140,7 @@ fn number(rest: &mut &[u8]) -> Option<u64> {
     digits.parse().ok().filter(|&number| number <= u64::from(u32::MAX))
 }
 
-/// The header of a PAM, whose lines have names.
+/// Reads the header of a PAM, in which every line begins with a name.
 fn arbitrary(mut rest: &[u8]) -> Option<(Header, &[u8])> {
     let mut values = [None; 4];
     loop {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! CIFAR images, 32x32 in colour: the binary batches as published (CIFAR-10: a label and three
-//! planes; CIFAR-100: two labels, of which the second, finer one is kept), and sheets, pictures of
-//! 1024 columns of which each row is one image, row by row.
+//! CIFAR images of 32x32 pixels in colour. Binary batches have the published format (CIFAR-10: a
+//! label and three planes per image; CIFAR-100: two labels, of which the second, finer one is
+//! kept). Sheets are pictures of 1024 columns in which each row is one image in row-major order.
 
 use std::fs::File;
 use std::io::{BufReader, ErrorKind, Read};
@@ -16,10 +16,11 @@ use crate::{FootageError, Kind, SourceFrame, picture};
 
 const SIDE: u32 = 32;
 const AREA: usize = 1024;
-/// Columns of a sheet.
+/// The number of columns of a sheet.
 pub(crate) const WIDTH: u32 = 1024;
 
-/// The labels before every image of a batch of this length, if it is one.
+/// Returns the number of labels before every image of a batch of this length in bytes, or `None` if
+/// the length is not that of a batch.
 pub(crate) fn labels_in_batch(length: u64) -> Option<usize> {
     (1..=2).find(|&labels| {
         let record = (labels + 3 * AREA) as u64;
@@ -59,7 +60,7 @@ impl Feed for Batch {
             return Ok(None);
         }
         self.file.read_exact(&mut self.record).map_err(|error| match error.kind() {
-            // Its length was right when it was opened.
+            // The length was right when the file was opened.
             ErrorKind::UnexpectedEof => damaged(&self.path, "it ends before its last image"),
             _ => unreadable(&self.path)(error),
         })?;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! IDX files of 8-bit images (MNIST), plain or gzipped, with the labels of the file beside them.
+//! IDX files of 8-bit images (MNIST), plain or gzipped, with the labels from a second file.
 
 use std::io::{self, BufRead, Read};
 use std::path::{Path, PathBuf};
@@ -10,10 +10,11 @@ use crate::source::feed::Feed;
 use crate::source::form::{IdxFile, Labels, SetFiles, SetForm};
 use crate::{FootageError, Kind, MAX_SIDE, SourceFrame};
 
-/// What a file of images starts with: unsigned bytes in three dimensions.
+/// The first bytes of a file of images: unsigned bytes in three dimensions.
 pub(crate) const MAGIC: [u8; 4] = [0, 0, 8, 3];
 pub(crate) const LABEL_MAGIC: [u8; 4] = [0, 0, 8, 1];
-/// The most labels of a file. They are in memory, a byte each; images are read one by one, and have no such limit.
+/// The largest number of labels of a file. Labels are kept in memory, one byte each. Images are
+/// read one by one, so their number is not limited.
 const MAX_LABELS: u32 = 1 << 28;
 
 /// The images of a file.
@@ -29,7 +30,8 @@ pub(crate) struct Idx {
 }
 
 impl Idx {
-    /// `labels` is the file of labels; without one, that beside the images is taken if there is one.
+    /// Opens a file of images. `labels` is the file of labels; without it, the usual file of labels
+    /// in the same folder is used, if it exists.
     pub(crate) fn open(
         path: &Path,
         labels: Option<&Path>,
@@ -72,7 +74,7 @@ impl Feed for Idx {
         let (width, height) = self.size;
         let mut bytes = Vec::new();
         let size = u64::from(width) * u64::from(height);
-        // Memory grows with what is there, not with what the header says.
+        // Memory grows with the bytes that exist, not with the size in the header.
         (&mut *self.input).take(size).read_to_end(&mut bytes).map_err(cut(&self.path))?;
         let layout = Layout::flat(width, height, 8);
         let frame = layout
@@ -112,20 +114,20 @@ fn form_of(images: &Path, labels: Option<&Path>) -> Result<SetForm, FootageError
     Ok(SetForm { files, labels })
 }
 
-/// Whether a file starts as an IDX file of another kind does: two zeros, a type of number, and how many
-/// dimensions there are.
+/// Returns true if a file starts as an IDX file of another kind: two zeros, a type of number, and
+/// the number of dimensions.
 pub(crate) fn is_other(start: &[u8]) -> bool {
     let known = matches!(start, [0, 0, 0x08 | 0x09 | 0x0B..=0x0E, 1..=4, ..]);
     known && !start.starts_with(&MAGIC)
 }
 
-/// Whether it is a file of images without labels beside it.
+/// Returns true for a file of images that has no file of labels in its folder.
 pub(crate) fn lacks_labels(path: &Path) -> bool {
     let start = || read(&mut *open_unpacked(path)?, path);
     path.is_file() && beside(path).is_none() && start().is_ok_and(|start: [u8; 4]| start == MAGIC)
 }
 
-/// The usual name of the file of labels, where that of the images is usual, too.
+/// Returns the usual name of the file of labels, if the file of images has its usual name.
 pub(crate) fn labels_name(path: &Path) -> Option<String> {
     let name = path.file_name()?.to_str()?;
     let stem = name.strip_suffix(".gz").unwrap_or(name);
@@ -133,7 +135,7 @@ pub(crate) fn labels_name(path: &Path) -> Option<String> {
     (labels != stem).then_some(labels)
 }
 
-/// `train-images-idx3-ubyte.gz` has its labels in `train-labels-idx1-ubyte`, packed or not.
+/// Finds the labels of `train-images-idx3-ubyte.gz` in `train-labels-idx1-ubyte`, gzipped or not.
 fn beside(path: &Path) -> Option<PathBuf> {
     let labels = labels_name(path)?;
     let names = [labels.clone(), labels + ".gz"];

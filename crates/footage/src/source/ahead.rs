@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames read on a thread of their own, a few ahead of whoever works on them: reading and working
-//! go on side by side, and memory stays as it is. Buffers go back to the source and are used again.
+//! The reading of frames on a separate thread, a few ahead of the work on them. Reading and work
+//! run in parallel, and memory is bounded. Buffers return to the source and are used again.
 
 use std::sync::mpsc::{Receiver, Sender, SyncSender, channel, sync_channel};
 use std::thread;
@@ -8,10 +8,10 @@ use std::thread;
 use super::{Origin, Source, SourceFrame};
 use crate::FootageError;
 
-/// Frames that wait; beside them one is read and one is worked on.
+/// The number of frames that wait. Besides them, one is being read and one is being worked on.
 const AHEAD: usize = 3;
 
-/// A frame, and where it was in its input.
+/// A frame and its origin.
 type Read = Result<(SourceFrame, Option<Origin>), FootageError>;
 
 /// The frames of a source that is read ahead.
@@ -21,25 +21,26 @@ pub struct Frames {
 }
 
 impl Frames {
-    /// The next frame and where it was in its input, as of [`Source::origin`], or `None` after the last.
+    /// Returns the next frame and its origin, as [`Source::origin`] gives it, or `None` after the
+    /// last frame.
     ///
     /// # Errors
-    /// When the source cannot be read further.
+    /// Fails if the source cannot be read further.
     pub fn next(&self) -> Result<Option<(SourceFrame, Option<Origin>)>, FootageError> {
         self.frames.recv().ok().transpose()
     }
 
-    /// Gives the memory of a frame back.
+    /// Gives the memory of a frame back to the source.
     pub fn give_back(&self, frame: SourceFrame) {
-        // A source that has ended needs none.
+        // A source that has ended needs no memory.
         let _ = self.used.send(frame);
     }
 }
 
-/// Does `work` on the frames of a source. Once it returns, no more are read.
+/// Runs `work` on the frames of a source. Once it returns, no more frames are read.
 ///
 /// # Errors
-/// Those of `work`, and when the system gives no thread.
+/// The errors are those of `work`, and a thread that the system cannot start.
 pub fn read_ahead<T, E: From<FootageError>>(
     source: &mut dyn Source,
     work: impl FnOnce(Frames) -> Result<T, E>,
@@ -58,7 +59,7 @@ fn read(source: &mut dyn Source, sender: &SyncSender<Read>, returned: &Receiver<
     while let Some(next) = source.next_frame().transpose() {
         let last = next.is_err();
         let next = next.map(|frame| (frame, source.origin()));
-        // Nobody listens any more once the work is done.
+        // After the work is done, nothing receives frames any more.
         if sender.send(next).is_err() || last {
             return;
         }

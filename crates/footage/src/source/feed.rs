@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What every kind of input is underneath, and the one source made of it: frames are taken or left by
-//! their times, cropped, scaled, and held to one size, all in the same way whatever they come from.
+//! The interface of all kinds of input, and the source that is made of it. Frames are selected by
+//! their times, cropped, scaled, and checked to have one size, in the same way for every kind of
+//! input.
 
 use super::form::SetForm;
 use super::resize;
@@ -9,47 +10,47 @@ use super::{Kind, Origin, Source, SourceFrame};
 use crate::limits::Crop;
 use crate::{FootageError, InputOptions};
 
-/// Frames as they come, of any size.
+/// A kind of input. It returns frames as they come, of any size.
 pub(crate) trait Feed: Send {
-    /// The next frame, or `None` after the last.
+    /// Returns the next frame, or `None` after the last.
     fn next(&mut self) -> Result<Option<SourceFrame>, FootageError>;
 
-    /// How many there will be, as far as is known.
+    /// Returns the number of all frames, if it is known.
     fn total(&self) -> Option<u64>;
 
-    /// Whether frames follow each other in time.
+    /// Returns the relation between the frames.
     fn kind(&self) -> Kind {
         Kind::Clip
     }
 
-    /// Of a set: what files hold it, and what its labels are.
+    /// Returns the kind of the files and of the labels of a set.
     fn form(&self) -> SetForm {
         SetForm::default()
     }
 
-    /// Why it ended before its end, once it has.
+    /// After the last frame, returns the problem because of which the input ended too early.
     fn problem(&self) -> Option<String> {
         None
     }
 
-    /// Takes back the memory of a frame that is done with.
+    /// Takes back the memory of a frame that is no longer needed.
     fn give_back(&mut self, _bytes: Vec<u8>) {}
 
-    /// No more frames are wanted: what feeds them may end.
+    /// Ends the input, since no more frames are needed.
     fn stop(&mut self) {}
 
-    /// Whether every frame is a file with a name of its own.
+    /// Returns true if every frame is a file with its own name.
     fn is_of_files(&self) -> bool {
         false
     }
 
-    /// Whether what came before a fault is a result worth keeping, as of a long recording.
+    /// Returns true if the frames before a fault are worth keeping, as for a long recording.
     fn is_stream(&self) -> bool {
         false
     }
 }
 
-/// What is done to frames on the way.
+/// The selection, cropping and scaling of frames.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Adjustment {
     pub(crate) selection: Selection,
@@ -59,7 +60,7 @@ pub(crate) struct Adjustment {
 }
 
 impl Adjustment {
-    /// What the options ask for.
+    /// Returns the adjustment that the options ask for.
     pub(crate) fn of(options: &InputOptions) -> Self {
         Self {
             selection: options.selection,
@@ -70,20 +71,20 @@ impl Adjustment {
     }
 }
 
-/// A feed whose frames are adjusted, all of one size.
+/// A source that adjusts the frames of a feed, and checks that all have one size.
 pub(crate) struct Input {
     names: Vec<String>,
     feed: Box<dyn Feed>,
     adjustment: Adjustment,
     selector: Selector,
-    /// The first frame, read to learn the size.
+    /// The first frame, which was read early to learn the size.
     first: Option<SourceFrame>,
     first_name: String,
     size: (u32, u32),
-    /// Frames that the feed has given, taken or not.
+    /// The number of frames that the feed has returned, selected or not.
     given: u64,
     taken: u64,
-    /// Of the frame that was taken last.
+    /// The origin of the frame that was selected last.
     origin: Option<Origin>,
     problem: Option<String>,
     ended: bool,
@@ -133,7 +134,7 @@ impl Input {
         self.names.join(", ") + selected
     }
 
-    /// The next frame that is wanted, cropped and scaled.
+    /// Returns the next selected frame, cropped and scaled.
     fn take(&mut self) -> Result<Option<SourceFrame>, FootageError> {
         let limit = self.adjustment.frames.map(u64::from);
         while !self.ended && limit.is_none_or(|limit| self.taken < limit) {
@@ -173,7 +174,8 @@ impl Input {
         self.feed.stop();
     }
 
-    /// A stream that changes its size ends there, with what came before; images are refused.
+    /// Handles a frame of another size. A stream ends there and keeps the frames before; images are
+    /// refused.
     fn other_size(&mut self, other: &SourceFrame) -> Result<Option<SourceFrame>, FootageError> {
         let other_size = (other.frame.width(), other.frame.height());
         if !self.feed.is_stream() {
@@ -233,7 +235,7 @@ impl Source for Input {
         }
     }
 
-    /// The first frame is read early, but no other before it is given.
+    /// The first frame is read early. Until it is returned, there is no origin.
     fn origin(&self) -> Option<Origin> {
         self.origin.filter(|_| self.first.is_none())
     }

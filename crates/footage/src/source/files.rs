@@ -19,13 +19,13 @@ pub(crate) struct ImageFile {
 }
 
 impl ImageFile {
-    /// A file without a label.
+    /// Makes an entry for a file without a label.
     pub(crate) fn plain(path: PathBuf) -> Self {
         Self { path, label: None }
     }
 }
 
-/// Image files in a given order.
+/// A feed of image files in a given order.
 pub(crate) struct ImageFiles {
     files: std::vec::IntoIter<ImageFile>,
     total: u64,
@@ -78,7 +78,7 @@ impl Feed for ImageFiles {
     }
 }
 
-/// The frames of a scene.
+/// A feed of the frames of a scene.
 pub(crate) struct SceneFeed {
     name: String,
     total: u64,

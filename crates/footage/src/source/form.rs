@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a set is as files, so that a set made of it can have the same form.
+//! The form of a set as files. A set that is made from it can have the same form.
 
 /// The files and the labels of a set.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct SetForm {
-    /// What holds the images.
+    /// The kind of the files that hold the images.
     pub files: SetFiles,
-    /// What the labels are.
+    /// The kind of the labels.
     pub labels: Labels,
 }
 
-/// What holds the images of a set.
+/// The kind of the files that hold the images of a set.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum SetFiles {
-    /// A file each.
+    /// Every image is a file.
     #[default]
     Images,
-    /// Records in another file, without names of their own.
+    /// The images are records in another file, without names of their own.
     Records,
-    /// An IDX file, and one of labels.
+    /// The images are in an IDX file, and the labels in another one.
     Idx {
-        /// The images.
+        /// The file of images.
         images: IdxFile,
-        /// The labels, if there are any.
+        /// The file of labels, if there is one.
         labels: Option<IdxFile>,
     },
 }
@@ -30,26 +30,27 @@ pub enum SetFiles {
 /// An IDX file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct IdxFile {
-    /// Its name, without the folder.
+    /// The name of the file, without the folder.
     pub name: String,
-    /// Whether it is gzipped.
+    /// The file is gzipped.
     pub packed: bool,
 }
 
-/// What the labels of a set are.
+/// The kind of the labels of a set.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Labels {
-    /// There are none.
+    /// There are no labels.
     #[default]
     None,
-    /// Numbers as they are.
+    /// The labels are numbers.
     Numbers,
-    /// Names, each once and in byte order; a label's number is its place here.
+    /// The labels are names, each listed once and in byte order. The number of a label is its index
+    /// in this list.
     Names(Vec<String>),
 }
 
 impl Labels {
-    /// The number of a label; -1 for none.
+    /// Returns the number of a label, or -1 if there is none.
     #[must_use]
     pub fn number(&self, label: Option<&str>) -> i64 {
         let number = label.and_then(|label| match self {

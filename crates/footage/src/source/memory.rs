@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames that a program has in memory already, as a source like any other.
+//! Frames that are already in memory, as a source like any other.
 
 use foveate_frame::Raster;
 
@@ -7,7 +7,7 @@ use super::feed::{Adjustment, Feed, Input};
 use super::{Kind, Source, SourceFrame};
 use crate::{FootageError, FrameRate, ImagesAs, InputOptions};
 
-/// Frames in a given order.
+/// A feed of frames in a given order.
 struct Memory {
     name: String,
     frames: std::vec::IntoIter<Raster>,
@@ -17,11 +17,11 @@ struct Memory {
     kind: Kind,
 }
 
-/// Frames that are in memory as one source, read with the same options as files. `name` is what they are called in
+/// Makes a source of frames in memory. The same options apply as for files. `name` is their name in
 /// results.
 ///
 /// # Errors
-/// When there are none, or an option does not go with them.
+/// Fails if there are no frames, or if an option does not apply to frames in memory.
 pub fn in_memory(
     name: &str,
     frames: Vec<Raster>,

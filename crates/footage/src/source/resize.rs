@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cropping, and scaling by area, in integers: the same bits for every source and on every machine.
+//! Cropping, and scaling by area, in integers: the results are identical for every source and on
+//! every machine.
 //!
-//! Each pixel of the result is the mean of the part of the picture that it covers, edges in
-//! proportion, rounded to the nearest (halves up). Going down this is box filtering, going up it is
-//! nearest-neighbor with blended seams.
+//! Each pixel of the result is the mean of the part of the frame that it covers. Pixels at the edge
+//! of that part count in proportion. The mean is rounded to the nearest, halves up. Downscaling is
+//! box filtering; upscaling is nearest-neighbor with blended borders.
 
 use foveate_frame::{Plane, Raster};
 
 use crate::{Crop, FootageError};
 
-/// The part of a frame.
+/// Returns the part of a frame.
 pub(crate) fn crop(frame: &Raster, crop: Crop) -> Result<Raster, FootageError> {
     let (width, height) = crop.size;
     let fits = |at: u32, size: u32, whole: u32| {
@@ -25,14 +26,14 @@ pub(crate) fn crop(frame: &Raster, crop: Crop) -> Result<Raster, FootageError> {
     }?)
 }
 
-/// The part of pixels in rows of `whole`, in which it is known to lie.
+/// Returns the part of pixels in rows of `whole` pixels. The part must lie inside.
 fn part<T: Copy>(pixels: &[T], whole: usize, crop: Crop) -> Vec<T> {
     let (left, right) = (crop.at.0 as usize, (crop.at.0 + crop.size.0) as usize);
     let rows = pixels.chunks_exact(whole).skip(crop.at.1 as usize).take(crop.size.1 as usize);
     rows.flat_map(|row| &row[left..right]).copied().collect()
 }
 
-/// The frame at another size.
+/// Returns the frame scaled to another size.
 pub(crate) fn resize(frame: Raster, width: u32, height: u32) -> Result<Raster, FootageError> {
     let from = (frame.width(), frame.height());
     if from == (width, height) {
@@ -67,21 +68,23 @@ fn scaled<T: Copy + Into<u64>>(values: &[T], from: (u32, u32), to: (u32, u32)) -
     pixels
 }
 
-/// What one pixel of the result covers, in parts of 1 / `scale` source pixels.
+/// The range of source coordinates that one pixel of the result covers, in units of 1 / `scale`
+/// source pixels.
 struct Span {
     start: u64,
     end: u64,
     scale: u64,
 }
 
-/// Pixel j of `to` covers j * from .. (j + 1) * from where source pixel i is i * to .. (i + 1) * to.
+/// Returns the ranges of all pixels. In common units, pixel j of `to` covers j * from .. (j + 1) *
+/// from, and source pixel i covers i * to .. (i + 1) * to.
 fn spans(from: u32, to: u32) -> Vec<Span> {
     let (from, scale) = (u64::from(from), u64::from(to));
     (0..scale).map(|j| Span { start: j * from, end: (j + 1) * from, scale }).collect()
 }
 
 impl Span {
-    /// Source pixels with their weights, which add up to the size of the source.
+    /// Returns the source pixels with their weights, which add up to the size of the source.
     fn parts(&self) -> impl Iterator<Item = (usize, u64)> + '_ {
         (self.start / self.scale..self.end.div_ceil(self.scale)).map(|i| {
             let (low, high) = (i * self.scale, (i + 1) * self.scale);
@@ -107,10 +110,10 @@ mod tests {
 
     #[test]
     fn pixels_at_the_edge_count_in_proportion() {
-        // 3 to 2: (2 a + b) / 3 and (b + 2 c) / 3.
+        // Scaling 3 pixels to 2 gives (2 a + b) / 3 and (b + 2 c) / 3.
         assert_eq!(resize(frame(3, 1, &[0, 90, 255]), 2, 1).unwrap().plane().to_words(), [30, 200]);
         assert_eq!(resize(frame(1, 3, &[0, 90, 255]), 1, 2).unwrap().plane().to_words(), [30, 200]);
-        // 2 to 3: the middle is half of each.
+        // Scaling 2 pixels to 3 puts half of each into the middle pixel.
         assert_eq!(resize(frame(2, 1, &[10, 20]), 3, 1).unwrap().plane().to_words(), [10, 15, 20]);
     }
 

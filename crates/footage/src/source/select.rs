@@ -1,37 +1,39 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which frames of a clip are taken, by their times. Nothing is ever repeated or mixed.
+//! The selection of frames of a clip by their times. No frame is repeated or blended.
 //!
-//! * `start` and `end`: frames with start <= t < end.
-//! * `rate`: at most that many per second. Due times are 0, 1/F, 2/F ...; the first frame at or after
-//!   a due time is taken, and the next due time is the first after it. A frame that is early by 1 ms,
-//!   or by an eighth of 1/F if that is less, counts as due: containers round their times.
+//! * `start` and `end` select frames with start <= t < end.
+//! * `rate` selects at most that many frames per second. Due times are 0, 1/F, 2/F and so on. The
+//!   first frame at or after a due time is selected, and the next due time is the first one after
+//!   it. A frame that is early by 1 ms, or by an eighth of 1/F if that is less, counts as due,
+//!   because containers round their times.
 
 use crate::{FootageError, FrameRate};
 
-/// Matroska rounds to 1 ms.
+/// The largest amount in microseconds by which a due frame may be early. Matroska rounds times to 1
+/// ms.
 const EARLY_US: u64 = 1000;
 
-/// Choices on which frames to take.
+/// The selection of frames of a clip.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Selection {
-    /// Nothing before this time, in microseconds.
+    /// Frames before this time, in microseconds, are left out.
     pub start_us: Option<u64>,
-    /// Nothing at this time or later, in microseconds.
+    /// Frames at this time or later, in microseconds, are left out.
     pub end_us: Option<u64>,
-    /// At most this many frames per second.
+    /// At most this many frames per second are selected.
     pub rate: Option<FrameRate>,
 }
 
-/// What becomes of a frame.
+/// The decision about a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Verdict {
     Take,
     Skip,
-    /// This one and all after it are not wanted.
+    /// This frame and all later ones are left out.
     End,
 }
 
-/// A selection at work.
+/// A selection and its state.
 #[derive(Debug)]
 pub(crate) struct Selector {
     selection: Selection,
@@ -62,7 +64,7 @@ impl Selector {
 }
 
 impl Selection {
-    /// Whether every frame is taken.
+    /// Returns true if every frame is selected.
     pub(crate) fn is_all(&self) -> bool {
         *self == Self::default()
     }
@@ -78,10 +80,11 @@ impl Selection {
     }
 }
 
-/// A time as seconds (`12`, `12.5`) or `HH:MM:SS`, `MM:SS`, with decimals, in microseconds.
+/// Parses a time as seconds (`12`, `12.5`), or as `HH:MM:SS` or `MM:SS` with decimals. Returns
+/// microseconds.
 ///
 /// # Errors
-/// What would be right, when it is not such a time.
+/// Fails if the text is not such a time. The error says what is expected.
 pub fn parse_time(text: &str) -> Result<u64, String> {
     let wrong = || "expected seconds, such as 12.5, or HH:MM:SS, such as 00:01:02.5".to_owned();
     let (whole, decimals) = text.split_once('.').unwrap_or((text, "0"));
@@ -91,7 +94,7 @@ pub fn parse_time(text: &str) -> Result<u64, String> {
     };
     let parts: Option<Vec<u64>> = whole.split(':').map(number).collect();
     let parts = parts.filter(|parts| parts.len() <= 3).ok_or_else(wrong)?;
-    // Minutes and seconds below a larger unit are below 60.
+    // Minutes and seconds after a larger unit are below 60.
     if parts.iter().skip(1).any(|&part| part >= 60) || number(decimals).is_none() {
         return Err(wrong());
     }
@@ -123,7 +126,7 @@ mod tests {
         // Matroska rounds to milliseconds.
         let rounded = (0..300u64).map(|t| (t * 1000 + 15) / 30 * 1000);
         assert_eq!(taken((30, 1), rounded).len(), 300);
-        // After a gap no frames are made up for.
+        // After a gap, no frames are added.
         assert_eq!(taken((10, 1), [0, 900_000, 950_000, 1_000_000].into_iter()).len(), 3);
     }
 

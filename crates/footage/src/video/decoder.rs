@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! ffmpeg at work on a video: announced frames and their pixels, from its beginning or from a place
-//! in it.
+//! A running ffmpeg that decodes a video, from its beginning or from a later position. It announces
+//! every frame and returns its pixels.
 
 use std::io::{self, Read};
 
@@ -10,23 +10,24 @@ use super::log::{FfmpegLog, Info, Shown};
 use super::{Medium, NETWORK_TIMEOUT_US};
 use crate::samples::Layout;
 
-/// How a video is decoded.
+/// The parameters of the decoding of a video.
 pub(super) struct Ffmpeg {
     pub(super) found: Located,
     pub(super) medium: Medium,
-    /// The filter that leaves luma, or the colours that luma is made of.
+    /// The filter that leaves luma, or the colours from which luma is computed.
     pub(super) conversion: String,
     pub(super) interrupt: Interrupt,
 }
 
 impl Ffmpeg {
-    /// Up to its input.
+    /// Returns the command line up to and including the input.
     pub(super) fn input(&self, start: Start<'_>) -> Invocation {
         let input = Invocation::new(&self.found.path)
             .args(["-hide_banner", "-nostdin", "-nostats", "-loglevel", "repeat+level+info"])
             .arg("-noautorotate");
         let input = match self.medium {
-            // The option had another name before ffmpeg 5.0, and this one let it wait for a caller.
+            // Before ffmpeg 5.0 the option was called `-stimeout`, and `-timeout` made ffmpeg wait
+            // for a caller.
             Medium::Network(_) if self.reaches(5, 0) => {
                 input.args(["-timeout", NETWORK_TIMEOUT_US])
             }
@@ -41,7 +42,8 @@ impl Ffmpeg {
         input.args(self.medium.arguments()).args(["-map", "0:v:0"])
     }
 
-    /// Whether ffmpeg is of this version or later; builds between releases have none, and are new.
+    /// Returns true if ffmpeg has this version or a later one. Builds between releases have no
+    /// version, and count as new.
     fn reaches(&self, major: u32, minor: u32) -> bool {
         self.found.version.as_ref().is_none_or(|version| version.reaches(major, minor))
     }
@@ -50,30 +52,30 @@ impl Ffmpeg {
         self.frames(self.input(start))
     }
 
-    /// The frames of an input into the pipe, each announced.
+    /// Completes a command line so that every frame is announced and written to the pipe.
     pub(super) fn frames(&self, input: Invocation) -> Invocation {
-        // The option had another name before ffmpeg 5.1.
+        // The option has another name before ffmpeg 5.1.
         let passthrough = if self.reaches(5, 1) { "-fps_mode" } else { "-vsync" };
         input
             .arg("-vf")
             .arg(format!("{},showinfo=checksum=0", self.conversion))
-            // Frames stay as large as they are, and two never fall on one tick.
+            // Frames keep their sizes, and no two frames get the same time.
             .args(["-autoscale", "0", "-enc_time_base", "1:1000000"])
-            // A frame goes into the pipe at once, not copied into a buffer and in pieces.
+            // Frames are written to the pipe directly, not through a buffer.
             .args([passthrough, "passthrough", "-avioflags", "direct"])
             .args(["-f", "rawvideo", "pipe:1"])
     }
 }
 
-/// Where decoding starts, and what the times of frames are counted from.
+/// The position at which decoding starts, and the origin of the times of frames.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Start<'a> {
-    /// At the beginning, and from there.
+    /// Starts at the beginning, with times from there.
     Plain,
-    /// At the beginning, with the container's own times.
+    /// Starts at the beginning, with the container's own times.
     First,
-    /// At the last place before this many seconds, as ffmpeg counts them, where it can; with the
-    /// container's own times.
+    /// Starts at the last possible position before this many seconds, with the container's own
+    /// times.
     At(&'a str),
 }
 
@@ -81,7 +83,7 @@ pub(super) enum Start<'a> {
 pub(super) struct Decoder {
     stream: Stream,
     log: FfmpegLog,
-    /// A frame that was announced and not taken.
+    /// A frame that was announced but not taken.
     ahead: Option<Shown>,
 }
 
@@ -95,10 +97,11 @@ impl Decoder {
         Ok(Self { stream, log: FfmpegLog::default(), ahead: None })
     }
 
-    /// The next frame that ffmpeg announces, or `None` when there are no more, or none that can be taken.
+    /// Returns the next frame that ffmpeg announces, or `None` if no more frames follow, or none
+    /// that can be taken.
     ///
     /// # Errors
-    /// On an interrupt.
+    /// Fails on an interrupt.
     pub(super) fn announced(&mut self) -> Result<Option<Shown>, ToolError> {
         if let Some(shown) = self.ahead.take() {
             return Ok(Some(shown));
@@ -107,7 +110,7 @@ impl Decoder {
             match self.log.take(&line) {
                 Some(Info::Frame(shown)) => return Ok(Some(shown)),
                 Some(Info::Unknown(problem)) => {
-                    // ffmpeg would wait until somebody takes the frame.
+                    // ffmpeg would wait until the frame is taken.
                     self.stream.stop();
                     self.log.refuse(problem);
                     return Ok(None);
@@ -118,22 +121,22 @@ impl Decoder {
         Ok(None)
     }
 
-    /// The same, to be announced again.
+    /// Returns the next frame that ffmpeg announces without taking it.
     ///
     /// # Errors
-    /// On an interrupt.
+    /// Fails on an interrupt.
     pub(super) fn peek(&mut self) -> Result<Option<Shown>, ToolError> {
         self.ahead = self.announced()?;
         Ok(self.ahead)
     }
 
-    /// The pixels of the frame that was announced last.
+    /// Reads the pixels of the frame that was announced last.
     pub(super) fn pixels(&mut self, layout: Layout, bytes: &mut Vec<u8>) -> io::Result<()> {
         bytes.resize(layout.bytes(), 0);
         self.stream.read_exact(bytes)
     }
 
-    /// Time from one frame to another.
+    /// Returns the time from one frame to another in microseconds.
     pub(super) fn time_us(&self, first: i64, pts: i64) -> u64 {
         let (numerator, denominator) = self.log.time_base;
         let since = i128::from(pts) - i128::from(first);
@@ -142,10 +145,10 @@ impl Decoder {
         u64::try_from((scaled + denominator / 2) / denominator).unwrap_or(u64::MAX)
     }
 
-    /// After the last frame: what was wrong.
+    /// Returns the problem of the video after its last frame, if there is one.
     ///
     /// # Errors
-    /// On an interrupt.
+    /// Fails on an interrupt.
     pub(super) fn conclude(&mut self) -> Result<Option<String>, ToolError> {
         let problem = self.log.problem();
         match self.stream.finish() {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The containers and streams that ffmpeg may read for us, by the names of its demuxers.
+//! The containers and streams that ffmpeg may read, by the names of its demuxers.
 //!
-//! A file is what its first bytes say, whatever its name is, and some formats are lists of other files or addresses
-//! (HLS, DASH, concat, IMF, image sequences), read further files beside the one that was named (MLV, VobSub), are
-//! scripts (AviSynth, VapourSynth, lavfi), or take any text for a picture (tty). Only formats that hold their frames
-//! themselves are read. References of MOV files to other files are off in ffmpeg by default.
+//! The first bytes of a file decide its format, whatever its name. Some formats are lists of other
+//! files or addresses (HLS, DASH, concat, IMF, image sequences), read further files beside the one
+//! that was named (MLV, VobSub), are scripts (AviSynth, VapourSynth, lavfi), or render any text as
+//! a picture (tty). Only formats that hold their frames themselves are read. ffmpeg does not follow
+//! references of MOV files to other files by default.
 
-/// Demuxers that read one file, and that one alone. Names that a build of ffmpeg does not know do no harm.
+/// The demuxers that read only the named file. Names that a build of ffmpeg does not know have no
+/// effect.
 const NAMES: &[&str] = &[
-    // Containers.
+    // These are containers.
     "mov",
     "mp4",
     "m4a",
@@ -50,7 +52,7 @@ const NAMES: &[&str] = &[
     "ty",
     "lxf",
     "jpegxl_anim",
-    // Streams without a container.
+    // These are streams without a container.
     "h261",
     "h263",
     "h264",
@@ -67,7 +69,7 @@ const NAMES: &[&str] = &[
     "cavsvideo",
     "avs2",
     "avs3",
-    // Single pictures.
+    // These are single pictures.
     "bmp_pipe",
     "cri_pipe",
     "dds_pipe",
@@ -106,20 +108,20 @@ const NAMES: &[&str] = &[
     "fits",
 ];
 
-/// The list as ffmpeg's option `-format_whitelist` takes it.
+/// Returns the list for ffmpeg's option `-format_whitelist`.
 pub(super) fn allowed() -> String {
     NAMES.join(",")
 }
 
-/// The format of a file that ffmpeg has refused, by what it says of its first bytes when asked for everything.
+/// Finds the format of a file that ffmpeg refused, in its debug messages about the first bytes.
 pub(super) fn refused(said: &str) -> Option<&str> {
     let (_, rest) = said.split_once("] Format ").or_else(|| said.split_once("Format "))?;
-    // The second follows where the first bytes are hardly enough for a guess.
+    // The second phrase is used if the first bytes hardly suffice for a guess.
     let ends = [" probed with ", " detected only with "];
     ends.into_iter().find_map(|end| rest.split_once(end)).map(|(name, _)| name)
 }
 
-/// Whether ffmpeg has refused a file because of the list.
+/// Returns true if ffmpeg refused a file because of the list.
 pub(super) fn is_refusal(said: &str) -> bool {
     said.contains("Format not on whitelist")
 }
@@ -128,7 +130,7 @@ pub(super) fn is_refusal(said: &str) -> bool {
 mod tests {
     use super::*;
 
-    /// Formats that open other files or addresses, run scripts, or show text.
+    /// These formats open other files or addresses, run scripts, or render text.
     const HARMFUL: [&str; 23] = [
         "hls",
         "concat",

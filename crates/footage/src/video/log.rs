@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What ffmpeg says while it decodes: frames announced by `showinfo`, and faults.
+//! The messages of ffmpeg during decoding: frames announced by `showinfo`, and faults.
 
 use super::pixels::{SampleFormat, samples};
 use crate::MAX_SIDE;
 use crate::samples::Layout;
 
-/// Faults that are kept in words.
+/// The largest number of characters of a fault that is kept.
 const LENGTH: usize = 200;
 
-/// A frame that is on its way.
+/// A frame that ffmpeg announced.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Shown {
-    /// In units of the time base.
+    /// The time in units of the time base.
     pub(super) pts: Option<i64>,
     pub(super) layout: Layout,
 }
 
-/// What a line says.
+/// The content of a line.
 #[derive(Debug, PartialEq, Eq)]
 pub(super) enum Info {
     Frame(Shown),
-    /// A frame that cannot be taken from the pipe, and why.
+    /// A frame that cannot be taken from the pipe, with the reason.
     Unknown(String),
 }
 
-/// What was said so far.
+/// The messages so far.
 #[derive(Debug)]
 pub(super) struct FfmpegLog {
-    /// Seconds per unit of time, as a fraction.
+    /// The number of seconds per unit of time, as a fraction.
     pub(super) time_base: (u32, u32),
     faults: u64,
     first_fault: Option<String>,
-    /// Why a frame that ffmpeg gives cannot be taken.
+    /// The reason why a frame that ffmpeg announced cannot be taken.
     refusal: Option<String>,
 }
 
@@ -58,12 +58,12 @@ impl FfmpegLog {
         None
     }
 
-    /// A frame cannot be taken, and this is why.
+    /// Records the reason why a frame cannot be taken.
     pub(super) fn refuse(&mut self, problem: String) {
         self.refusal = Some(problem);
     }
 
-    /// The faults in one line, if there were any.
+    /// Returns the faults in one line, if there were any.
     pub(super) fn problem(&self) -> Option<String> {
         if self.refusal.is_some() {
             return self.refusal.clone();
@@ -76,12 +76,13 @@ impl FfmpegLog {
     }
 }
 
-/// What is wrong: `[h264 @ 0x1] [error] ...`, `[error] ...`, or a warning of damage.
+/// Returns the text of a fault: `[h264 @ 0x1] [error] ...`, `[error] ...`, or a warning of damage.
 fn fault(line: &str) -> Option<&str> {
     let component =
         |line: &&str| line.split_once("] ").is_some_and(|(name, _)| name.contains(" @ 0x"));
     let said = match Some(line).filter(component) {
-        // What takes the raw frames knows no times; those that it misses are no fault of the video.
+        // The muxer of raw frames complains about missing times, which are not a fault of the
+        // video.
         Some(line) if line.starts_with("[rawvideo @ ") => return None,
         Some(line) => line.split_once("] ")?.1,
         None => line,
@@ -92,14 +93,14 @@ fn fault(line: &str) -> Option<&str> {
     })
 }
 
-/// `1/12800, frame_rate: ...`
+/// Parses `1/12800, frame_rate: ...`.
 fn fraction(text: &str) -> Option<(u32, u32)> {
     let (numerator, rest) = text.split_once('/')?;
     let digits: String = rest.chars().take_while(char::is_ascii_digit).collect();
     Some((numerator.parse().ok()?, digits.parse().ok().filter(|&d| d > 0)?))
 }
 
-/// `... n:   1 pts:    512 pts_time:0.04 ... fmt:gray sar:1/1 s:320x240 ...`
+/// Parses `... n:   1 pts:    512 pts_time:0.04 ... fmt:gray sar:1/1 s:320x240 ...`.
 fn frame(line: &str) -> Option<Info> {
     let value =
         |key: &str| line.split_once(key).and_then(|(_, rest)| rest.split_whitespace().next());

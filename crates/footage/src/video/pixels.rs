@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pixel formats: the filter that leaves luma, or the colours that luma is made of, and how its frames lie.
+//! Pixel formats: the filter that leaves luma, or the colours from which luma is computed, and the
+//! layout of the filtered frames.
 
-/// Formats in which frames may come, as the filter `format` takes them: nothing else leaves ffmpeg.
+/// The formats that frames may have after the filter, as the filter `format` takes them.
 const GREY: &str = "format=gray|gray9le|gray10le|gray12le|gray14le|gray16le|\
                     gray9be|gray10be|gray12be|gray14be|gray16be";
 
-/// Formats whose luma shares its words with something else: planar ones take their place first. `extractplanes` of
-/// some versions copies these words as they are.
+/// The formats whose words hold luma and other bits, each with the planar format that replaces it.
+/// In some versions `extractplanes` copies these words unchanged.
 const SHARED: [(&str, &str); 8] = [
     ("p0", "yuv420p"),
     ("p2", "yuv422p"),
@@ -21,15 +22,15 @@ const SHARED: [(&str, &str); 8] = [
 /// The layout of the samples of a frame in the pipe.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct SampleFormat {
-    /// Bits per sample.
+    /// The number of bits per sample.
     pub(super) depth: u32,
-    /// Whether there are three to a pixel.
+    /// A pixel has three samples.
     pub(super) colour: bool,
-    /// Whether high bytes come first.
+    /// High bytes come first.
     pub(super) big_endian: bool,
 }
 
-/// The filter for video of this format.
+/// Returns the filter for video of this format.
 pub(super) fn conversion(name: &str) -> String {
     let starts = |prefixes: &[&str]| prefixes.iter().any(|prefix| name.starts_with(prefix));
     let deep_planes = name.starts_with("gbr") && name.contains(|c: char| c.is_ascii_digit());
@@ -50,12 +51,14 @@ pub(super) fn conversion(name: &str) -> String {
         let shared = SHARED.iter().find(|(prefix, _)| name.starts_with(prefix));
         let planar =
             shared.and_then(|(_, planes)| Some(format!("format={planes}{}le,", bits(name)?)));
-        // Other formats that `extractplanes` does not know become planar ones of the same kind by themselves.
+        // ffmpeg converts other formats that `extractplanes` does not know to planar formats of the
+        // same kind.
         format!("{}extractplanes=y,{GREY}", planar.unwrap_or_default())
     }
 }
 
-/// Bits per sample of a format whose luma shares its words: the last two digits of its name.
+/// Returns the bits per sample of a format whose words hold luma and other bits. They are the last
+/// two digits of its name.
 fn bits(name: &str) -> Option<u32> {
     if name.starts_with("ayuv64") || name.starts_with("xv48") {
         return Some(16);
@@ -69,7 +72,7 @@ fn bits(name: &str) -> Option<u32> {
     }
 }
 
-/// The layout of the samples of a format in which frames may come.
+/// Returns the layout of the samples of a format that frames may have after the filter.
 pub(super) fn samples(format: &str) -> Option<SampleFormat> {
     let plain = |depth, colour| Some(SampleFormat { depth, colour, big_endian: false });
     match format {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What ffprobe says of a video before it is decoded: whether it has one, and in which colours.
+//! The query of ffprobe before a video is decoded: its streams, container, codec and pixel format.
 
 use std::path::Path;
 use std::time::Duration;
@@ -10,19 +10,19 @@ use serde::Deserialize;
 use super::{Medium, formats};
 use crate::FootageError;
 
-/// A file that keeps ffprobe busy for longer is none that can be read.
+/// The time limit of ffprobe. A file that takes longer cannot be read.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// What is known of a video.
+/// The properties of a video.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Probe {
-    /// The number of frames, if the container says.
+    /// The number of frames, if the container states it.
     pub(super) frames: Option<u64>,
-    /// Names of the container, with commas between.
+    /// The names of the container, separated by commas.
     pub(super) container: String,
-    /// Name of the codec.
+    /// The name of the codec.
     pub(super) codec: String,
-    /// Name of the pixel format; empty where nobody was asked.
+    /// The name of the pixel format. It is empty for a medium that was not probed.
     pub(super) pixel_format: String,
 }
 
@@ -50,7 +50,7 @@ struct Stream {
 }
 
 impl Probe {
-    /// Asks ffprobe; a camera is not asked, since opening it twice may fail.
+    /// Runs ffprobe. A camera is not probed, since it may refuse to be opened twice.
     pub(super) fn of(tools: &Toolchain, medium: &Medium) -> Result<Self, FootageError> {
         if medium.is_camera() {
             return Ok(Self::default());
@@ -71,7 +71,7 @@ impl Probe {
             }
             let said =
                 said.lines().last().unwrap_or("ffprobe refuses it").replace(char::is_control, " ");
-            // The name is in the message already.
+            // The message has the name already.
             let said =
                 said.rsplit_once(": ").map_or(said.as_str(), |(_, reason)| reason).to_owned();
             return Err(refused(said));
@@ -90,8 +90,8 @@ impl Probe {
     }
 }
 
-/// Names the format of a file that is not read. ffprobe says it only when it says everything; the list of formats holds
-/// then, too, so that no other file is opened.
+/// Returns a text that names the format of a file that is not read. ffprobe names it only among its
+/// debug messages. The list of formats holds for this run, too, so that no other file is opened.
 fn other_format(
     tools: &Toolchain,
     ffprobe: &Path,

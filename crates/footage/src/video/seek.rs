@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A late start in a long video without decoding all before it, where that gives the same frames with
-//! the same times, bit for bit:
+//! A late start in a long video without decoding everything before it. It is used only where it
+//! gives the same frames with the same times, bit for bit:
 //!
-//! * in MP4 and Matroska, which know the time of every frame; elsewhere times are counted from the
-//!   beginning, or guessed;
-//! * where decoding starts with a frame that nothing after it looks back beyond: any of a codec whose
-//!   frames stand alone, an IDR picture of H.264, an IRAP picture of H.265. Streams that refresh a
-//!   picture bit by bit have none.
+//! * in MP4 and Matroska, which store the time of every frame. In other containers times are
+//!   counted from the beginning, or guessed;
+//! * where decoding starts with a frame on whose predecessors no later frame depends: any frame of
+//!   an intra-only codec, an IDR picture of H.264, an IRAP picture of H.265. Streams that refresh
+//!   their picture gradually have no such frame.
 //!
-//! Everything else is decoded from its beginning and dropped, which is never wrong.
+//! All other videos are decoded from the beginning, and the frames before the start are dropped,
+//! which is always right.
 
 use std::time::Duration;
 
@@ -18,20 +19,24 @@ use super::decoder::{Decoder, Ffmpeg, Start};
 use super::probe::Probe;
 use crate::FootageError;
 
-/// Below this, decoding what comes before takes no longer than finding out.
+/// The earliest start, in microseconds, for which a seek pays. Before it, decoding from the beginning
+/// takes no longer than the test whether a seek is exact.
 const WORTH_US: u64 = 3_000_000;
-/// Decoding starts this long before, since the beginning of a file and of its video may differ a little.
+/// The time in microseconds by which decoding starts earlier, since the beginnings of a file and of
+/// its video may differ a little.
 const MARGIN_US: u64 = 1_000_000;
-/// Finding a place in a file does not take longer.
+/// The time limit for finding a position in a file.
 const LIMIT: Duration = Duration::from_secs(60);
 
-/// A decoder before the first frame that is wanted, and the time of the first frame of all.
+/// A decoder that is positioned before the first frame that is needed, and the time of the first
+/// frame of the video.
 pub(super) struct Sought {
     pub(super) decoder: Decoder,
     pub(super) first_pts: i64,
 }
 
-/// A decoder near `start_us`, unless decoding from the beginning is quicker or surer.
+/// Returns a decoder near `start_us`, or `None` if decoding from the beginning is faster or the
+/// seek is not exact.
 pub(super) fn start(
     tools: &Toolchain,
     ffmpeg: &Ffmpeg,
@@ -49,7 +54,8 @@ pub(super) fn start(
     let first = Decoder::start(ffmpeg, Start::First)?.peek()?;
     let Some(first_pts) = first.and_then(|first| first.pts) else { return Ok(None) };
     let mut decoder = Decoder::start(ffmpeg, Start::At(&place))?;
-    // A place that is too late would lose frames; none at all may be the end, or a fault.
+    // A position that is too late would lose frames. No frame at all may be the end of the video,
+    // or a fault.
     let early = decoder
         .peek()?
         .and_then(|shown| shown.pts)
@@ -61,7 +67,8 @@ fn knows_times(container: &str) -> bool {
     container.split(',').any(|name| ["mp4", "matroska"].contains(&name))
 }
 
-/// Whether nothing at or after the place where decoding starts needs what is before it.
+/// Returns true if no frame at or after the position where decoding starts depends on a frame
+/// before it.
 fn starts_cleanly(
     tools: &Toolchain,
     ffmpeg: &Ffmpeg,
@@ -81,7 +88,7 @@ fn starts_cleanly(
     Ok(packet.is_success() && first_picture(&packet.stdout, codec).is_some_and(clean))
 }
 
-/// The first byte of the first unit of a packet that holds a picture.
+/// Returns the first byte of the first unit of a packet that holds a picture.
 fn first_picture(bytes: &[u8], codec: &str) -> Option<u8> {
     let starts = bytes.windows(4).filter(|window| window.starts_with(&[0, 0, 1]));
     let mut headers = starts.map(|window| window[3]);

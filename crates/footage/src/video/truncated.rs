@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! AVI files that end early: ffmpeg decodes what there is and says nothing when the cut is between
-//! two frames. Other containers are left to ffmpeg, which notices.
+//! AVI files that end early. ffmpeg decodes the existing frames and reports nothing if the cut is
+//! between two frames. For other containers ffmpeg reports it.
 
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
 
-/// What is missing, if the file is an AVI and shorter than it says.
+/// Returns a text about the missing bytes if the file is an AVI and shorter than its header states.
 pub(super) fn problem(path: &Path) -> Option<String> {
     let mut file = File::open(path).ok()?;
     let length = file.metadata().ok().filter(std::fs::Metadata::is_file)?.len();

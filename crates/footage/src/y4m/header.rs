@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The lines of a YUV4MPEG2 stream: its header, and what follows from it for every frame.
+//! The header lines of a YUV4MPEG2 stream, and the frame layout that follows from them.
 
 use std::io::{BufRead, Read};
 
 use super::MAGIC;
 use crate::{FrameRate, MAX_SIDE};
 
-/// Longest line of a header.
+/// The largest length of a header line in bytes.
 const LINE: u64 = 1024;
 
-/// What the header says.
+/// The fields of the header.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Header {
     pub(super) width: u32,
     pub(super) height: u32,
-    /// Bits per sample.
+    /// The number of bits per sample.
     pub(super) depth: u32,
-    /// Samples of a frame that are not luma.
+    /// The number of samples of a frame that are not luma.
     pub(super) others: u64,
     pub(super) rate: Option<FrameRate>,
 }
@@ -61,13 +61,14 @@ fn side(text: &str) -> Result<u32, String> {
     text.parse().ok().filter(|side| (1..=MAX_SIDE).contains(side)).ok_or_else(limit)
 }
 
-/// `30:1`; `0:0` is unknown.
+/// Parses a rate such as `30:1`. The rate `0:0` is unknown.
 fn rate(text: &str) -> Option<FrameRate> {
     let (frames, seconds) = text.split_once(':')?;
     FrameRate::new(frames.parse().ok()?, seconds.parse().ok()?).ok()
 }
 
-/// Samples that are not luma, and the bits of each: `420`, `420jpeg`, `422p10`, `444alpha`, `mono12`.
+/// Returns the number of samples that are not luma, and the bits of each sample, for a colour space
+/// such as `420`, `420jpeg`, `422p10`, `444alpha` or `mono12`.
 fn layout(name: &str, width: u64, height: u64) -> Option<(u64, u32)> {
     let halves = |size: u64, parts: u64| size.div_ceil(parts);
     let (others, rest) = if let Some(rest) = name.strip_prefix("420") {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several clips and their boxes.
+//! Tests of the assignment of box files to several clips.
 
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -19,10 +19,10 @@ fn a_file_beside_every_clip_is_found() {
     let clips = [Clip { name: "a", input: &inputs[0] }, Clip { name: "b", input: &inputs[1] }];
     let found = assign(&[PathBuf::from("gt/gt.txt")], &clips).unwrap();
     assert_eq!([found[0].path(), found[1].path()], [inside.as_path(), above.as_path()]);
-    // One each, in their order.
+    // Two files are assigned to two clips in their order.
     let found = assign(&[above.clone(), inside.clone()], &clips).unwrap();
     assert_eq!([found[0].path(), found[1].path()], [above.as_path(), inside.as_path()]);
-    // A file as input: its folder counts.
+    // If the input is a pattern of files, their folder is searched.
     let frames = folder.path().join("b/img1/*.jpg");
     let found = assign(&["gt/gt.txt".into()], &[Clip { name: "b", input: &frames }]).unwrap();
     assert_eq!(found[0].path(), above);

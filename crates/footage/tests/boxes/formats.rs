@@ -20,7 +20,7 @@ fn mot_rows_are_objects_if_they_count_are_pedestrians_and_can_be_seen() {
     let third = vec![labelled([-0.5, -4., 1., -2.], Some(7))];
     assert_eq!(at(MOT, &frame(2)).unwrap(), Some(third.clone()));
     assert_eq!(at(MOT, &frame(4)).unwrap(), Some(vec![]), "a row without an object is an entry");
-    // A number as the name of an image counts, wherever the image is in the input.
+    // A number in the name of an image decides, whatever the image's position in the input.
     assert_eq!(at(MOT, &image("img1/000003.jpg")).unwrap(), Some(third));
     assert_eq!(at(MOT, &image("img1/frame3.jpg")).unwrap(), Some(first));
     let zero = at(MOT, &image("0000.png")).unwrap_err().to_string();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Boxes of files, and the regions that belong to them.
+//! Tests of box files, and of the regions that belong to a box.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod assigned;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every mistake in a file is one line that names the file, the place, and what would be right.
+//! Every mistake in a file gives one line that names the file, the place, and what is expected.
 
 use crate::support::{at, file, frame, image};
 use foveate_footage::boxes::Boxes;
@@ -71,7 +71,7 @@ fn a_damaged_file_of_a_yolo_folder_names_itself() {
         (b"0 0.5 0.5 1 1.5\n", ["line 1", "1.5 is no share"]),
         (b"0.5 0.5 0.5 1 1\n", ["line 1", "`0.5` is no class"]),
         (b"0 0.5 \xff 1 1\n", ["line 1", "UTF-8"]),
-        // Cut at its limit, the line would be two boxes.
+        // A line that is cut at its limit would be two boxes.
         (&long, ["line 1", "4096 bytes or more"]),
     ] {
         file(folder.path(), "a.txt", text);

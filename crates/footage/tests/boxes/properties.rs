@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Regions of random boxes against a count of small squares, random boxes through every format, and mutated
-//! files, none of which panics. `PROPTEST_CASES` sets the number of cases for a longer search.
+//! Property tests: regions of random boxes against a count of half pixels, random boxes through
+//! every format, and mutated files, none of which may cause a panic. `PROPTEST_CASES` sets the
+//! number of cases for a longer search.
 
 use std::fmt::Write as _;
 
@@ -10,7 +11,7 @@ use foveate_frame::Rect;
 use proptest::collection::vec;
 use proptest::prelude::*;
 
-/// Halves of pixels that a span covers in every line of a grid.
+/// Returns the half pixels of every line of a grid, and how many of them a span covers.
 fn covered(from: u32, to: u32, side: u32, size: u32) -> Vec<(u32, u32)> {
     let mut lines = vec![(0, 0); size.div_ceil(side) as usize];
     for half in 0..2 * size {
@@ -21,7 +22,8 @@ fn covered(from: u32, to: u32, side: u32, size: u32) -> Vec<(u32, u32)> {
     lines
 }
 
-/// The rule again: lines that are covered by half, else the one that is covered most.
+/// An independent implementation of the rule: lines that are covered by half, otherwise the line
+/// that is covered most.
 fn lines(spans: &[(u32, u32)]) -> Vec<usize> {
     let by_half: Vec<usize> =
         (0..spans.len()).filter(|&at| 2 * spans[at].1 >= spans[at].0).collect();
@@ -32,7 +34,7 @@ fn lines(spans: &[(u32, u32)]) -> Vec<usize> {
     vec![spans.iter().position(|span| span.1 == most).unwrap()]
 }
 
-/// A box in a frame, in halves of pixels.
+/// Returns boxes in a frame, in half pixels.
 fn spans(width: u32, height: u32) -> impl Strategy<Value = [u32; 4]> {
     let side =
         |size: u32| (0..2 * size).prop_flat_map(move |from| (Just(from), from + 1..=2 * size));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Files of boxes, and what they hold for a frame.
+//! Helpers that write box files and read the boxes of a frame.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use foveate_footage::boxes::{BoxError, Boxes, Found, Labelled, Place};
 use foveate_frame::Rect;
 
-/// A file in a folder.
+/// Writes a file into a folder.
 pub(crate) fn file(folder: &Path, name: &str, text: impl AsRef<[u8]>) -> PathBuf {
     let path = folder.join(name);
     fs::create_dir_all(path.parent().unwrap()).unwrap();
@@ -15,17 +15,17 @@ pub(crate) fn file(folder: &Path, name: &str, text: impl AsRef<[u8]>) -> PathBuf
     path
 }
 
-/// An image of 200 x 100 pixels, the first of its input.
+/// Returns an image of 200 x 100 pixels, the first of its input.
 pub(crate) fn image(name: &str) -> Place<'_> {
     Place { name: Path::new(name), own_file: true, number: 0, size: (200, 100) }
 }
 
-/// A frame of a video.
+/// Returns a frame of a video.
 pub(crate) fn frame(number: u64) -> Place<'static> {
     Place { name: Path::new("04.mp4"), own_file: false, number, size: (200, 100) }
 }
 
-/// What a text in a file holds for a frame.
+/// Returns the boxes of a frame from a file with this text.
 pub(crate) fn at(text: &str, place: &Place<'_>) -> Result<Found, BoxError> {
     let folder = tempfile::tempdir().unwrap();
     Boxes::read(&file(folder.path(), "boxes", text))?.at(place)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Clips made by ffmpeg on the spot, and all frames of one.
+//! Helpers that make clips with ffmpeg, and read all frames of a clip.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -19,7 +19,8 @@ pub(crate) fn ffmpeg(args: &[&str]) {
     assert!(done.unwrap().success(), "{args:?}");
 }
 
-/// A clip of the test picture, 100 frames at 25 per second unless `more` says otherwise.
+/// Makes a clip of ffmpeg's test source, with 100 frames at 25 per second unless `more` changes
+/// that.
 pub(crate) fn clip(folder: &Path, name: &str, more: &[&str]) -> PathBuf {
     let path = folder.join(name);
     let source = ["-f", "lavfi", "-i", "testsrc=size=80x60:rate=25:duration=4"];

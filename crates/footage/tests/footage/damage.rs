@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Damaged images of every type are refused, wherever the format lets damage show. `docs/inputs.md` says what
-//! cannot be seen.
+//! Damaged images of every type are refused wherever the format makes damage detectable.
+//! `docs/inputs.md` names the damage that cannot be detected.
 
 use std::fs;
 use std::io::{Cursor, Write as _};
@@ -11,7 +11,7 @@ use flate2::write::ZlibEncoder;
 use foveate_footage::{FootageError, decode};
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb};
 
-/// JPEGs of one picture: coded in every way, the last with a thumbnail of its own in its header.
+/// JPEG files of one picture in every kind of coding. The last one has a thumbnail in its header.
 const JPEGS: [&str; 9] = [
     "baseline",
     "optimized",
@@ -29,7 +29,7 @@ fn jpeg(name: &str) -> Vec<u8> {
     fs::read(folder.join(name).with_extension("jpg")).unwrap()
 }
 
-/// The message of the reader, if it refuses these bytes.
+/// Returns the message of the reader if it refuses these bytes.
 fn problem(bytes: &[u8]) -> Option<String> {
     let error = decode(bytes, Path::new("picture"), 8).err()?;
     let expected = matches!(
@@ -49,7 +49,7 @@ fn refused(bytes: &[u8], part: &str, case: &str) {
     assert!(said.contains(part) && !said.contains('\n'), "{case}: {said}");
 }
 
-/// The place after the header of the first scan, where coded pixels begin.
+/// Returns the position after the header of the first scan, where coded pixels begin.
 fn scan(bytes: &[u8]) -> usize {
     let mut at = 2;
     loop {
@@ -77,7 +77,7 @@ fn whole_jpegs_of_every_kind_are_read() {
         let whole = jpeg(name);
         let expected = pixels(&whole);
         let (start, end) = (scan(&whole), whole.len() - 2);
-        // Bytes that phones add behind a picture, and FF that fill up before a marker.
+        // Phones add bytes after a picture, and bytes FF may precede a marker.
         for (at, more) in [(whole.len(), &b"trailer\xFF\xD8\xFF"[..]), (end, &[0xFF; 3])] {
             let longer = [&whole[..at], more, &whole[at..]].concat();
             assert_eq!(pixels(&longer), expected, "{name}");
@@ -93,7 +93,7 @@ fn a_cut_jpeg_is_refused_with_and_without_an_end() {
         for length in (2..whole.len()).step_by(5) {
             refused(&whole[..length], "`picture`", &format!("{name} cut to {length}"));
         }
-        // Some cameras and programs close what they did not write to its end.
+        // Some cameras and programs add an end marker to an incomplete file.
         for length in (scan(&whole)..whole.len() - 3).step_by(3) {
             let closed = [&whole[..length], &[0xFF, 0xD9]].concat();
             refused(&closed, "`picture`", &format!("{name} closed at {length}"));
@@ -113,7 +113,8 @@ fn zeroed_stretches_of_a_jpeg_are_refused() {
                 cases += 1;
                 accepted += u32::from(problem(&damaged).is_none());
             }
-            // A scan that refines what others sent has codes of one bit, of which zeros are as good as any.
+            // In a scan that refines earlier scans, the codes have one bit, so zeros are valid
+            // codes.
             let allowed = if name == "progressive" { cases / 50 } else { 0 };
             assert!(
                 cases > 40 && accepted <= allowed,
@@ -163,7 +164,7 @@ fn markers_of_a_jpeg_come_in_their_order() {
     refused(&stray, "bytes before a marker", "bytes between segments");
 }
 
-/// A PNG of chunks with right checksums.
+/// Makes a PNG of chunks with correct checksums.
 fn png(chunks: &[(&[u8; 4], Vec<u8>)]) -> Vec<u8> {
     let mut bytes = b"\x89PNG\r\n\x1a\n".to_vec();
     for (name, data) in chunks {
@@ -187,7 +188,7 @@ fn packed(rows: &[u8]) -> Vec<u8> {
     packer.finish().unwrap()
 }
 
-/// Grey, 4 x 3 pixels.
+/// Returns the header of a grey picture of 4 x 3 pixels.
 fn header() -> Vec<u8> {
     vec![0, 0, 0, 4, 0, 0, 0, 3, 8, 0, 0, 0, 0]
 }
@@ -214,7 +215,7 @@ fn every_byte_of_a_png_counts() {
         }
         refused(&whole[..at], "`picture`", &format!("cut to {at}"));
     }
-    // Bytes behind the end chunk are no part of the picture.
+    // Bytes after the end chunk are not part of the picture.
     assert_eq!(pixels(&[&whole[..], b"more"].concat()), pixels(&whole));
 }
 
@@ -244,7 +245,8 @@ fn compressed_pixels_of_a_png_are_as_long_as_its_rows() {
 
 #[test]
 fn interlaced_and_deep_pngs_are_as_long_as_they_say() {
-    // Rows of the seven passes: how many, and bytes of each with its filter, of 5 x 5 grey pixels.
+    // The seven passes of 5 x 5 grey pixels: the number of rows, and the bytes of each row with its
+    // filter byte.
     let passes: usize =
         [(1, 2), (1, 2), (1, 3), (2, 2), (1, 4), (3, 3), (2, 6)].iter().map(|(n, b)| n * b).sum();
     let interlaced = |length: usize| {
@@ -303,7 +305,7 @@ fn a_pnm_is_one_image_with_samples_in_range() {
     }
 }
 
-/// A BMP of 8 bits per pixel, whose rows are coded in runs: 6 x 2 pixels, the lower row first.
+/// Makes a BMP with 8 bits per pixel and rows coded in runs: 6 x 2 pixels, the lower row first.
 fn runs(codes: &[u8]) -> Vec<u8> {
     let mut bytes = b"BM".to_vec();
     let offset = 14 + 40 + 1024;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Formats of files, whatever their names say: containers are read, lists of other files are not. Pixel formats that
-//! are rare end in frames, not in silence.
+//! The format of a file does not depend on its name: containers are read, lists of other files are
+//! refused. Rare pixel formats give frames or an error.
 
 use std::fs;
 use std::path::Path;
@@ -9,7 +9,7 @@ use std::process::Command;
 use crate::clips::{all, ffmpeg, frames, opened, tools};
 use foveate_footage::InputOptions;
 
-/// Why an input has no frames.
+/// Returns the message for an input without frames.
 fn refusal(path: &Path) -> String {
     match opened(path, 8, &InputOptions::default()) {
         Ok(_) => panic!("{} is read", path.display()),
@@ -43,7 +43,7 @@ fn a_file_that_leads_to_others_is_refused_by_the_name_of_its_format() {
         ("concat.mp4", "ffconcat version 1.0\nfile real.mp4\n".to_owned(), "concat"),
         ("dash.mp4", dash.to_owned(), "dash"),
         ("camera.avi", sdp.to_owned(), "sdp"),
-        // Colours of a terminal, which are no plain text.
+        // The text has colour codes of a terminal, so it is not plain text.
         ("art.ans", "\u{1b}[31m\u{0}one line\r\n".repeat(200), "tty"),
     ] {
         let path = dir.path().join(name);
@@ -55,11 +55,11 @@ fn a_file_that_leads_to_others_is_refused_by_the_name_of_its_format() {
     let notes = dir.path().join("notes.txt");
     fs::write(&notes, "one line of text\n".repeat(200)).unwrap();
     assert!(refusal(&notes).ends_with("it is text"), "{}", refusal(&notes));
-    // The file that they lead to is read by its own name.
+    // The file that the others refer to is read by its own name.
     assert_eq!(all(&real).0.len(), 5);
 }
 
-/// A container that ffmpeg writes, with a codec for it.
+/// Containers that ffmpeg writes, each with a codec.
 #[test]
 fn every_ordinary_container_is_read() {
     if !tools() {
@@ -108,7 +108,7 @@ fn every_ordinary_container_is_read() {
             .output()
             .unwrap();
         if !made.status.success() {
-            // Builds of ffmpeg differ in their encoders.
+            // Builds of ffmpeg have different encoders.
             eprintln!("skipped: {name}: {}", String::from_utf8_lossy(&made.stderr));
             continue;
         }
@@ -118,7 +118,8 @@ fn every_ordinary_container_is_read() {
     }
 }
 
-/// Grey of sixteen bits with high bytes first, as APNG and Matroska have it; enough of it to fill a pipe.
+/// APNG and Matroska can have grey of sixteen bits with high bytes first. The clip is long enough
+/// to fill a pipe.
 #[test]
 fn grey_with_high_bytes_first_is_read_bit_by_bit() {
     if !tools() {

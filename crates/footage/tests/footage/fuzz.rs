@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Mutated images of every type: each decodes or is refused, none panics. `FOVEATE_FUZZ_CASES` sets the
-//! number of cases per seed image for a longer search.
+//! Mutated images of every type are decoded or refused, and none causes a panic.
+//! `FOVEATE_FUZZ_CASES` sets the number of cases per seed image for a longer search.
 
 use std::io::Cursor;
 use std::path::Path;
@@ -8,10 +8,10 @@ use std::path::Path;
 use foveate_footage::decode;
 use image::{DynamicImage, ImageBuffer, ImageFormat, Luma, Rgb, Rgba};
 
-/// Cases per seed image of a normal test run.
+/// The number of cases per seed image of a normal test run.
 const CASES: u64 = 5_000;
 
-/// xorshift64*: the same cases on every machine.
+/// The generator xorshift64*, which gives the same cases on every machine.
 struct Chance(u64);
 
 impl Chance {
@@ -70,7 +70,7 @@ fn seeds() -> Vec<(&'static str, Vec<u8>)> {
     ]
 }
 
-/// A JPEG of the folder of pictures.
+/// Returns a JPEG of the folder of test pictures.
 fn pictured(name: &str) -> Vec<u8> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/pictures");
     std::fs::read(folder.join(name).with_extension("jpg")).unwrap()
@@ -93,7 +93,7 @@ fn mutate(bytes: &mut Vec<u8>, chance: &mut Chance) {
             3 => bytes.insert(at, chance.byte()),
             4 if !bytes.is_empty() => drop(bytes.remove(at)),
             _ => {
-                // Copy a stretch over another, as a bad disk block does.
+                // Copies some bytes over others, as a bad disk block does.
                 let from = chance.below(bytes.len());
                 let length = chance.below(12);
                 let stretch: Vec<u8> = bytes.iter().skip(from).take(length).copied().collect();
@@ -114,7 +114,7 @@ fn replace(bytes: &mut [u8], at: usize, value: u8) {
     }
 }
 
-/// Makes the checksums of a PNG right again, so that mutations get past them.
+/// Corrects the checksums of a PNG, so that mutations get past their check.
 fn mend_png(bytes: &mut [u8]) {
     let mut at = 8;
     while let Some(&length) = bytes.get(at..).and_then(<[u8]>::first_chunk::<4>) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Footage: images, video and their times against what the formats say.
+//! Tests of footage: images, video and their times against the definitions of the formats.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod clips;

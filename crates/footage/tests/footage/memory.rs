@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames in memory are read as a file of the same frames is.
+//! Frames in memory are read in the same way as a file with these frames.
 
 use std::path::PathBuf;
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Images of every type and depth become the luma that the rules say, or a message that says why not.
+//! Images of every type and depth give the luma that the rules define, or a message that names the
+//! reason.
 
 use std::fs;
 use std::io::Cursor;
@@ -95,7 +96,7 @@ fn few_bits_count_as_the_full_range() {
     assert_eq!(pixels(b"P1 4 1 0 1 1 0", 8), [255, 0, 0, 255]);
     assert_eq!(pixels(b"P2 4 1 15 0 1 8 15", 8), [0, 17, 136, 255]);
     assert_eq!(pixels(b"P2 3 1 100 0 50 100", 8), [0, 128, 255]);
-    // A sensor's 10 bits in a PGM come out as they went in.
+    // The 10 bits of a sensor in a PGM are unchanged.
     let raw: Vec<u8> = (0..1024u16).flat_map(u16::to_be_bytes).collect();
     let pgm = [&b"P5 1024 1 1023\n"[..], &raw].concat();
     assert_eq!(pixels(&pgm, 10), (0..1024).collect::<Vec<u16>>());
@@ -110,7 +111,7 @@ fn jpeg_is_near_what_was_encoded() {
     assert!(seen.iter().zip(expected.as_raw()).all(|(&a, &b)| a.abs_diff(b.into()) < 8));
 }
 
-/// A picture too busy for any coder to leave its end unused.
+/// Returns a picture with so much detail that no coder leaves its last bytes unused.
 fn busy() -> DynamicImage {
     ImageBuffer::from_fn(24, 24, |x, y| Luma([byte((x * 7_919 + y * 104_729) * (x + 3 * y) / 7)]))
         .into()
@@ -148,7 +149,7 @@ fn images_beyond_the_limits_are_refused_before_they_are_decoded() {
         assert!(matches!(error, FootageError::TooLarge { .. }), "{header}: {error}");
         assert!(error.to_string().contains("16384 pixels per side"));
     }
-    // Within the sides, beyond the memory.
+    // The picture is within the limit of sides, but beyond the limit of memory.
     let error = decode(b"P6 16384 16384 65535\n", Path::new("big.ppm"), 8).unwrap_err();
     assert!(matches!(error, FootageError::TooLarge { .. }), "{error}");
     let wide = [&b"P5 16384 1 255\n"[..], &[7; 16_384]].concat();

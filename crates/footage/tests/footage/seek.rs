@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A late start gives the frames and times that decoding from the beginning gives, and ffmpeg works
-//! no longer than it is needed.
+//! A late start gives the same frames and times as decoding from the beginning, and ffmpeg ends as
+//! soon as it is no longer needed.
 
 use std::path::Path;
 
 use crate::clips::{all, ffmpeg, frames, opened, tools};
 use foveate_footage::{Crop, FrameRate, InputOptions, Origin, Selection};
 
-/// 200 frames of a moving picture at 25 per second, larger than a pipe from the first second on.
+/// Makes a clip of 200 frames at 25 per second. Its first second is already larger than a pipe's
+/// buffer.
 fn moving(folder: &Path, name: &str, more: &[&str]) -> std::path::PathBuf {
     let path = folder.join(name);
     let source = ["-f", "lavfi", "-i", "testsrc2=size=160x120:rate=25:duration=8"];
@@ -20,7 +21,7 @@ fn from(start_us: u64) -> InputOptions {
     InputOptions { selection, ..InputOptions::default() }
 }
 
-/// The arguments of every ffmpeg that reads `path` now.
+/// Returns the arguments of every ffmpeg that is reading `path`.
 #[cfg(target_os = "linux")]
 fn decoders(path: &Path) -> Vec<String> {
     let processes = std::fs::read_dir("/proc").unwrap();
@@ -62,7 +63,7 @@ fn a_late_start_changes_nothing_but_where_it_starts() {
         let path = moving(dir.path(), name, &arguments);
         let whole = all(&path).0;
         assert!(whole.len() >= 195, "{name}");
-        // One of four by turns: each decodes most of the clip.
+        // Each clip tests one of the four start times, because every test decodes most of the clip.
         let start = [3_000_000, 5_010_000, 6_480_000, 7_900_000][turn % 4];
         let expected = whole.iter().filter(|frame| frame.time_us >= start);
         let seen = frames(&path, 8, &from(start)).0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Damaged data sets are refused: no record is left out, and none is made up.
+//! Damaged data sets are refused: no record is left out, and none is invented.
 
 use std::fs;
 use std::io::Write as _;
@@ -17,7 +17,7 @@ fn zipped(bytes: &[u8]) -> Vec<u8> {
     zip.finish().unwrap()
 }
 
-/// All frames of a file, or what is wrong with it.
+/// Returns the number of frames of a file, or the message of its error.
 fn frames(path: &Path) -> Result<usize, String> {
     let said = |error: foveate_footage::FootageError| error.to_string();
     let mut source = opened(path, 8, &InputOptions::default()).map_err(said)?;
@@ -52,7 +52,7 @@ fn an_idx_file_holds_what_its_header_says_and_nothing_else() {
     for length in 20..packed.len() {
         refused(&images, &packed[..length], "data set");
     }
-    // Its checksum and its length stand at the end.
+    // The checksum and the length are at the end of the file.
     for at in packed.len() - 8..packed.len() {
         let mut damaged = packed.clone();
         damaged[at] ^= 1;
@@ -81,7 +81,7 @@ fn labels_of_a_cifar_batch_are_classes() {
     let batch =
         |labels: [&[u8]; 2]| labels.map(|labels| [labels, &[40; 3072][..]].concat()).concat();
     for labels in [[&[0][..], &[9]], [&[19, 99], &[0, 0]]] {
-        // A batch of dark pixels with a label like a tabulator is all text.
+        // A batch of bytes that are all printable could be taken for text.
         fs::write(&path, batch(labels)).unwrap();
         assert_eq!(frames(&path), Ok(2));
     }

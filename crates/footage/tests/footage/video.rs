@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Video through ffmpeg: every coded frame once, with the container's time and the coded luma.
-//! Clips are made on the spot; skipped visibly without ffmpeg.
+//! Video through ffmpeg gives every coded frame once, with the container's time and the coded luma.
+//! The clips are made by ffmpeg; without it the tests are skipped with a message.
 
 use std::fs;
 use std::path::Path;
@@ -11,7 +11,7 @@ use foveate_footage::{Crop, FrameRate, InputOptions, Selection, SourceFrame};
 use foveate_frame::{convert_depth, luma};
 use foveate_toolchain::testing::data_folder;
 
-/// What ffprobe says of every frame, in microseconds since the first.
+/// Returns the times that ffprobe reports for every frame, in microseconds since the first.
 fn probed_times(path: &Path) -> Vec<u64> {
     let output = Command::new("ffprobe")
         .args(["-v", "error", "-select_streams", "v:0", "-show_entries"])
@@ -51,7 +51,7 @@ fn every_container_gives_every_frame_with_its_time() {
         return;
     }
     let dir = tempfile::tempdir().unwrap();
-    // Uneven times: two of five frames are left out.
+    // The times are uneven: two of five frames are left out.
     let uneven = ["-vf", "select=not(eq(mod(n\\,5)\\,2))*not(eq(mod(n\\,5)\\,3))", "-vsync", "0"];
     for (name, codec) in [
         ("a.mp4", "libx264"),
@@ -165,7 +165,7 @@ fn frames_are_chosen_by_their_times_and_keep_them() {
     assert_eq!(opened(&path, 8, &InputOptions::default()).unwrap().frames(), Some(100));
 }
 
-/// Real clips, where the environment variable FOVEATE_DATA names their folder.
+/// Tests real clips in the folder that the environment variable FOVEATE_DATA names.
 #[test]
 fn real_clips_are_whole_and_have_their_times() {
     let Some(data) = data_folder() else { return };

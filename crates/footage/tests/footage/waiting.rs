@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Inputs that make a reader wait: FIFOs without a writer, writers that stall. A request to stop ends every wait.
+//! Inputs that make a reader wait: FIFOs without a writer, and writers that stall. A request to
+//! stop ends every wait.
 #![cfg(unix)]
 
 use std::fs::{self, File};
@@ -19,7 +20,7 @@ fn fifo(folder: &Path, name: &str) -> PathBuf {
     path
 }
 
-/// The header and some frames of grey.
+/// Returns the header of a stream and some grey frames.
 fn stream(frames: usize) -> Vec<u8> {
     let mut bytes = b"YUV4MPEG2 W64 H48 F25:1 Cmono\n".to_vec();
     for frame in 0..frames {
@@ -43,7 +44,7 @@ fn a_pipe_gives_its_frames_once() {
         assert!(foveate_footage::is_read_once(&path));
         writer.join().unwrap();
     }
-    // Nothing else is read from it, and nobody waits for more to find that out.
+    // The image is not read from the pipe a second time, and the test does not wait for more data.
     let path = fifo(dir.path(), "b");
     let image = path.clone();
     let writer = std::thread::spawn(move || fs::write(image, b"\x89PNG\r\n\x1a\n more").unwrap());
@@ -52,7 +53,7 @@ fn a_pipe_gives_its_frames_once() {
     writer.join().unwrap();
 }
 
-/// A read of any of these pipes would wait without end.
+/// A read of any of these pipes would never end.
 #[test]
 fn a_pipe_among_files_is_not_waited_for() {
     let dir = tempfile::tempdir().unwrap();
@@ -70,7 +71,8 @@ fn a_pipe_among_files_is_not_waited_for() {
 #[test]
 fn a_request_to_stop_ends_every_wait() {
     let dir = tempfile::tempdir().unwrap();
-    // Nobody opens it; somebody does and is silent, in the header, between frames, within a frame.
+    // In the first case no writer opens the pipe. In the others a writer stalls in the header,
+    // between frames, or within a frame.
     for (case, written) in
         [None, Some(0), Some(12), Some(31 + 3078), Some(31 + 4000)].into_iter().enumerate()
     {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! COCO: a JSON document with `images` (id, `file_name`) and `annotations` (`image_id`, `bbox` as left, top,
-//! width, height, and `iscrowd`). Annotations of crowds are no objects. Everything else, masks among it, is
-//! passed over as it is read, so that memory grows only with the number of boxes.
+//! The format COCO: a JSON document with `images` (id, `file_name`) and `annotations` (`image_id`,
+//! `bbox` as left, top, width, height, and `iscrowd`). Annotations of crowds are not objects. All
+//! other content, such as masks, is skipped while it is read, so that memory grows only with the
+//! number of boxes.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -38,7 +39,7 @@ struct Annotation {
     iscrowd: u8,
 }
 
-/// The boxes of every image, by its name.
+/// Reads the boxes of every image, by the name of the image.
 pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxError> {
     let wrong = |problem| BoxError::File { path: path.to_owned(), problem };
     let document: Document = serde_json::from_reader(limits::open(path)?).map_err(|error| {
@@ -71,7 +72,7 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxErr
     Ok(images)
 }
 
-/// A list of at most [`MAX_BOXES`].
+/// Deserializes a list of at most [`MAX_BOXES`] items.
 fn limited<'de, D: Deserializer<'de>, T: Deserialize<'de>>(from: D) -> Result<Vec<T>, D::Error> {
     struct Limited<T>(PhantomData<T>);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers in the fields of a text file.
+//! The numbers in the fields of a text file.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom};
@@ -9,7 +9,7 @@ use csv::{ErrorKind, Position, StringRecord};
 
 use crate::boxes::BoxError;
 
-/// A field as a number.
+/// Parses a field as a finite number.
 pub(crate) fn number(name: &str, text: &str) -> Result<f64, String> {
     text.parse()
         .ok()
@@ -17,9 +17,9 @@ pub(crate) fn number(name: &str, text: &str) -> Result<f64, String> {
         .ok_or_else(|| format!("`{}` is no {name}; expected a number", text.escape_debug()))
 }
 
-/// A field as a whole number of at least `least`, which may be written with a point, as in `3.0`.
+/// Parses a field as a whole number of at least `least`. It may have a decimal point, as in `3.0`.
 pub(crate) fn whole(name: &str, text: &str, least: u32) -> Result<u64, String> {
-    // Above this not every whole number is one of the type.
+    // Above this limit, `f64` cannot represent every whole number.
     const MOST: f64 = 9e15;
     let value = number(name, text).ok();
     let value = value.filter(|v| v.fract() == 0.0 && (f64::from(least)..MOST).contains(v));
@@ -30,7 +30,7 @@ pub(crate) fn whole(name: &str, text: &str, least: u32) -> Result<u64, String> {
     })
 }
 
-/// Fields as numbers, with the names of the columns.
+/// Parses fields as numbers, with the names of their columns for messages.
 pub(crate) fn numbers<const N: usize>(
     names: [&str; N],
     texts: [&str; N],
@@ -42,7 +42,7 @@ pub(crate) fn numbers<const N: usize>(
     Ok(values)
 }
 
-/// A message on the line of a record.
+/// Returns an error about a record, with the number of its line.
 pub(crate) fn in_line(path: &Path, record: &StringRecord, problem: String) -> BoxError {
     match record.position().map(|place| line_of(path, place)) {
         Some(Ok(line)) => BoxError::Line { path: path.to_owned(), line, problem },
@@ -51,7 +51,7 @@ pub(crate) fn in_line(path: &Path, record: &StringRecord, problem: String) -> Bo
     }
 }
 
-/// The line at which a record begins. Its place is where the blank lines before it begin.
+/// Returns the line at which a record begins. Its position may be that of blank lines before it.
 fn line_of(path: &Path, place: &Position) -> io::Result<u64> {
     let mut file = File::open(path)?;
     file.seek(SeekFrom::Start(place.byte()))?;
@@ -66,7 +66,7 @@ fn line_of(path: &Path, place: &Position) -> io::Result<u64> {
     Ok(line)
 }
 
-/// A record that cannot be read as text.
+/// Returns the error for a record that cannot be read as text.
 pub(crate) fn unreadable(path: &Path, error: csv::Error) -> BoxError {
     let path = path.to_owned();
     match error.into_kind() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Formats of box files, and which one a file has. Content decides, not the name.
+//! The formats of box files. The content of a file decides its format, not its name.
 
 pub(crate) mod coco;
 pub(crate) mod field;
@@ -27,7 +27,7 @@ pub enum Format {
 }
 
 impl Format {
-    /// Its name in messages and notes.
+    /// Returns the name of the format in messages and notes.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -38,7 +38,8 @@ impl Format {
         }
     }
 
-    /// The format of a file or folder: JSON begins with a brace, MOT with a number, CSV with its columns.
+    /// Detects the format of a file or folder: JSON begins with a brace, MOT with a number, CSV
+    /// with the names of its columns.
     pub(crate) fn of(path: &Path) -> Result<Self, BoxError> {
         if path.is_dir() {
             return Ok(Self::Yolo);
@@ -54,7 +55,7 @@ impl Format {
         for byte in limits::open(path)?.bytes() {
             let byte = byte.map_err(|source| BoxError::Io { path: path.to_owned(), source })?;
             return match byte {
-                // Blank lines, and the mark of UTF-8.
+                // Blank lines and the byte order mark of UTF-8 are skipped.
                 b' ' | b'\t' | b'\r' | b'\n' | 0xEF | 0xBB | 0xBF => continue,
                 b'{' => Ok(Self::Coco),
                 b'[' => Err(wrong("a list of results is no ground truth")),

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `gt.txt` of MOT16, MOT17 and MOT20: a row per object and frame, without a header.
+//! The format of `gt.txt` of MOT16, MOT17 and MOT20: one row per object and frame, without a
+//! header.
 //!
-//! frame, track, left, top, width, height, counted, class, visibility. Frames and coordinates begin at 1. A
-//! row is an object if it is counted (not 0), its class is 1 (pedestrian), and at least a quarter of it is
-//! visible; what nobody can see says nothing about a camera.
+//! The columns are frame, track, left, top, width, height, counted, class and visibility. Frames
+//! and coordinates begin at 1. A row is an object if it is counted (not 0), its class is 1
+//! (pedestrian), and at least a quarter of it is visible; an object that cannot be seen says
+//! nothing about a camera.
 
 use std::collections::{BTreeMap, HashSet};
 use std::path::Path;
@@ -20,7 +22,7 @@ const COLUMNS: [&str; 9] =
 const PEDESTRIAN: f64 = 1.0;
 const LEAST_VISIBLE: f64 = 0.25;
 
-/// The objects of every frame that has a row, by its number.
+/// Reads the objects of every frame that has a row, by the number of the frame.
 pub(crate) fn read(path: &Path) -> Result<BTreeMap<u64, Vec<Labelled>>, BoxError> {
     let mut file = foveate_reading::table(
         ReaderBuilder::new().has_headers(false).flexible(true).trim(Trim::All),

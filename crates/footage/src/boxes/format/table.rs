@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A CSV table with a row per box: the columns file, x0, y0, x1, y1 in any order, and others that are not
-//! read. `x1` and `y1` are where the box ends.
+//! A CSV table with one row per box. It has the columns file, x0, y0, x1 and y1 in any order; other
+//! columns are ignored. `x1` and `y1` are exclusive ends.
 
 use std::collections::HashMap;
 use std::path::Path;
@@ -15,7 +15,7 @@ use foveate_frame::Rect;
 
 pub(crate) const COLUMNS: [&str; 5] = ["file", "x0", "y0", "x1", "y1"];
 
-/// The boxes of every image that has a row, by its name.
+/// Reads the boxes of every image that has a row, by the name of the image.
 pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxError> {
     let reader = limits::open(path)?;
     let mut file =
@@ -45,7 +45,7 @@ pub(crate) fn read(path: &Path) -> Result<HashMap<String, Vec<Labelled>>, BoxErr
             return Err(wrong(limits::too_many()));
         }
         if record.len() != headers.len() {
-            // A comma in a name without quotation marks moves all that follows by a column.
+            // A comma in a name without quotation marks shifts the following fields by one column.
             let (found, expected) = (record.len(), headers.len());
             return Err(wrong(format!("the row has {found} columns; expected {expected}")));
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! YOLO: a text file per image, with its name and the extension `txt`, and a line per object: class, centre
-//! (x, y), width and height, the last four as shares of the image. An image without a file has no objects.
+//! The format YOLO: one text file per image, with the image's name and the extension `txt`, and one
+//! line per object: class, centre (x, y), width and height. The last four are fractions of the
+//! image. An image without a file has no entry.
 
 use std::io::{BufRead, Read};
 use std::path::{Path, PathBuf};
@@ -10,16 +11,16 @@ use crate::boxes::limits::{self, MAX_BOXES};
 use crate::boxes::{BoxError, Labelled};
 use foveate_frame::Rect;
 
-/// The longest line in bytes, with its end; five numbers take a few dozen.
+/// The largest length of a line in bytes, with its end. Five numbers take a few dozen bytes.
 const MAX_LINE: usize = 4096;
 const COLUMNS: [&str; 5] = ["class", "x", "y", "width", "height"];
 
-/// The file of an image: with as many of its folders as there are below `folder`.
+/// Finds the file of an image below `folder`, with as many of the image's folders as exist there.
 pub(crate) fn file_of(folder: &Path, names: &[String]) -> Option<PathBuf> {
     names.iter().map(|name| folder.join(name).with_extension("txt")).find(|file| file.is_file())
 }
 
-/// The boxes of an image of this size.
+/// Reads the boxes of an image of this size.
 pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Labelled>, BoxError> {
     let mut reader = limits::open(path)?;
     let mut boxes = Vec::new();
@@ -30,7 +31,7 @@ pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Label
             break;
         }
         let wrong = |problem| BoxError::Line { path: path.to_owned(), line: number, problem };
-        // The rest of the line would be read as another one.
+        // Without this check, the rest of the line would be read as another line.
         if line.len() == MAX_LINE && !line.ends_with(b"\n") {
             let problem = format!(
                 "it has {MAX_LINE} bytes or more, which is the limit; expected five numbers"
@@ -53,7 +54,7 @@ pub(crate) fn read(path: &Path, (width, height): (u32, u32)) -> Result<Vec<Label
     Ok(boxes)
 }
 
-/// The box in parts of the image.
+/// Returns the box in fractions of the image.
 fn shares(fields: &[&str]) -> Result<Rect, String> {
     let [class, x, y, width, height] = *fields else {
         let (found, names) = (fields.len(), COLUMNS.join(", "));

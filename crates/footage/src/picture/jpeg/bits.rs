@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The bits of entropy-coded data, up to the next marker.
+//! A reader of the bits of entropy-coded data, up to the next marker.
 
 use crate::picture::fault::PictureFault;
 
-/// Bits of a JPEG from a place in the file on. A stuffed zero after FF is taken out. The data ends at
-/// a marker, which stays unread, or at the end of the file.
+/// Reads the bits of a JPEG from a position on. The zero byte that is stuffed after FF is removed.
+/// The data ends at a marker, which stays unread, or at the end of the file.
 pub(super) struct BitReader<'a> {
     bytes: &'a [u8],
-    /// The next byte that is not in `buffer`; at the end of the data the place of the marker.
+    /// The position of the next byte that is not in `buffer`. At the end of the data it is the
+    /// position of the marker.
     at: usize,
-    /// Unread bits, the first at the top; zeros follow them.
+    /// The unread bits from the top down, followed by zeros.
     buffer: u64,
-    /// How many unread bits there are.
+    /// The number of unread bits.
     count: u32,
     ended: bool,
 }
@@ -21,7 +22,7 @@ impl<'a> BitReader<'a> {
         Self { bytes, at, buffer: 0, count: 0, ended: false }
     }
 
-    /// Fills the buffer with at least 32 bits, if there are as many before the marker.
+    /// Fills the buffer with at least 32 bits, if that many remain before the marker.
     #[inline]
     fn fill(&mut self) {
         while self.count <= 56 && !self.ended {
@@ -43,7 +44,7 @@ impl<'a> BitReader<'a> {
         self.at += length;
     }
 
-    /// The next 16 bits, with zeros after the last one.
+    /// Returns the next 16 bits without reading them. Zeros follow the last bit.
     #[inline]
     pub(super) fn peek(&mut self) -> u16 {
         if self.count < 16 {
@@ -53,7 +54,7 @@ impl<'a> BitReader<'a> {
         u16::from_be_bytes([high, low])
     }
 
-    /// Passes over at most 32 bits.
+    /// Skips at most 32 bits.
     #[inline]
     pub(super) fn skip(&mut self, bits: u32) -> Result<(), PictureFault> {
         if self.count < bits {
@@ -67,7 +68,7 @@ impl<'a> BitReader<'a> {
         Ok(())
     }
 
-    /// A number of at most 16 bits.
+    /// Reads a number of at most 16 bits.
     #[inline]
     pub(super) fn take(&mut self, bits: u32) -> Result<u32, PictureFault> {
         let value = u32::from(self.peek()) >> (16 - bits);
@@ -75,7 +76,7 @@ impl<'a> BitReader<'a> {
         Ok(value)
     }
 
-    /// The fault behind missing bits: the file is cut, or a marker comes too early.
+    /// Returns the fault for missing bits: the file is cut, or a marker comes too early.
     fn short(&self) -> PictureFault {
         match self.marker() {
             None => PictureFault::truncated("its coded pixels end before the last row"),
@@ -86,8 +87,8 @@ impl<'a> BitReader<'a> {
         }
     }
 
-    /// Ends a run of data: only the bits that fill its last byte may be left. Gives the place of the
-    /// marker that follows.
+    /// Ends a run of data, after which only the bits that fill its last byte may be left. Returns
+    /// the position of the marker that follows.
     pub(super) fn end(&mut self) -> Result<usize, PictureFault> {
         self.fill();
         if self.count >= 8 {
@@ -99,9 +100,9 @@ impl<'a> BitReader<'a> {
         }
     }
 
-    /// Whether the last bits that were read, as many as a full block has, are zeros.
+    /// Returns true if the bits that were read last, as many as a full block has, are zeros.
     pub(super) fn follows_zeros(&self) -> bool {
-        /// The bits of 63 codes of three bits each.
+        /// The number of bytes of 63 codes of three bits each.
         const FULL_BLOCK: usize = 23;
         let unread = self.count.div_ceil(8) as usize;
         let read = self.at.checked_sub(unread);
@@ -115,13 +116,14 @@ impl<'a> BitReader<'a> {
         *self = Self::new(self.bytes, at);
     }
 
-    /// The marker at the end of the data.
+    /// Returns the marker at the end of the data.
     fn marker(&self) -> Option<u8> {
         marker_at(self.bytes, self.at).map(|(marker, _)| marker)
     }
 }
 
-/// The marker at a place, which may begin with several FF, and the place after it.
+/// Returns the marker at a position, which may begin with several bytes FF, and the position after
+/// it.
 pub(super) fn marker_at(bytes: &[u8], at: usize) -> Option<(u8, usize)> {
     let rest = bytes.get(at..)?;
     let fill = rest.iter().take_while(|&&byte| byte == 0xFF).count();

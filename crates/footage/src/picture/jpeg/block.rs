@@ -1,34 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Follows the codes of a block of 8x8 coefficients.
+//! The check of the codes of a block of 8x8 coefficients.
 
 use super::bits::BitReader;
 use super::frame::Process;
 use super::huffman::HuffmanTable;
 use crate::picture::fault::PictureFault;
 
-/// The coefficients that a scan sends, and which bits of them.
+/// The coefficients that a scan sends, and the range of their bits.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct SpectralBand {
-    /// The first and the last coefficient.
+    /// The first coefficient; the field `last` is the last one.
     pub(super) first: u8,
     pub(super) last: u8,
-    /// The lowest bit that scans before sent, 0 for none, and the lowest that this one sends.
+    /// The lowest bit that earlier scans sent, or 0 if none did; the field `low` is the lowest bit
+    /// that this scan sends.
     pub(super) high: u8,
     pub(super) low: u8,
 }
 
-/// Largest mean of a block of 8-bit pixels, with a factor of two to spare.
+/// The largest absolute DC coefficient of a block of 8-bit pixels, with a margin of a factor of
+/// two.
 const LARGEST_DC: i32 = 2047;
 
-/// State between the blocks of a scan.
+/// The state between the blocks of a scan.
 pub(super) struct Block {
     band: SpectralBand,
     process: Process,
     /// The last DC coefficient of every component.
     predicted: [i32; 4],
-    /// Blocks to come without a code of their own.
+    /// The number of blocks to come that have no code of their own.
     empty: u32,
-    /// Blocks whose codes are zeros alone, although no coefficient is zero.
+    /// The number of blocks whose codes are all zero bits although none of their coefficients is
+    /// zero.
     erased: u32,
 }
 
@@ -39,7 +42,7 @@ impl Block {
         Self { band, process, predicted: [0; 4], empty: 0, erased: 0 }
     }
 
-    /// Ends a run of blocks, after which nothing is remembered.
+    /// Ends a run of blocks and resets the predictions.
     pub(super) fn restart(&mut self) -> Result<(), PictureFault> {
         if self.empty > 0 {
             return Err(PictureFault::damaged("a run of empty blocks goes beyond its last block"));
@@ -48,7 +51,7 @@ impl Block {
         Ok(())
     }
 
-    /// Follows a block of the component at a place in the scan.
+    /// Follows a block of the component at index `place` of the scan.
     #[inline]
     pub(super) fn follow(
         &mut self,
@@ -73,8 +76,9 @@ impl Block {
         }
     }
 
-    /// Notes a block in which no coefficient is zero. With the usual table of codes, an erased stretch of the
-    /// file is such blocks, all their coefficients -1, which no picture has twice.
+    /// Counts a block without a zero coefficient. With the usual table of codes, an erased part of
+    /// the file decodes as such blocks with all coefficients -1, and no real picture has two of
+    /// them.
     #[cold]
     fn note_full(&mut self, bits: &BitReader<'_>) -> Result<(), PictureFault> {
         self.erased += u32::from(bits.follows_zeros());
@@ -84,7 +88,7 @@ impl Block {
         Ok(())
     }
 
-    /// The DC coefficient.
+    /// Follows the code of the DC coefficient.
     #[inline]
     fn mean(
         &mut self,
@@ -109,7 +113,7 @@ impl Block {
         Ok(())
     }
 
-    /// The high bits of coefficients in a progressive picture.
+    /// Follows the high bits of coefficients in a progressive picture.
     fn first_pass(
         &mut self,
         table: &HuffmanTable,
@@ -144,7 +148,7 @@ impl Block {
         if at > last + 1 { Err(too_many()) } else { Ok(()) }
     }
 
-    /// A further bit of coefficients that were sent before.
+    /// Follows one more bit of coefficients that were sent before.
     fn refine(
         &mut self,
         table: &HuffmanTable,
@@ -186,7 +190,7 @@ impl Block {
         if self.empty > 0 {
             let rest = (*nonzero).checked_shr(at).unwrap_or(0) << at.min(63);
             let here = if at > last { 0 } else { rest & (u64::MAX >> (63 - last)) };
-            // At most 63 of them, more than the buffer may hold at once.
+            // There are at most 63 of these bits, which may be more than the buffer holds.
             let here = here.count_ones();
             bits.skip(here / 2)?;
             bits.skip(here - here / 2)?;
@@ -196,7 +200,7 @@ impl Block {
     }
 }
 
-/// All coefficients but the first. Gives whether there is one at the last place.
+/// Follows all coefficients but the first. Returns true if the last coefficient is not zero.
 #[inline]
 fn coefficients(table: &HuffmanTable, bits: &mut BitReader<'_>) -> Result<bool, PictureFault> {
     let mut at = 1;
@@ -216,7 +220,7 @@ fn coefficients(table: &HuffmanTable, bits: &mut BitReader<'_>) -> Result<bool, 
     if at > 64 { Err(too_many()) } else { Ok(true) }
 }
 
-/// Zeros before a coefficient, and how many bits it has.
+/// Splits a symbol into the number of zeros before a coefficient and the number of its bits.
 fn run_and_length(symbol: u8) -> (u32, u32) {
     (u32::from(symbol >> 4), u32::from(symbol & 15))
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The header of the frame of a JPEG: its kind, its size, and the blocks of its components.
+//! The header of the frame of a JPEG: its process, its size, and the blocks of its components.
 
 use crate::limits::MAX_SIDE;
 use crate::picture::fault::PictureFault;
 
-/// How coefficients are spread over scans.
+/// The way in which coefficients are distributed over scans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Process {
     Sequential,
@@ -14,29 +14,31 @@ pub(super) enum Process {
 /// A component of the picture, such as its luma.
 pub(super) struct Component {
     pub(super) id: u8,
-    /// Blocks across and down in a unit of an interleaved scan.
+    /// The numbers of blocks across and down in a unit of an interleaved scan.
     pub(super) sampling: (u32, u32),
-    /// Blocks across and down that hold pixels.
+    /// The numbers of blocks across and down that have pixels.
     pub(super) blocks: (u32, u32),
-    /// Blocks across in memory, those that fill up units included.
+    /// The number of blocks in a row, including those that complete the last unit.
     pub(super) stride: u32,
-    /// Coefficients that are not zero, a bit each by their order in the file; of progressive pictures.
+    /// One bit per coefficient that is not zero, in file order, for each block. It is empty for
+    /// sequential pictures.
     pub(super) nonzero: Vec<u64>,
-    /// Lowest bit that was sent of every coefficient.
+    /// The lowest bit that was sent of each coefficient.
     pub(super) sent: [Option<u8>; 64],
 }
 
-/// A frame as its header says it.
+/// The header of a frame.
 pub(super) struct FrameHeader {
     pub(super) process: Process,
-    /// Units of an interleaved scan across and down.
+    /// The numbers of units across and down in an interleaved scan.
     pub(super) units: (u32, u32),
     pub(super) components: Vec<Component>,
 }
 
 impl FrameHeader {
-    /// Reads the segment of a marker SOF0, SOF1 or SOF2. `None` for what this check does not follow: other
-    /// depths than 8 bits, a height that comes later, and pictures beyond the limits.
+    /// Reads the segment of a marker SOF0, SOF1 or SOF2. Returns `None` for pictures that this
+    /// check does not follow: other depths than 8 bits, a height that comes later, and sizes beyond
+    /// the limits.
     pub(super) fn read(process: Process, segment: &[u8]) -> Result<Option<Self>, PictureFault> {
         let wrong = || PictureFault::damaged("the header of its frame (SOF) is wrong");
         let [depth, h1, h0, w1, w0, count, rest @ ..] = segment else { return Err(wrong()) };

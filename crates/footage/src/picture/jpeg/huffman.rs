@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Huffman tables of a JPEG.
+//! The Huffman tables of a JPEG.
 
 use super::bits::BitReader;
 use crate::picture::fault::PictureFault;
 
-/// Bits that one look into the short table decides.
+/// The number of bits that index the short table.
 const SHORT: u32 = 9;
 
 /// A table of codes.
 #[derive(Clone)]
 pub(super) struct HuffmanTable {
-    /// Length and symbol of every code of at most [`SHORT`] bits, by the next bits; length 0 is none.
+    /// The length and symbol of every code of at most [`SHORT`] bits, indexed by the next bits.
+    /// Length 0 means that there is no such code.
     short: Vec<(u8, u8)>,
-    /// By length: the first code beyond those of the length, aligned to 16 bits, and the place of the
-    /// symbol of code 0.
+    /// Two values per code length: the first code beyond the codes of this length, aligned to 16
+    /// bits, and the offset from a code to the index of its symbol.
     long: [(u32, i32); 17],
     symbols: Vec<u8>,
 }
 
 impl HuffmanTable {
-    /// A table from the numbers of its codes by their length, 1 to 16, and its symbols.
+    /// Makes a table from the numbers of its codes of each length, 1 to 16, and its symbols.
     pub(super) fn new(counts: [u8; 16], symbols: &[u8]) -> Result<Self, PictureFault> {
         let mut short = vec![(0, 0); 1 << SHORT];
         let mut long = [(0, 0); 17];
@@ -45,7 +46,7 @@ impl HuffmanTable {
         Ok(Self { short, long, symbols: symbols.to_vec() })
     }
 
-    /// Reads a code and gives its symbol.
+    /// Reads a code and returns its symbol.
     #[inline]
     pub(super) fn symbol(&self, bits: &mut BitReader<'_>) -> Result<u8, PictureFault> {
         let next = u32::from(bits.peek());

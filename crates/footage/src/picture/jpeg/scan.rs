@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Follows the coded data of one scan, block by block, without computing a pixel.
+//! The check of the coded data of one scan, block by block, without computing a pixel.
 
 use super::bits::{BitReader, marker_at};
 use super::block::{Block, SpectralBand};
@@ -7,18 +7,18 @@ use super::frame::{FrameHeader, Process};
 use super::huffman::HuffmanTable;
 use crate::picture::fault::PictureFault;
 
-/// The Huffman tables and the restart interval, as the segments before a scan left them.
+/// The Huffman tables and the restart interval that the segments before a scan defined.
 #[derive(Default)]
 pub(super) struct HuffmanTables {
     pub(super) dc: [Option<HuffmanTable>; 4],
     pub(super) ac: [Option<HuffmanTable>; 4],
-    /// Units between two restart markers; 0 is none.
+    /// The number of units between two restart markers; 0 means that there are none.
     pub(super) interval: u32,
 }
 
 /// A component in a scan.
 struct ScanComponent {
-    /// Its place in the frame.
+    /// The index of the component in the frame.
     component: usize,
     dc: usize,
     ac: usize,
@@ -71,7 +71,7 @@ impl ScanHeader {
         Ok(Self { parts, band })
     }
 
-    /// Follows the data from `at` to the marker after it, whose place it gives.
+    /// Follows the data from `at` to the marker after it. Returns the position of that marker.
     pub(super) fn follow(
         &self,
         frame: &mut FrameHeader,
@@ -106,7 +106,7 @@ impl ScanHeader {
         bits.end()
     }
 
-    /// The blocks of one unit.
+    /// Follows the blocks of one unit.
     fn unit(
         &self,
         frame: &mut FrameHeader,
@@ -131,8 +131,8 @@ impl ScanHeader {
         Ok(())
     }
 
-    /// Notes which bits of the coefficients this scan sends. A coefficient comes once, or, in a progressive
-    /// picture, from its high bits to its low ones.
+    /// Records which bits of the coefficients this scan sends. Each coefficient is sent once or, in
+    /// a progressive picture, from its high bits to its low bits.
     fn note_progress(&self, frame: &mut FrameHeader) -> Result<(), PictureFault> {
         let SpectralBand { first, last, high, low } = self.band;
         for part in &self.parts {
@@ -154,7 +154,7 @@ impl ScanHeader {
     }
 }
 
-/// Passes over the restart marker with this number; gives the place after it.
+/// Skips the restart marker with this number. Returns the position after it.
 fn restart(bits: &mut BitReader<'_>, bytes: &[u8], number: u8) -> Result<usize, PictureFault> {
     match marker_at(bytes, bits.end()?) {
         Some((marker, next)) if marker == 0xD0 + number => Ok(next),

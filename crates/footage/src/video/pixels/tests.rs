@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every pixel format that ffmpeg knows, as raw bytes through the filters that video goes through: the luma that comes
-//! out is what stands in the bytes, by a table of the formats that is written here anew.
+//! Raw bytes of every pixel format that ffmpeg knows go through the filters of video. The resulting
+//! luma is compared with the bytes, by an independent table of the formats.
 
 use std::fs;
 use std::path::Path;
@@ -43,7 +43,7 @@ struct Component {
     bit_depth: u32,
 }
 
-/// Where the samples of one plane or channel are.
+/// The position of the samples of one plane or channel.
 #[derive(Clone, Copy)]
 struct ComponentPlace {
     offset: usize,
@@ -65,7 +65,7 @@ impl ComponentPlace {
     }
 }
 
-/// Luma of a format that has it, by its name.
+/// Returns the position of the luma of a format that has it, by its name.
 fn place_of_luma(name: &str, depth: u32) -> Option<ComponentPlace> {
     let big_endian = name.ends_with("be");
     let wide = if depth > 8 { 2 } else { 1 };
@@ -81,7 +81,7 @@ fn place_of_luma(name: &str, depth: u32) -> Option<ComponentPlace> {
         _ if name.starts_with("ayuv64") => place(2, 8, 0),
         _ if name.starts_with("y2") => place(0, 4, 16 - depth),
         _ if starts(&["p0", "p2", "p4"]) => place(0, 2, 16 - depth),
-        // Others that share words have no table here.
+        // Other formats whose words hold more than luma are not in this table.
         _ if starts(&["xv", "v30", "nv20"]) => None,
         _ if starts(&["yuv", "nv"]) || name.starts_with("gray") && !name.starts_with("grayf") => {
             place(0, wide, 0)
@@ -90,7 +90,7 @@ fn place_of_luma(name: &str, depth: u32) -> Option<ComponentPlace> {
     }
 }
 
-/// Red, green and blue of a format of 8 or 16 bits whose samples stand alone.
+/// Returns the positions of red, green and blue of a format of 8 or 16 bits with separate samples.
 fn places_of_colours(name: &str) -> Option<[ComponentPlace; 3]> {
     let big_endian = name.ends_with("be");
     let (channels, depth) = match name {
@@ -110,7 +110,7 @@ fn places_of_colours(name: &str) -> Option<[ComponentPlace; 3]> {
     Some([place('r')?, place('g')?, place('b')?])
 }
 
-/// The luma of raw bytes of this format with its depth, where the tables know it.
+/// Returns the luma of raw bytes of this format and its depth, if the tables contain the format.
 fn expected(format: &PixelFormat, bytes: &[u8]) -> Option<(Vec<u16>, u32)> {
     let name = &format.name[..];
     if let Some([red, green, blue]) = places_of_colours(name) {
@@ -129,7 +129,7 @@ fn expected(format: &PixelFormat, bytes: &[u8]) -> Option<(Vec<u16>, u32)> {
     Some((place.samples(bytes), depth))
 }
 
-/// Bytes that are no pattern; the unused high bits of words are left empty, as decoders leave them.
+/// Returns bytes without a pattern. The unused high bits of words are zero, as decoders leave them.
 fn noise(format: &PixelFormat) -> Vec<u8> {
     let mut state = 0x2545_F491_u32;
     let mut bytes: Vec<u8> = std::iter::repeat_with(|| {
@@ -151,7 +151,8 @@ fn noise(format: &PixelFormat) -> Vec<u8> {
     bytes
 }
 
-/// The first frame of raw bytes through the filters of video, at 16 bits, or why there is none.
+/// Returns the first frame of raw bytes after the filters of video, at 16 bits, or the reason why
+/// there is none.
 fn decoded(ffmpeg: &Ffmpeg, name: &str, file: &Path) -> Result<Vec<u16>, String> {
     let size = format!("{WIDTH}x{HEIGHT}");
     let input = Invocation::new(&ffmpeg.found.path)
@@ -199,7 +200,7 @@ fn every_pixel_format_gives_its_luma_or_says_that_it_cannot() {
                     let seen = match decoded(&ffmpeg, name, &file) {
                         Ok(seen) => seen,
                         Err(problem) => {
-                            // Some are known by their names alone.
+                            // Some formats exist only as names.
                             assert!(problem.contains("Impossible to convert"), "{name}: {problem}");
                             continue;
                         }
@@ -217,7 +218,7 @@ fn every_pixel_format_gives_its_luma_or_says_that_it_cannot() {
         }
     });
     let (exact, inexact) = (exact.into_inner().unwrap(), inexact.into_inner().unwrap());
-    // Packed colours, palettes and numbers are only known to give a picture.
+    // Packed colours, palettes and floating-point formats are only checked to give a frame.
     let has_luma = |name: &&String| name.starts_with("yuv") || name.starts_with("p0");
     assert_eq!(inexact.iter().find(has_luma), None);
     assert!(exact >= 100, "{exact} formats are exact, of {inexact:?} a picture is there");
