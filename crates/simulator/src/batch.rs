@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Many clips in one run: one output folder per clip, in a tree like that of the inputs, and one
-//! summary of all. If a clip fails, the others are still completed.
+//! summary of the batch. If a clip fails, the others are still completed.
 
 mod summary;
 
@@ -19,31 +19,31 @@ use crate::simulation::SIMULATION;
 use crate::{Hooks, Progress, RunOptions, Simulation, SimulatorError, Summary};
 use foveate_footage::{Clip, InputOptions, open};
 
-/// Progress of a batch.
+/// The progress of a batch.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct BatchProgress {
-    /// Clips that are done or have failed.
+    /// The number of clips that are done or have failed.
     pub clips: usize,
-    /// Clips in all.
+    /// The number of all clips.
     pub all: usize,
-    /// Frames of all clips so far.
+    /// The number of frames of all clips so far.
     pub frames: u64,
 }
 
-/// Callbacks of a batch. Several threads call them.
+/// The callbacks of a batch. Several threads call them.
 pub trait BatchHooks: Sync {
     /// Reports that another frame or clip is done.
     fn progress(&self, progress: BatchProgress);
 
-    /// Returns whether to stop. The result is then what was done so far, marked as incomplete.
+    /// Returns true if the batch is to stop. The result is then incomplete, and is marked so.
     fn cancelled(&self) -> bool;
 }
 
-/// Runs every clip into a folder below `output`, with as many clips in parallel as rayon has threads.
-/// `output` appears at the end.
+/// Runs every clip into a folder below `output`, with as many clips in parallel as rayon has
+/// threads. The folder `output` appears at the end.
 ///
 /// # Errors
-/// When the output cannot be written, or no clip could be simulated at all.
+/// Fails if the output cannot be written, or if no clip could be simulated.
 pub fn run_batch(
     clips: &[Clip],
     config: &Config,
@@ -71,7 +71,7 @@ pub fn run_batch(
     Ok(summary)
 }
 
-/// A batch at work.
+/// The state of a running batch.
 struct Batch<'a> {
     clips: &'a [Clip],
     config: &'a Config,
@@ -88,7 +88,8 @@ impl Batch<'_> {
     fn run(&self) -> Result<BatchSummary, SimulatorError> {
         let results: Vec<Mutex<Option<ClipSummary>>> =
             self.clips.iter().map(|_| Mutex::new(None)).collect();
-        // Threads of their own: one of rayon would start another clip while it waits within one.
+        // The threads are not those of rayon: while one of these waits within a clip, it could
+        // start another clip.
         let threads = rayon::current_num_threads();
         std::thread::scope(|scope| {
             for _ in 0..threads.min(self.clips.len()) {
@@ -167,7 +168,7 @@ impl Batch<'_> {
     }
 }
 
-/// Counts the frames of one clip into the batch.
+/// The hooks of one clip, which count its frames into the batch.
 struct Frames<'a>(&'a Batch<'a>);
 
 impl Hooks for Frames<'_> {

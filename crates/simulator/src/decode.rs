@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A recorded stream of packets, written as a simulation is: the same files by the same writers, as far as the stream
-//! says what is in them. What is missing is listed in `losses.csv`, and the summary says that the run is not
-//! complete.
+//! The conversion of a recorded stream of packets to the files of a simulation. The same writers
+//! write the same files, as far as the stream has their content. Missing data is listed in
+//! `losses.csv`, and the summary says that the run is not complete.
 
 use std::io::{ErrorKind, Read};
 use std::path::Path;
@@ -18,27 +18,27 @@ use crate::simulation::{SIMULATION, full};
 use crate::stream::{Received, ShownFrame, Stream};
 use crate::{Hooks, Progress, RunOptions, SimulatorError, Summary};
 
-/// Bytes that are read at once.
+/// The number of bytes that are read at once.
 const CHUNK: usize = 1 << 16;
 
 /// A stream of packets, and the configuration of the camera that sent it.
 pub struct Recording<'a> {
-    /// The configuration, of which the frame size may be missing.
+    /// The configuration. It may leave the frame size open.
     pub config: &'a Config,
-    /// The bytes.
+    /// The bytes of the stream.
     pub stream: &'a mut dyn Read,
-    /// What they are called.
+    /// The name of the stream in messages.
     pub name: &'a str,
 }
 
-/// What came of a stream.
+/// The result of reading a stream.
 #[derive(Clone, Debug)]
 pub struct Decoded {
-    /// As of a simulation.
+    /// The summary, as of a simulation.
     pub summary: Summary,
     /// The first losses.
     pub losses: Vec<Loss>,
-    /// How many there are; all are in `losses.csv`.
+    /// The number of all losses, which are listed in `losses.csv`.
     pub loss_count: u64,
 }
 
@@ -47,7 +47,8 @@ impl Recording<'_> {
     /// [`Simulation::run`](crate::Simulation::run) does.
     ///
     /// # Errors
-    /// When the stream is none of this camera, or the output cannot be written. Damage is no error.
+    /// Fails if the stream is not one of this camera, or if the output cannot be written. Damage of
+    /// the stream is not an error.
     pub fn decode(
         self,
         output: &Path,
@@ -80,7 +81,7 @@ impl Recording<'_> {
         let (mut is_cancelled, mut is_full) = (false, None);
         loop {
             let read = match self.stream.read(&mut chunk) {
-                // The system asks to try again, or the wait was given up because the user stops the run.
+                // The system asks to try again, or the user stopped the run during the wait.
                 Err(source) if source.kind() == ErrorKind::Interrupted || hooks.cancelled() => None,
                 Err(source) => {
                     return Err(SimulatorError::ReadStream {
@@ -98,7 +99,7 @@ impl Recording<'_> {
                 bytes += read as u64;
                 stream.feed(&chunk[..read]);
             }
-            // A few bytes may ask for much work, so it is stopped between two frames, too.
+            // A few bytes may cause much work, so the run can be stopped between two frames, too.
             let is_all = match (writer.take(&mut stream, hooks, is_cancelled), writer.frames()) {
                 (Err(error), 1..) if error.is_full() => {
                     is_full = Some(full(&error, writer.frames(), folder));
@@ -129,7 +130,7 @@ impl Recording<'_> {
     }
 }
 
-/// Refuses what cannot be made of any stream.
+/// Refuses outputs that cannot be made from any stream.
 fn possible(options: &RunOptions) -> Result<(), SimulatorError> {
     let impossible = [
         (
@@ -146,7 +147,7 @@ fn possible(options: &RunOptions) -> Result<(), SimulatorError> {
     }
 }
 
-/// Files of a stream, once a frame has come.
+/// The files of a stream. The recorder is created when the first frame arrives.
 struct Writer<'a> {
     folder: &'a Path,
     options: &'a RunOptions,
@@ -156,12 +157,13 @@ struct Writer<'a> {
 }
 
 impl Writer<'_> {
-    /// Frames so far.
+    /// Returns the number of frames so far.
     fn frames(&self) -> u64 {
         self.recorder.as_ref().map_or(0, Recorder::frames)
     }
 
-    /// Writes all that is there, or what there is until `hooks` cancels, unless that has been noticed already. Says whether it was all.
+    /// Writes all frames that are available. Stops early when `hooks` cancels, unless
+    /// `is_cancelled` is set already. Returns true if all were written.
     fn take(
         &mut self,
         stream: &mut Stream,
@@ -172,7 +174,7 @@ impl Writer<'_> {
             let received = match stream.receive() {
                 Ok(Some(received)) => received,
                 Ok(None) => return Ok(true),
-                // Another camera's FRAME behind frames of this one ends nothing.
+                // A FRAME packet of another camera among frames of this one does not end the run.
                 Err(SimulatorError::Packets(error)) if stream.design().is_some() => {
                     let frame = error.frame().unwrap_or_default();
                     self.losses.push(Loss::Foreign { frame })?;
@@ -196,8 +198,8 @@ impl Writer<'_> {
         }
     }
 
-    /// Writes a frame, if its time is known. What is drawn over the frame before the camera in a simulation is drawn
-    /// over the screen.
+    /// Writes a frame if its time is known. A simulation draws an overlay over the frame that the
+    /// camera gets; here it is drawn over the screen.
     fn write(
         &mut self,
         frame: ShownFrame,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong in a simulation. Every message names the thing and says what to do.
+//! The errors of a simulation. Every message names the input or output and says what to do.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -14,36 +14,36 @@ use foveate_staging::{StagedFolder, StagingError};
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-/// A simulation that cannot be started or finished.
+/// The error that is returned if a simulation cannot be started or finished.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum SimulatorError {
     /// The footage cannot be opened or read.
     #[error(transparent)]
     Footage(FootageError),
-    /// A clip of a batch without a result.
+    /// No clip of a batch has a result.
     #[error("none of the {clips} clips could be simulated; the first failed with: {first}")]
     NoClip {
-        /// Number of clips.
+        /// The number of clips.
         clips: usize,
-        /// What was wrong with the first.
+        /// The message of the first clip.
         first: String,
     },
     /// The output folder cannot be written.
     #[error(transparent)]
     Output(#[from] StagingError),
-    /// Something cannot be written.
+    /// A file or folder cannot be written.
     #[error("cannot write `{}`: {source}; check free space and permissions, or choose another folder", path.display())]
     Write {
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
-        /// Why.
+        /// The error of the system.
         source: io::Error,
     },
-    /// The system gave no thread.
+    /// The system cannot start a thread.
     #[error("the system cannot start a thread: {reason}; try again with fewer programs running")]
     Thread {
-        /// What it says.
+        /// The reason that the system gives.
         reason: String,
     },
     /// ffmpeg cannot be started.
@@ -55,38 +55,38 @@ pub enum SimulatorError {
     /// A video could not be written to its end.
     #[error("ffmpeg cannot write `{}`: {problem}; check free space, or write pictures instead", path.display())]
     VideoOutput {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// What ffmpeg said.
+        /// The message of ffmpeg.
         problem: String,
-        /// Whether there was no room.
+        /// The disk was full.
         is_full: bool,
     },
-    /// A contrast that would make events without end.
+    /// The contrast is so small that it would give too many events.
     #[error("a contrast of {contrast} is too small; it must be at least 0.01")]
     Contrast {
         /// The contrast as given.
         contrast: String,
     },
-    /// A stream that would take more memory than its sender may ask for.
+    /// A stream claims a frame size that would need too much memory.
     #[error(
         "frame {frame} of the stream says that frames have {width}x{height} pixels, which are more than the {most} that a stream \
          alone may ask for; if that is right, give the camera's frame.width and frame.height in the configuration"
     )]
     ClaimedSize {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
-        /// Frame width in the stream.
+        /// The frame width in the stream.
         width: u32,
-        /// Frame height in the stream.
+        /// The frame height in the stream.
         height: u32,
-        /// Most pixels.
+        /// The largest number of pixels.
         most: u32,
     },
-    /// Pixel events are differences in time.
+    /// Pixel events are asked for from a set, whose images have no order in time.
     #[error("images of a set have no order in time; pixel events need a clip")]
     PixelEventsOfSet,
-    /// A data set needs a set of unrelated images.
+    /// A data set is asked for from a clip, whose frames are not independent images.
     #[error(
         "{inputs} is a clip, but a data set is made of unrelated images: IDX or CIFAR files, or image files \
          with --images set; for a clip, use `foveate simulate`"
@@ -95,51 +95,51 @@ pub enum SimulatorError {
         /// The inputs as given.
         inputs: String,
     },
-    /// There is no such frame to explain.
+    /// The frame that is to be explained does not exist.
     #[error("there is no frame {frame}; {inputs} has {frames} frames, counted from 0")]
     NoSuchFrame {
-        /// The frame that was asked for.
+        /// The number of the frame that was asked for.
         frame: u64,
         /// The inputs as given.
         inputs: String,
-        /// How many there are.
+        /// The number of frames.
         frames: u64,
     },
-    /// There is no such region to explain.
+    /// The region that is to be explained does not exist.
     #[error("there is no region {x},{y}; columns are 0 to {}, rows 0 to {}", columns - 1, rows - 1)]
     NoSuchRegion {
-        /// Column that was asked for.
+        /// The column that was asked for.
         x: u32,
-        /// Row that was asked for.
+        /// The row that was asked for.
         y: u32,
-        /// Columns of regions.
+        /// The number of columns of regions.
         columns: u32,
-        /// Rows of regions.
+        /// The number of rows of regions.
         rows: u32,
     },
     /// The user stopped the run before its first frame was done.
     #[error("interrupted before the first frame was done; nothing was written")]
     Cancelled,
-    /// The stream cannot be read as one of packets.
+    /// The stream cannot be read as a stream of packets.
     #[error(transparent)]
     Packets(#[from] PacketError),
-    /// A stream of packets ends with an error.
+    /// Reading a stream of packets failed.
     #[error("cannot read `{stream}`: {source}")]
     ReadStream {
-        /// What was read.
+        /// The name of the stream.
         stream: String,
-        /// Why.
+        /// The error of the system.
         source: io::Error,
     },
-    /// An output that a stream of packets cannot give.
+    /// The output cannot be made from a stream of packets.
     #[error("a stream of packets gives no {output}: {why}")]
     NotInStream {
-        /// What was asked for.
+        /// The output that was asked for.
         output: &'static str,
-        /// Why not.
+        /// The reason.
         why: &'static str,
     },
-    /// The configuration does not fit.
+    /// The configuration is not valid.
     #[error(transparent)]
     Design(#[from] ConfigError),
     /// The engine refused a frame.
@@ -163,7 +163,7 @@ impl From<FootageError> for SimulatorError {
 }
 
 impl SimulatorError {
-    /// Whether there was no room for an output.
+    /// Returns true if the disk was full.
     pub(crate) fn is_full(&self) -> bool {
         match self {
             Self::Write { source, .. } => foveate_staging::is_full(source),
@@ -173,7 +173,7 @@ impl SimulatorError {
         }
     }
 
-    /// The file that cannot be written.
+    /// Returns the path of the file that cannot be written.
     pub(crate) fn path(&self) -> Option<&Path> {
         match self {
             Self::Write { path, .. }
@@ -183,7 +183,7 @@ impl SimulatorError {
         }
     }
 
-    /// As it is told: with paths in the folder of the output as the user will know them.
+    /// Replaces the paths of the staging folder by the paths that the user knows.
     #[must_use]
     pub fn named(self, staging: &StagedFolder) -> Self {
         match self {

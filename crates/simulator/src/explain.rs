@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Explains a region of a frame of a source. The earlier frames run through the same camera, so reference and screen are as in
-//! the run.
+//! The explanation of a region in a frame of a source. The earlier frames run through the same
+//! camera, so that reference and screen are those of the run.
 
 use foveate_design::Config;
 use foveate_footage::{Kind, Source};
@@ -12,7 +12,7 @@ use crate::SimulatorError;
 /// Runs a source up to frame `frame` and explains the region at column and row `region`.
 ///
 /// # Errors
-/// When there is no such frame or region, or a frame cannot be read.
+/// Fails if the frame or the region does not exist, or if a frame cannot be read.
 pub fn explain(
     config: &Config,
     mut source: Box<dyn Source>,

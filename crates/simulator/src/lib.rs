@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a design over frames, and writes arrays, tables, events and rendered frames.
+//! Simulations: a design runs over frames, and arrays, tables, events and rendered frames are
+//! written.
 //!
-//! A [`Simulation`] runs a design over a source of footage and writes a folder of NumPy arrays, PNGs
-//! and a summary. The folder appears at the end, and says whether it is complete. [`run_batch`] does so
-//! for many clips. A [`Recording`] is a stream of packets that becomes such a folder, a [`Stream`] one
-//! that is looked at as it comes. Memory does not grow with the number of frames. The library never
-//! prints: progress and cancellation go through [`Hooks`].
+//! A [`Simulation`] runs a design over a source of footage and writes a folder of NumPy arrays,
+//! PNGs and a summary. The folder appears at the end, and states whether it is complete.
+//! [`run_batch`] does so for many clips. A [`Recording`] is a stream of packets that becomes such a
+//! folder. A [`Stream`] is a stream of packets whose frames are used as they arrive. Memory does
+//! not grow with the number of frames. The library never prints: progress and cancellation go
+//! through [`Hooks`].
 
 mod batch;
 mod decode;

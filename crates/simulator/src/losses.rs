@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `losses.csv`: what was missing from a stream, a line for each. The file is there if there is one.
+//! The file `losses.csv`, with one line for each item that is missing from a stream. It exists only
+//! if something is missing.
 
 use std::path::{Path, PathBuf};
 
@@ -8,10 +9,10 @@ use foveate_packets::Loss;
 use crate::SimulatorError;
 use crate::output::Csv;
 
-/// Losses that are kept in memory to be told.
+/// The number of losses that are kept in memory for messages.
 const TOLD: usize = 10;
 
-/// The file, once there is something to say.
+/// The file of losses, which is created at the first loss.
 pub(crate) struct Losses {
     path: PathBuf,
     csv: Option<Csv>,
@@ -39,12 +40,12 @@ impl Losses {
         csv.write_out(false)
     }
 
-    /// Losses so far.
+    /// Returns the number of losses so far.
     pub(crate) fn count(&self) -> u64 {
         self.count
     }
 
-    /// Completes the file; returns the first losses and their number.
+    /// Completes the file. Returns the first losses and the number of all.
     pub(crate) fn finish(mut self) -> Result<(Vec<Loss>, u64), SimulatorError> {
         self.csv.as_mut().map_or(Ok(()), |csv| csv.write_out(true))?;
         Ok((self.first, self.count))

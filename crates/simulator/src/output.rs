@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The outputs of a run: arrays, tables, pictures, pixel events and a summary.
 //!
-//! Everything that takes frames one at a time and writes them at once is a [`sink::Sink`]; the
-//! recorder feeds them. A new kind of output is a new sink and a line in the recorder.
+//! An output that takes frames one at a time and writes them at once is a [`sink::Sink`]; the
+//! recorder feeds all of them. A new kind of output is a new sink and a line in the recorder.
 
 mod arrays;
 mod bandwidth;
@@ -48,7 +48,7 @@ use std::path::Path;
 
 use crate::SimulatorError;
 
-/// Names the file in an error of the operating system.
+/// Makes an error that names the file from an error of the operating system.
 fn cannot_write(path: &Path) -> impl Fn(io::Error) -> SimulatorError + '_ {
     |source| SimulatorError::Write { path: path.to_owned(), source }
 }

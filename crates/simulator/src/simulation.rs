@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One run: every frame of a source through one camera, into one folder.
+//! A run: every frame of a source goes through one camera, into one folder.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use crate::output::{DISK_FULL, INTERRUPTED, Recorder};
 use crate::{RunOptions, SimulatorError, Summary};
 use foveate_footage::{FootageError, Hooks, Kind, Progress, Source, read_ahead};
 
-/// A design and the frames to show it.
+/// A design and the frames that it takes.
 pub struct Simulation {
     design: Design,
     source: Box<dyn Source>,
@@ -21,25 +21,25 @@ impl Simulation {
     /// Fits the configuration to the frame size of the source.
     ///
     /// # Errors
-    /// When the configuration names another size, or is not a valid design.
+    /// Fails if the configuration gives another size, or is not a valid design.
     pub fn new(config: &Config, source: Box<dyn Source>) -> Result<Self, SimulatorError> {
         let (width, height) = source.size();
         Ok(Self { design: config.for_frames(width, height)?, source })
     }
 
-    /// The design, with the frame size of the source.
+    /// Returns the design, with the frame size of the source.
     #[must_use]
     pub fn design(&self) -> &Design {
         &self.design
     }
 
     /// Runs to the end of the source, or until `hooks` cancels. The folder `output` appears when
-    /// everything is written. On an error nothing is left. The results so far are kept, with
-    /// `complete: false` in the summary, if the source ends early (such as a truncated video), on an
-    /// interrupt, and if the disk is full.
+    /// everything is written. An error leaves no folder. The results so far are kept, with
+    /// `complete: false` in the summary, if the source ends early (such as a truncated video), on
+    /// an interrupt, and if the disk is full.
     ///
     /// # Errors
-    /// When a frame cannot be read, the output cannot be written, or there is no frame.
+    /// Fails if a frame cannot be read, the output cannot be written, or there is no frame.
     pub fn run(
         mut self,
         output: &Path,
@@ -76,7 +76,7 @@ impl Simulation {
             &hooks.interrupt(),
         )?;
         let end = match self.record(&mut recorder, hooks) {
-            // The wait for a frame was given up.
+            // The interrupt ended the wait for a frame.
             Err(SimulatorError::Cancelled) => Ok(End::Cancelled),
             end => end,
         };
@@ -87,7 +87,7 @@ impl Simulation {
                 return Err(FootageError::NoFrames { inputs }.into());
             }
             (Ok(End::Cancelled), _) => Some(INTERRUPTED.to_owned()),
-            // Whoever stopped us may have stopped ffmpeg, too.
+            // An interrupt may have stopped ffmpeg, too.
             (Ok(End::Source), _) => self
                 .source
                 .problem()
@@ -101,7 +101,7 @@ impl Simulation {
         recorder.finish(folder, self.source.inputs(), problem)
     }
 
-    /// Shows every frame to the engine, while those after it are read.
+    /// Gives every frame to the engine, while the following frames are read.
     fn record(
         &mut self,
         recorder: &mut Recorder,
@@ -128,13 +128,14 @@ impl Simulation {
     }
 }
 
-/// Why no more frames came.
+/// The reason why no more frames come.
 enum End {
     Source,
     Cancelled,
 }
 
-/// The problem in the summary of a run that found no room for one of its files in `folder`.
+/// Returns the problem in the summary of a run that found no disk space for one of its files in
+/// `folder`.
 pub(crate) fn full(error: &SimulatorError, frames: u64, folder: &Path) -> String {
     let file = error.path().map(|path| path.strip_prefix(folder).unwrap_or(path));
     let at = file.map(|file| format!(", at {}", file.display())).unwrap_or_default();
@@ -147,7 +148,7 @@ impl std::fmt::Debug for Simulation {
     }
 }
 
-/// The folder that a run leaves, and the only kind that it replaces.
+/// The kind of folder that a run leaves, and the only kind that it replaces.
 pub const SIMULATION: FolderKind =
     FolderKind { what: "a simulation (its summary.json)", is: is_simulation };
 

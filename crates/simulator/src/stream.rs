@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A stream of packets as what it says, one thing after the other: frames as they are on the receiver's screen, what
-//! is missing, and answers of a board. Writes nothing and does not wait, so it is for recordings and for what is sent
-//! just now.
+//! A stream of packets, decoded step by step: frames as the receiver's screen shows them, losses,
+//! and answers of a board. It writes nothing and does not wait, so it serves for recordings and for
+//! live streams.
 
 use std::collections::VecDeque;
 
@@ -15,48 +15,49 @@ use foveate_packets::{
 
 use crate::SimulatorError;
 
-/// Most pixels of a frame whose size only the stream says: those of 8K video, and a little more. Whoever sends a stream must not decide
-/// how much memory is taken for it.
+/// The largest number of pixels of a frame whose size is known only from the stream: slightly more
+/// than 8K video. The sender of a stream must not decide how much memory is used.
 pub const CLAIMED_PIXELS: u32 = 1 << 25;
 
-/// What comes next in a stream.
+/// The next item of a stream.
 #[derive(Clone, Debug)]
 pub enum Received {
     /// A frame has ended, and is on the screen.
     Frame(Box<ShownFrame>),
-    /// Something is missing.
+    /// Data is missing.
     Loss(Loss),
-    /// What a board answers.
+    /// A board has answered.
     Register(Register),
 }
 
 /// A frame that is on the screen.
 #[derive(Clone, Debug)]
 pub struct ShownFrame {
-    /// Its number in the stream.
+    /// The number of the frame in the stream.
     pub number: u32,
-    /// When it began, in microseconds since the first; none where its FRAME is missing. Times never go back.
+    /// The time when the frame began, in microseconds since the first frame, or `None` if its FRAME
+    /// packet is missing. Times never decrease.
     pub time_us: Option<u64>,
-    /// What is on the screen.
+    /// The screen after the frame.
     pub screen: Raster,
-    /// What was decided, and what became of every region. What is not known is 0.
+    /// The decisions and actions of all regions. Unknown values are 0.
     pub outcome: FrameOutcome,
 }
 
-/// A stream, and how far it was read.
+/// A stream and the state of its decoding.
 #[derive(Debug)]
 pub struct Stream {
     config: Config,
     splitter: Splitter,
     run: Option<Run>,
     found: VecDeque<Received>,
-    /// The last FRAME was none of this camera.
+    /// The last FRAME packet did not belong to this camera.
     is_refused: bool,
     is_complete: bool,
 }
 
 impl Stream {
-    /// Of a camera with this configuration, of which the frame size may be missing.
+    /// Makes a stream of a camera with this configuration, which may leave the frame size open.
     #[must_use]
     pub fn new(config: &Config) -> Self {
         Self {
@@ -74,35 +75,35 @@ impl Stream {
         self.splitter.feed(bytes);
     }
 
-    /// There are no more bytes.
+    /// Marks the end of the bytes.
     pub fn complete(&mut self) {
         self.splitter.complete();
         self.is_complete = true;
     }
 
-    /// Bytes that are done with.
+    /// Returns the number of bytes that have been processed.
     #[must_use]
     pub fn position(&self) -> u64 {
         self.splitter.position()
     }
 
-    /// The design, once a FRAME has said how large frames are.
+    /// Returns the design, once a FRAME packet has given the frame size.
     #[must_use]
     pub fn design(&self) -> Option<&Design> {
         self.run.as_ref().map(|run| &run.design)
     }
 
-    /// Whether scores are in the stream; false before the first FRAME.
+    /// Returns true if the stream has scores, and false before the first FRAME packet.
     #[must_use]
     pub fn has_scores(&self) -> bool {
         self.run.as_ref().is_some_and(|run| run.assembler.layout().info().has_scores)
     }
 
-    /// What comes next; nothing where more bytes are needed.
+    /// Returns the next item, or `None` if more bytes are needed.
     ///
     /// # Errors
-    /// When a FRAME is none of this camera. Whoever asks again gets what follows the next FRAME that is. Damage is no
-    /// error.
+    /// Fails if a FRAME packet does not belong to this camera. The next call continues with the
+    /// next FRAME packet that does. Damage is not an error.
     pub fn receive(&mut self) -> Result<Option<Received>, SimulatorError> {
         loop {
             if let Some(found) = self.found.pop_front() {
@@ -116,7 +117,8 @@ impl Stream {
                     },
                     None => return Ok(None),
                 },
-                // Packets of another camera have lengths that nobody knows here.
+                // The lengths of another camera's packets are not known, so skipped bytes are not a
+                // loss.
                 Found::Skipped { .. } if self.is_refused => {}
                 Found::Skipped { offset, bytes } => {
                     return Ok(Some(Received::Loss(Loss::Bytes { offset, bytes })));
@@ -144,7 +146,7 @@ impl Stream {
     }
 }
 
-/// Frames on their way from packets to the screen.
+/// The state from packets to the screen.
 #[derive(Debug)]
 struct Run {
     design: Design,
@@ -154,7 +156,7 @@ struct Run {
 }
 
 impl Run {
-    /// That of a stream whose first FRAME says this.
+    /// Starts the decoding of a stream with this first FRAME packet.
     fn begin(config: &Config, frame: u32, info: &FrameInfo) -> Result<Self, SimulatorError> {
         if info.version != foveate_packets::VERSION {
             return Err(PacketError::Version { frame, version: info.version }.into());
@@ -172,7 +174,7 @@ impl Run {
         })
     }
 
-    /// Adds what is missing so far, and then the frames that have ended.
+    /// Adds the losses so far, and then the frames that have ended.
     fn show(
         &mut self,
         ended: impl IntoIterator<Item = Option<ReceivedFrame>>,
@@ -191,7 +193,7 @@ impl Run {
         Ok(())
     }
 
-    /// Puts a frame on the screen.
+    /// Shows a frame on the screen.
     fn shown(
         &mut self,
         frame: ReceivedFrame,
@@ -226,7 +228,7 @@ impl Run {
     }
 }
 
-/// Refuses a stream whose frames are larger than is taken from a stream alone.
+/// Refuses a stream that alone claims larger frames than permitted.
 fn refuse_claim(config: &Config, frame: u32, info: &FrameInfo) -> Result<(), SimulatorError> {
     let (width, height) = (u32::from(info.width), u32::from(info.height));
     let own = &config.camera.frame;
@@ -237,7 +239,7 @@ fn refuse_claim(config: &Config, frame: u32, info: &FrameInfo) -> Result<(), Sim
     Err(SimulatorError::ClaimedSize { frame, width, height, most: CLAIMED_PIXELS })
 }
 
-/// A copy of the screen.
+/// Returns a copy of the screen.
 fn raster(design: &Design, screen: Plane<'_>) -> Result<Raster, SimulatorError> {
     let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
     Ok(match screen {

@@ -1,51 +1,52 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a batch says of itself and of every clip.
+//! The summary of a batch and of every clip in it.
 
 use serde::Serialize;
 
 use crate::Summary;
 use foveate_footage::{Clip, shown_input};
 
-/// Changes when a key of the summary changes its meaning or goes.
+/// The version of the format. It changes when a key of the summary changes its meaning or is
+/// removed.
 pub(super) const FORMAT_VERSION: u32 = 1;
 
-/// One clip of a batch.
+/// The summary of one clip of a batch.
 #[derive(Clone, Debug, Serialize)]
 pub struct ClipSummary {
-    /// What was simulated.
+    /// The inputs that were simulated.
     pub inputs: Vec<String>,
-    /// Its class, if the inputs are a labelled tree.
+    /// The class of the clip, if the inputs are a labelled tree.
     pub label: Option<String>,
-    /// Its folder in the output; none if it failed.
+    /// The folder of the clip in the output, or `None` if the clip failed.
     pub output: Option<String>,
-    /// Whether it was run to its end.
+    /// The clip was run to its end.
     pub complete: bool,
-    /// Why it was not.
+    /// The reason why the clip is not complete.
     pub problem: Option<String>,
-    /// Frames.
+    /// The number of frames.
     pub frames: u64,
-    /// Share of regions with SRS and TRS.
+    /// The share of active regions.
     pub active_share: Option<f64>,
-    /// Pixels of all frames.
+    /// The number of pixels of all frames.
     pub pixels_in: u64,
-    /// Pixels of all active regions.
+    /// The number of pixels of all active regions.
     pub pixels_forwarded: u64,
 }
 
-/// The summary of a batch, `summary.json` at the top of its folder.
+/// The summary of a batch, the file `summary.json` at the top of its folder.
 #[derive(Clone, Debug, Serialize)]
 pub struct BatchSummary {
-    /// Version of this format.
+    /// The version of this format.
     pub format_version: u32,
-    /// Version of the program.
+    /// The version of the program.
     pub foveate_version: &'static str,
-    /// Whether every clip was run to its end.
+    /// Every clip was run to its end.
     pub complete: bool,
-    /// Why not.
+    /// The reason why the batch is not complete.
     pub problem: Option<String>,
-    /// Frames of all clips.
+    /// The number of frames of all clips.
     pub frames: u64,
-    /// Every clip, in order.
+    /// The summaries of all clips, in order.
     pub clips: Vec<ClipSummary>,
 }
 

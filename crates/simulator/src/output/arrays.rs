@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The NumPy arrays of a run: bits, counts and scores by frame, row and column, each in the smallest type
-//! that holds its range, which the camera knows.
+//! The NumPy arrays of a run: bits, counts and scores by frame, row and column. Each has the
+//! smallest type that holds its range, which the camera defines.
 
 use std::path::Path;
 
@@ -10,14 +10,15 @@ use super::sink::{Sink, Step};
 use crate::SimulatorError;
 use foveate_files::npy::{Element, NpyWriter};
 
-/// Every array, open.
+/// The writers of all arrays.
 pub(super) struct Arrays {
     srs: NpyWriter,
     trs: NpyWriter,
     active: NpyWriter,
-    /// Whether the means of the region were sent, where irrelevant regions send them.
+    /// The flags of regions whose summary was sent. It exists only if irrelevant regions send
+    /// summaries.
     summary: Option<NpyWriter>,
-    /// None where they are not known, as of a stream without scores.
+    /// The temporal counts. They are missing for a stream without scores.
     temporal_count: Option<NpyWriter>,
     scores: Vec<NpyWriter>,
 }

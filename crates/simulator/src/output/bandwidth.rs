@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Bytes and events of the region camera beside those of a camera with pixel events and raw video.
+//! The bytes and events of the region camera, compared with a camera with pixel events and with raw
+//! video.
 //!
 //! | camera | an event | bytes |
 //! | --- | --- | --- |
@@ -7,55 +8,56 @@
 //! | region | an active region of a frame, or one whose summary is sent | 2 bits per region and frame, and P / 8 per forwarded pixel and mean |
 //! | pixel | a pixel that crossed the contrast once | 4, a 32-bit word as in EVT 2.0 |
 //!
-//! Bits are summed over the run and rounded up to bytes once. All that a receiver needs is counted:
-//! the two bits say what becomes of every region, so no addresses are sent.
+//! The bits are summed over the run and rounded up to bytes once. Everything that a receiver needs
+//! is counted. The two bits give the action for every region, so no addresses are sent.
 
 use foveate_camera::Camera;
 use serde::Serialize;
 
-/// Bytes of one event of a pixel.
+/// The number of bytes of one pixel event.
 pub const PIXEL_EVENT_BYTES: u64 = 4;
 
-/// What one kind of camera sends. Rates are rounded to tenths; there is none where time stands still.
+/// The events and bytes that one kind of camera sends. Rates are rounded to tenths, and are missing
+/// if no time passes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Traffic {
-    /// Events in all; raw video has none.
+    /// The number of events. Raw video has none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub events: Option<u64>,
-    /// Events per second.
+    /// The number of events per second.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub events_per_second: Option<f64>,
-    /// Bytes in all.
+    /// The number of bytes.
     pub bytes: u64,
-    /// Bytes per second.
+    /// The number of bytes per second.
     pub bytes_per_second: Option<f64>,
 }
 
-/// The comparison.
+/// The comparison of the three kinds of camera.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Bandwidth {
-    /// From the first frame to the end of the last, which counts as long as the others on average.
-    /// None of a single frame.
+    /// The time in microseconds from the first frame to the end of the last one, whose length is
+    /// taken as the mean of the others. A single frame has no duration.
     pub duration_us: Option<u64>,
-    /// Every pixel of every frame.
+    /// Raw video: every pixel of every frame.
     pub raw: Traffic,
     /// The region camera.
     pub region: Traffic,
-    /// A camera with pixel events, if they were asked for.
+    /// The camera with pixel events, if they were asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pixel: Option<Traffic>,
 }
 
-/// Sums of a run.
+/// The sums of a run.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sums {
     pub(super) frames: u64,
-    /// Regions that sent pixels or means.
+    /// The number of regions that sent pixels or means.
     pub(super) events: u64,
-    /// Pixels and means.
+    /// The number of pixels and means.
     pub(super) values: u64,
     pub(super) pixel_events: Option<u64>,
-    /// Times of the first and the last frame.
+    /// The times of the first and of the last frame in microseconds.
     pub(super) times: Option<(u64, u64)>,
 }
 
@@ -95,7 +97,8 @@ fn duration(sums: &Sums) -> Option<u64> {
     u64::try_from((span * (intervals + 1) + intervals / 2) / intervals).ok()
 }
 
-/// Per second, rounded to tenths in integers, the same on every machine.
+/// Returns the rate per second, rounded to tenths in integers, so that it is the same on every
+/// machine.
 fn rate(amount: u64, duration_us: u64) -> Option<f64> {
     let duration = u128::from(duration_us);
     let tenths = (u128::from(amount) * 10_000_000 + duration / 2).checked_div(duration)?;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A colour picture to draw on, and the common layout of pictures of regions: the frame, enlarged if
-//! it is small, above a footer for a legend.
+//! A colour picture to draw on, and the common layout of pictures of regions: the frame, enlarged
+//! if it is small, above a footer for a legend.
 
 use foveate_pictures::palette::Colour;
 
@@ -9,24 +9,24 @@ use super::font;
 pub(super) const BACKGROUND: Colour = [16, 16, 16];
 pub(super) const TEXT: Colour = [230, 230, 230];
 
-/// Frames are enlarged, by a whole factor, until they are at least this wide,
+/// The width up to which frames are enlarged, by a whole factor.
 const ENOUGH_WIDTH: u32 = 448;
-/// unless they become higher than this.
+/// The largest height of an enlarged frame.
 const ENOUGH_HEIGHT: u32 = 1024;
-/// Dots across, from which their size follows.
+/// The number of dots across, from which the size of a dot follows.
 const ENOUGH_DOTS: u32 = 220;
-/// Room that a legend needs, in dots.
+/// The width that a legend needs, in dots.
 const LEGEND_DOTS: u32 = 150;
 
-/// Where things are.
+/// The layout of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Layout {
-    /// Pixels of the picture per pixel of the frame, along each side.
+    /// The number of pixels of the picture per pixel of the frame, along each side.
     pub(super) scale: u32,
-    /// Pixels per dot of a letter.
+    /// The number of pixels per dot of a letter, along each side.
     pub(super) dot: u32,
     pub(super) width: u32,
-    /// Height of the enlarged frame: where the footer begins.
+    /// The height of the enlarged frame, where the footer begins.
     pub(super) frame_height: u32,
     pub(super) frame_width: u32,
 }
@@ -40,7 +40,7 @@ impl Layout {
     }
 }
 
-/// The picture.
+/// A colour picture.
 pub(super) struct Canvas {
     pub(super) width: u32,
     pub(super) height: u32,
@@ -53,7 +53,7 @@ impl Canvas {
         Self { width, height, rgb: BACKGROUND.repeat(pixels) }
     }
 
-    /// Fills a rectangle, as far as it is on the picture.
+    /// Fills the part of a rectangle that lies on the picture.
     pub(super) fn fill(&mut self, left: u32, top: u32, width: u32, height: u32, colour: Colour) {
         let right = left.saturating_add(width).min(self.width);
         let bottom = top.saturating_add(height).min(self.height);
@@ -66,7 +66,7 @@ impl Canvas {
         }
     }
 
-    /// Draws the border of a rectangle, inside of it.
+    /// Draws the border of a rectangle on its inside.
     pub(super) fn frame(&mut self, at: [u32; 4], line: u32, colour: Colour) {
         let [left, top, width, height] = at;
         let line = line.min(width).min(height);
@@ -76,7 +76,7 @@ impl Canvas {
         self.fill(left + width - line, top, line, height, colour);
     }
 
-    /// Writes a line of text, `dot` pixels per dot; where it ends.
+    /// Draws a line of text with `dot` pixels per dot. Returns the column at which it ends.
     pub(super) fn text(&mut self, left: u32, top: u32, dot: u32, text: &str) -> u32 {
         let mut at = left;
         for letter in text.chars() {

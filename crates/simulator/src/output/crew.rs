@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! PNG files written side by side on threads of their own, since packing one takes longer than
-//! everything else that is done for a frame. A picture for which there is no room is kept until the end.
+//! A pool of threads that write PNG files in parallel, since compressing a picture takes longer
+//! than all other work for a frame. A picture that found no space on the disk is kept until the
+//! end.
 
 use std::io;
 use std::path::PathBuf;
@@ -13,24 +14,24 @@ use super::{cannot_write, png};
 use crate::SimulatorError;
 use foveate_staging::is_full;
 
-/// More do not help: something else is the limit then.
+/// The largest number of threads. More threads do not help, because other work is then the limit.
 const MOST: usize = 8;
 
-/// A picture and where it goes.
+/// A picture and the path of its file.
 struct Job {
     path: PathBuf,
     picture: RawImage,
 }
 
-/// The threads with their work.
+/// The threads and their queues.
 pub(super) struct Crew {
-    /// None once there is no more to do.
+    /// The queue of pictures, or `None` once no more pictures come.
     jobs: Option<SyncSender<Job>>,
     done: Receiver<(Job, io::Result<()>)>,
     threads: Vec<JoinHandle<()>>,
-    /// What found no room.
+    /// The pictures that found no space on the disk.
     unwritten: Vec<Job>,
-    /// Memory for the next picture.
+    /// The memory for the next picture.
     spare: Vec<u8>,
 }
 
@@ -61,24 +62,26 @@ impl Crew {
         rayon::current_num_threads().min(MOST)
     }
 
-    /// At most how many pictures may be on their way.
+    /// Returns the largest number of pictures that may be in work at once.
     fn on_the_way() -> usize {
         2 * Self::size() + 1
     }
 
-    /// At most how many bytes the pictures need that are on their way, of `samples` bytes per pixel.
+    /// Returns the largest number of bytes that the pictures in work need. A pixel has `samples`
+    /// bytes.
     pub(super) fn owed(width: u32, height: u32, samples: u64) -> u64 {
-        // No PNG is longer than its pixels by more than a byte per row, some per block, and the frame.
+        // A PNG is larger than its pixels by at most a byte per row, some bytes per block, and the
+        // fixed chunks.
         let picture = (u64::from(width) * samples + 1) * u64::from(height);
         (picture + picture / 1000 + 4096) * Self::on_the_way() as u64
     }
 
-    /// Memory for a picture, as long as the last.
+    /// Returns a buffer for a picture, with the size of the last one.
     pub(super) fn spare(&mut self) -> Vec<u8> {
         std::mem::take(&mut self.spare)
     }
 
-    /// Hands a picture over; waits while there is more to do than hands.
+    /// Queues a picture. Waits while the queue is full.
     pub(super) fn push(&mut self, path: PathBuf, picture: RawImage) {
         let job = Job { path, picture };
         let refused = match &self.jobs {
@@ -88,7 +91,7 @@ impl Crew {
         self.unwritten.extend(refused);
     }
 
-    /// Whether all pictures that are done are there; waits for `all` of them if asked to.
+    /// Checks that all finished pictures were written. With `all`, waits for all pictures first.
     pub(super) fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         if all {
             self.end();
@@ -108,7 +111,7 @@ impl Crew {
         Ok(())
     }
 
-    /// Waits for all pictures, and tries those again for which there was no room.
+    /// Waits for all pictures, and writes those again that found no space.
     pub(super) fn finish(mut self) -> Result<(), SimulatorError> {
         while let Err(error) = self.write_out(true) {
             if !error.is_full() {
@@ -125,14 +128,14 @@ impl Crew {
     fn end(&mut self) {
         drop(self.jobs.take());
         for thread in self.threads.drain(..) {
-            // A thread that has panicked has said so, and its picture is missing in `done`.
+            // The panic of a thread was reported already, and its picture is missing in `done`.
             let _ = thread.join();
         }
     }
 }
 
 impl Drop for Crew {
-    /// Nobody writes into a folder that is about to be removed.
+    /// Ends the threads, so that none writes into a folder that is about to be removed.
     fn drop(&mut self) {
         self.end();
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A text file of comma-separated lines, open.
+//! A growing file of comma-separated lines.
 
 use std::io::Write as _;
 use std::path::Path;
@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
-/// The file.
+/// The open file.
 pub(crate) struct Csv(GrowingFile);
 
 impl Csv {
@@ -23,13 +23,13 @@ impl Csv {
         let line = self.0.end();
         for (index, field) in fields.into_iter().enumerate() {
             let comma = if index == 0 { "" } else { "," };
-            // Memory takes everything.
+            // A write into memory cannot fail.
             let _ = write!(line, "{comma}{field}");
         }
         line.push(b'\n');
     }
 
-    /// Where whole lines are appended.
+    /// Returns the buffer to which whole lines are appended.
     pub(super) fn end(&mut self) -> &mut Vec<u8> {
         self.0.end()
     }

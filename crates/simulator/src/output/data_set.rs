@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The data set of the active regions: every image as a receiver would see it, in the form of the set
+//! The data set of a run over a set: every image as a receiver would see it, in the form of the set
 //! that it came from, with labels.
 
 mod idx;
@@ -14,15 +14,15 @@ use crate::SimulatorError;
 use foveate_files::npy::{Element, NpyWriter};
 use foveate_footage::{Labels, SetFiles, SetForm};
 
-/// Where a data set is, below the folder of its run.
+/// The paths of a data set, relative to the folder of its run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct DataSet {
     /// The IDX file, or the folder of images.
     pub images: String,
-    /// The IDX file of labels, if the set is one with labels.
+    /// The IDX file of labels, if the set has one.
     pub labels: Option<String>,
-    /// Names of the classes in the order of their numbers in `labels.npy`; none where labels are
-    /// numbers.
+    /// The names of the classes in the order of their numbers in `labels.npy`. It is empty if
+    /// labels are numbers.
     pub classes: Vec<String>,
 }
 
@@ -42,7 +42,7 @@ impl DataSet {
     }
 }
 
-/// The sinks that write it.
+/// Returns the sinks that write the data set.
 pub(super) fn sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn Sink>>, SimulatorError> {
     let mut sinks: Vec<Box<dyn Sink>> = Vec::new();
     if form.labels != Labels::None {
@@ -61,7 +61,7 @@ pub(super) fn sinks(folder: &Path, form: &SetForm) -> Result<Vec<Box<dyn Sink>>,
     Ok(sinks)
 }
 
-/// `labels.npy`, open.
+/// The file `labels.npy` while it is written.
 struct Numbers {
     labels: Labels,
     file: NpyWriter,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The files of the table of regions. What its columns are is the business of [`EventTable`], how they are written that of a
-//! [`RowWriter`].
+//! The files of the table of regions. [`EventTable`] defines the columns, and a [`RowWriter`] the
+//! file format.
 
 use std::path::{Path, PathBuf};
 
@@ -14,13 +14,13 @@ use super::row_writer::RowWriter;
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
 
-/// One file of the table, open.
+/// One file of the table while it is written.
 struct EventFile {
     table: EventTable,
     writer: Box<dyn RowWriter>,
 }
 
-/// The files that are wanted.
+/// Returns the sinks of the files that are asked for.
 pub(super) fn sinks(
     folder: &Path,
     camera: &Camera,

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Letters of 3 x 5 dots for the legends of pictures: one octal digit per row, from the top.
+//! A font of 3 x 5 dots for the legends of pictures: one octal digit per row, from the top.
 
-/// Columns and rows of a letter, without the space beside it.
+/// The columns and rows of a letter, without the space after it.
 pub(super) const SIZE: (u32, u32) = (3, 5);
 
-/// Whether the letter has a dot at column `x` and row `y`. Letters are capitals; what is not known is
-/// a space.
+/// Returns true if the letter has a dot at column `x` and row `y`. Letters become capitals; unknown
+/// characters become a space.
 pub(super) fn dot(letter: char, x: u32, y: u32) -> bool {
     let rows = rows(letter.to_ascii_uppercase());
     let row = rows >> (3 * (SIZE.1 - 1 - y));
@@ -72,7 +72,7 @@ mod tests {
         let known: Vec<char> = ('A'..='Z').chain('0'..='9').chain(".-%".chars()).collect();
         for (index, &letter) in known.iter().enumerate() {
             assert!(rows(letter) != 0 && rows(letter) < 0o100_000);
-            // A zero and an O, or a five and an S, may be told apart by their company.
+            // A zero and an O, or a five and an S, may look similar but not equal.
             assert!(known[..index].iter().all(|&other| rows(other) != rows(letter)), "{letter}");
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A series of pictures of one kind, as numbered PNGs or as a video.
+//! A series of pictures of one kind, as numbered PNG files or as a video.
 
 use std::path::{Path, PathBuf};
 
@@ -15,26 +15,26 @@ use super::sink::{Sink, Step};
 use super::video::VideoFile;
 use crate::SimulatorError;
 
-/// Draws a picture of a frame and what came of it.
+/// Draws a picture of a frame and its outcome.
 pub(super) trait Painter: Send {
     fn paint(&mut self, step: &Step<'_>) -> Canvas;
 }
 
-/// A series, open.
+/// The files of a series.
 enum Series {
     Folder(PngSeries),
     Video(VideoFile),
 }
 
-/// Pictures of one kind and where they go.
+/// The pictures of one kind and their files.
 pub(super) struct Gallery {
-    /// What is on the screen is shown without one.
+    /// The painter of the pictures. Without one, the screen is written.
     painter: Option<Box<dyn Painter>>,
     series: Series,
 }
 
 impl Gallery {
-    /// The frames that are on the screen.
+    /// Makes the series of the rendered frames.
     pub(super) fn rendered(
         folder: &Path,
         medium: Medium,
@@ -75,7 +75,7 @@ impl Sink for Gallery {
     }
 
     fn owed(&self, camera: &Camera) -> u64 {
-        // A painting has some lines below the frame, and is drawn larger where that is small.
+        // A painted picture has a footer below the frame, and is larger if the frame is small.
         let (lines, samples) = if self.painter.is_some() { (256, 12) } else { (0, 2) };
         match &self.series {
             Series::Folder(_) => Crew::owed(camera.width(), camera.height() + lines, samples),
@@ -120,7 +120,7 @@ impl Series {
         }
     }
 
-    /// Memory for the next picture, if there is some.
+    /// Returns the buffer of an earlier picture, or an empty one.
     fn spare(&mut self) -> Vec<u8> {
         match self {
             Self::Folder(series) => series.crew.spare(),

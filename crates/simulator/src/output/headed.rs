@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A file that starts with what is known last, such as a count; plain or gzipped.
+//! A file, plain or gzipped, with a header that is known only at the end, such as a count.
 //!
-//! Gzipped, the header is a stored block of its own before the compressed rest, so that it can be
-//! written in place at the end; the checksum is combined from both. The bytes hold no time or name.
+//! In a gzipped file the header is a stored block of its own before the compressed data, so that it
+//! can be written in place at the end. The checksum is combined from both parts. The bytes contain
+//! no time and no name.
 
 use std::path::Path;
 
@@ -12,17 +13,17 @@ use super::packer::{BEFORE_STORED, Packer, stored};
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
-/// Magic, deflate, no flags, no time, no level, no system.
+/// The gzip header: magic number, deflate, no flags, no time, no level, no system.
 const GZIP: [u8; 10] = [0x1F, 0x8B, 8, 0, 0, 0, 0, 0, 0, 0xFF];
 
-/// The file, open; `HEADER` bytes are reserved.
+/// The open file, with `HEADER` bytes reserved at its start.
 pub(super) struct HeadedFile<const HEADER: usize> {
     file: GrowingFile,
     packer: Option<Packer>,
 }
 
 impl<const HEADER: usize> HeadedFile<HEADER> {
-    /// Creates a file that is not there yet.
+    /// Creates a file that does not exist yet.
     pub(super) fn create(path: &Path, packed: bool) -> Result<Self, SimulatorError> {
         let mut file = GrowingFile::create_new(path)?;
         if packed {
@@ -58,7 +59,7 @@ impl<const HEADER: usize> HeadedFile<HEADER> {
     }
 }
 
-/// A length modulo 2^32, as gzip has it.
+/// Returns a length modulo 2^32, as gzip stores it.
 fn low_word(length: u64) -> u32 {
     let [a, b, c, d, ..] = length.to_le_bytes();
     u32::from_le_bytes([a, b, c, d])
@@ -83,7 +84,7 @@ mod tests {
             let mut seen = Vec::new();
             if packed {
                 assert!(bytes.len() < 10_000);
-                // One member, with checksum and length.
+                // The file has one gzip member, with checksum and length.
                 flate2::read::GzDecoder::new(&bytes[..]).read_to_end(&mut seen).unwrap();
             } else {
                 seen = bytes;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Maps of one score: every region in the colour of its score, on the perceptually uniform scale
-//! viridis, dark for 0. The scale is that of the camera, not of the frame, so that pictures can be
-//! compared: 0 to the largest possible score, by its square root where it is in squares, which makes of a
-//! variance the standard deviation. The bar below has a tick at the threshold.
+//! Heat maps of one score: every region in the colour of its score, on the perceptually uniform
+//! scale viridis, dark for 0. The scale belongs to the camera and not to the frame, so that
+//! pictures can be compared. It goes from 0 to the largest possible score. Scores in squared levels
+//! are shown by their square root, so that a variance appears as a standard deviation. The bar
+//! below has a tick at the threshold.
 
 use colorous::VIRIDIS;
 use foveate_camera::{Camera, Measure};
@@ -13,28 +14,28 @@ use super::font;
 use super::gallery::Painter;
 use super::sink::Step;
 
-/// Steps of the scale.
+/// The number of steps of the scale.
 const STEPS: u64 = 256;
 
-/// Draws one score.
+/// The painter of the maps of one score.
 pub(super) struct Heatmap {
     score: Score,
     title: String,
     max: u64,
-    /// The largest score as it is written beside the bar: in grey levels, or their square.
+    /// The largest score as it is written beside the bar, in grey levels or their square.
     label: String,
     threshold: u64,
 }
 
 #[derive(Clone, Copy)]
 enum Score {
-    /// By number of the feature, with what it measures.
+    /// A spatial score: the index of the feature, and the unit of its score.
     Spatial(usize, Measure),
     Temporal,
 }
 
 impl Heatmap {
-    /// A map for every score of a camera, with its name.
+    /// Returns a map with its name for every score of a camera.
     pub(super) fn all(camera: &Camera) -> Vec<(String, Self)> {
         let n = u64::from(camera.region_pixels());
         let spatial = camera.features().iter().enumerate().map(|(index, feature)| Self {
@@ -62,7 +63,7 @@ impl Heatmap {
         }
     }
 
-    /// Place of a score on the scale, `0..STEPS`.
+    /// Returns the place of a score on the scale, in `0..STEPS`.
     fn place(&self, score: u64) -> u64 {
         let last = u128::from(STEPS - 1);
         let (score, max) = (u128::from(score.min(self.max)), u128::from(self.max.max(1)));

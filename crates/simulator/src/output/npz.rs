@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! NPZ: a ZIP archive of NPY files, deflated. The large array is packed into its place as it grows; its
-//! sizes, its checksum and its length are filled in at the end. Every entry has ZIP64 sizes, so that
-//! nothing changes beyond 4 GiB.
+//! NPZ: a ZIP archive of NPY files, deflated. The large array is compressed into its place while it
+//! grows. Its sizes, its checksum and its length are filled in at the end. Every entry has ZIP64
+//! sizes, so that archives beyond 4 GiB need no other format.
 
 use flate2::Compression;
 
@@ -9,12 +9,12 @@ use super::packer::{Packer, stored};
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
-/// Bytes of an NPY header here; a multiple of 64.
+/// The number of bytes of an NPY header in this archive, a multiple of 64.
 const HEADER: usize = 192;
-/// Events are packed at once while frames go by: quickly, then.
+/// The compression level. It is low, because events are compressed during the run.
 const LEVEL: Compression = Compression::new(1);
 
-/// An archive with one entry in the making.
+/// An archive with one open entry.
 pub(super) struct Npz {
     file: GrowingFile,
     at: u64,
@@ -26,7 +26,7 @@ pub(super) struct Npz {
 /// A file of the archive.
 struct Entry {
     name: &'static str,
-    /// Type of an element as Python writes it.
+    /// The type of an element in Python's notation.
     descr: &'static str,
     start: u64,
     bytes: u64,
@@ -35,7 +35,7 @@ struct Entry {
 }
 
 impl Npz {
-    /// An archive whose first array is `name`, of elements `descr`.
+    /// Makes an archive whose first array is `name`, with elements of type `descr`.
     pub(super) fn new(file: GrowingFile, name: &'static str, descr: &'static str) -> Self {
         let open = Entry::new(name, descr, 0);
         let mut npz = Self { file, at: 0, done: Vec::new(), open, packer: Packer::new(LEVEL) };
@@ -57,7 +57,7 @@ impl Npz {
         Ok(self.file.write_out(all)?)
     }
 
-    /// Closes the open array, which has `count` elements, and begins another.
+    /// Closes the open array, which has `count` elements, and begins another one.
     pub(super) fn next(
         &mut self,
         count: u64,
@@ -81,7 +81,7 @@ impl Npz {
         Ok(self.file.write_out(true)?)
     }
 
-    /// Leaves room for the headers of the open entry.
+    /// Reserves space for the headers of the open entry.
     fn begin(&mut self) {
         let header = stored(&foveate_files::npy::header(HEADER, self.open.descr, "0,"));
         self.open.packed_bytes = length(&header);
@@ -108,7 +108,7 @@ impl Entry {
         Self { name, descr, start, bytes: 0, packed_bytes: 0, crc: 0 }
     }
 
-    /// The header before the data.
+    /// Returns the header before the data.
     fn local(&self) -> Vec<u8> {
         let mut bytes = b"PK\x03\x04".to_vec();
         bytes.extend(self.common());
@@ -116,17 +116,19 @@ impl Entry {
         self.name_and_sizes(bytes, &[], &sizes)
     }
 
-    /// The entry of the directory.
+    /// Returns the entry of the central directory.
     fn central(&self) -> Vec<u8> {
         let mut bytes = b"PK\x01\x02\x2d\x03".to_vec();
         bytes.extend(self.common());
         let sizes = [self.bytes, self.packed_bytes, self.start];
-        // No comment, first disk, no attributes but -rw-r--r--; the offset is among the long sizes.
+        // The fields are: no comment, first disk, no attributes but -rw-r--r--. The offset is among
+        // the ZIP64 sizes.
         let rest = [&[0; 6][..], &(0o100_644u32 << 16).to_le_bytes(), &[0xFF; 4]].concat();
         self.name_and_sizes(bytes, &rest, &sizes)
     }
 
-    /// Version 4.5, no flags, deflated, 1980-01-01, checksum, and sizes that are elsewhere.
+    /// Returns the common fields: version 4.5, no flags, deflated, 1980-01-01, checksum, and the
+    /// mark that the sizes are in the ZIP64 field.
     fn common(&self) -> Vec<u8> {
         let fixed = [0x2d, 0, 0, 0, 8, 0, 0, 0, 0x21, 0];
         [&fixed[..], &self.crc.to_le_bytes(), &[0xFF; 8]].concat()
@@ -146,7 +148,7 @@ impl Entry {
     }
 }
 
-/// The end of the directory, in its long and its short form.
+/// Returns the end of the central directory, in its ZIP64 form and in its short form.
 fn end(start: u64, size: u64, entries: u64) -> Vec<u8> {
     let mut bytes = b"PK\x06\x06".to_vec();
     bytes.extend(44u64.to_le_bytes());

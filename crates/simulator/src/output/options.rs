@@ -1,72 +1,73 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run is asked to write.
+//! The options that select the outputs of a run.
 
 use foveate_camera::Decimal;
 
-/// How a series of pictures is kept.
+/// The file format of a series of pictures.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Medium {
-    /// A folder of pictures `000000.png` and on.
+    /// A folder of pictures `000000.png`, `000001.png` and so on.
     Png,
-    /// One lossless video, FFV1 in Matroska; needs ffmpeg.
+    /// One lossless video, FFV1 in Matroska. It needs ffmpeg.
     Mkv,
-    /// One video for any player, H.264 in MP4, not lossless; needs ffmpeg.
+    /// One video for any player, H.264 in MP4. It is not lossless, and needs ffmpeg.
     Mp4,
 }
 
-/// Tables with one row per region and frame.
+/// The tables with one row per region and frame.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct EventTables {
-    /// `events.csv`.
+    /// Writes `events.csv`.
     pub csv: bool,
-    /// `events.parquet`.
+    /// Writes `events.parquet`.
     pub parquet: bool,
-    /// Rows of active regions only.
+    /// Writes only rows of regions that send pixels or a summary.
     pub only_active: bool,
 }
 
-/// Ordinary (x, y, t, p) events of the same frames, for comparison.
+/// The ordinary (x, y, t, p) events of the same frames, for comparison.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PixelEvents {
-    /// `pixel_events.npz`.
+    /// Writes `pixel_events.npz`.
     pub npz: bool,
-    /// `pixel_events.csv`.
+    /// Writes `pixel_events.csv`.
     pub csv: bool,
-    /// Change of a pixel that makes an event: grey levels, or natural logarithms with `log`. Without
-    /// one: the smallest change that the camera's temporal score counts, or 0.2 with `log`.
+    /// The change of a pixel that makes an event, in grey levels, or as a natural logarithm with
+    /// `log`. The default is the smallest change that the camera's temporal score counts, or 0.2
+    /// with `log`.
     pub contrast: Option<Decimal>,
-    /// Whether changes are measured in logarithms.
+    /// Measures changes in logarithms.
     pub log: bool,
 }
 
-/// What goes into the packets of a camera.
+/// The content of the packets of a camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Packets {
-    /// What a receiver needs for its screen.
+    /// The data that a receiver needs for its screen.
     Plain,
-    /// The scores of every region besides.
+    /// The same data, and the scores of every region.
     WithScores,
 }
 
-/// What a run writes beside arrays, the table of frames and the summary.
+/// The outputs that a run writes besides the arrays, the table of frames and the summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct RunOptions {
-    /// What is on the screen, `rendered`. 8 bits per pixel as they are; fewer are widened to 8 and
-    /// more to 16 bits by [`foveate_frame::convert_depth`].
+    /// The rendered frames, `rendered`. Frames of 8 bits per pixel are written unchanged. Fewer
+    /// bits are converted to 8 and more bits to 16 by [`foveate_frame::convert_depth`].
     pub rendered: Option<Medium>,
     /// The original frames with the decisions in colour, `overlay`.
     pub overlay: Option<Medium>,
-    /// A map of every score, `heatmap_<feature>` and `heatmap_temporal`.
+    /// The heat map of every score, `heatmap_<feature>` and `heatmap_temporal`.
     pub heatmap: Option<Medium>,
-    /// Tables of regions.
+    /// The tables of regions.
     pub events: EventTables,
-    /// Events of pixels.
+    /// The events of pixels.
     pub pixel_events: PixelEvents,
-    /// What the camera sends, `packets.bin`.
+    /// The packets that the camera sends, `packets.bin`.
     pub packets: Option<Packets>,
-    /// The images of a set as a data set of the same form.
+    /// Writes the rendered images of a set as a data set of the same form.
     pub data_set: bool,
-    /// Replace the output folder of an earlier run.
+    /// Replaces the output folder of an earlier run.
     pub overwrite: bool,
 }
 
@@ -86,7 +87,7 @@ impl Default for RunOptions {
 }
 
 impl PixelEvents {
-    /// Whether anything of them is written.
+    /// Returns true if a file of pixel events is written.
     #[must_use]
     pub fn wanted(self) -> bool {
         self.npz || self.csv

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The original frame, dimmed, with what the camera thinks of every region in colour, and below it a
-//! legend and the share of active regions over time.
+//! The overlay: the original frame, dimmed, with the decision about every region in colour. Below
+//! it are a legend and the share of active regions over time.
 //!
-//! Colours are those of the palette; active regions have an outline besides.
+//! The colours are those of the palette. Active regions also have an outline.
 
 use foveate_camera::{Action, Camera};
 use foveate_frame::{Raster, convert_depth};
@@ -15,10 +15,10 @@ use super::picture::low_byte;
 use super::sink::Step;
 use super::strip::Strip;
 
-/// Regions with sides below this are drawn without lines, which would cover them.
+/// Regions with smaller sides are drawn without lines, which would cover them.
 const SMALLEST_GRID: u32 = 6;
 
-/// Draws overlays and remembers the share of active regions so far.
+/// The painter of overlays. It records the share of active regions so far.
 #[derive(Default)]
 pub(super) struct Overlay {
     strip: Strip,
@@ -74,7 +74,7 @@ fn draw_frame(canvas: &mut Canvas, frame: &Raster, step: &Step<'_>, layout: Layo
     }
 }
 
-/// Lightens a line.
+/// Lightens the pixels of a line.
 fn grid(canvas: &mut Canvas, [left, top, width, height]: [u32; 4]) {
     for y in top..top + height {
         let start = 3 * (y as usize * canvas.width as usize + left as usize);
@@ -115,7 +115,7 @@ fn tint(step: &Step<'_>, region: u32) -> Option<Colour> {
     }
 }
 
-/// Half the grey without a tint, else half of each.
+/// Returns half the grey level without a tint, otherwise the mean of grey level and tint.
 fn shade(grey: u32, tint: Option<Colour>) -> Colour {
     let mixed = match tint {
         Some(tint) => tint.map(|colour| u32::midpoint(grey, colour.into())),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Deflate for files whose first bytes are known last: these are a stored block of their own, which can be
-//! written over at the end, before the compressed rest.
+//! Deflate for files whose first bytes are known only at the end. These bytes are a stored block of
+//! their own before the compressed data, which can be overwritten at the end.
 
 use std::io::Write as _;
 
@@ -8,20 +8,20 @@ use crc32fast::Hasher;
 use flate2::Compression;
 use flate2::write::DeflateEncoder;
 
-/// Bytes before those of a stored block: its kind and its length, twice.
+/// The number of bytes before the content of a stored block: its kind, and its length twice.
 pub(super) const BEFORE_STORED: usize = 5;
 
-/// The stored block of some bytes, at most 65,535.
+/// Returns the stored block of at most 65,535 bytes.
 pub(super) fn stored(bytes: &[u8]) -> Vec<u8> {
     let length = u16::try_from(bytes.len()).expect("a header has a few bytes");
     [&[0][..], &length.to_le_bytes(), &(!length).to_le_bytes(), bytes].concat()
 }
 
-/// The rest, in memory until it is taken.
+/// The compressor of the data after the stored block.
 pub(super) struct Packer {
     encoder: DeflateEncoder<Vec<u8>>,
     checksum: Hasher,
-    /// Bytes before compression.
+    /// The number of bytes before compression.
     length: u64,
 }
 
@@ -31,16 +31,17 @@ impl Packer {
         Self { encoder, checksum: Hasher::new(), length: 0 }
     }
 
-    /// Takes bytes, and appends to `packed` what is ready.
+    /// Compresses bytes, and appends the finished output to `packed`.
     pub(super) fn write(&mut self, bytes: &[u8], packed: &mut Vec<u8>) {
         self.checksum.update(bytes);
         self.length += bytes.len() as u64;
-        // Memory takes everything.
+        // A write into memory cannot fail.
         let _ = self.encoder.write_all(bytes);
         packed.append(self.encoder.get_mut());
     }
 
-    /// The last packed bytes, the checksum of `header` with the rest, and the length of both.
+    /// Returns the last packed bytes, the checksum of `header` and the data, and the length of
+    /// both.
     pub(super) fn finish(self, header: &[u8]) -> (Vec<u8>, u32, u64) {
         let mut whole = Hasher::new();
         whole.update(header);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `packets.bin`: what the camera sends, as `docs/packets.md` says, in the order in which a core can send it.
+//! The file `packets.bin`: the packets of the camera in the format of `docs/packets.md`, in an
+//! order in which a core can send them.
 
 use std::path::Path;
 
@@ -14,10 +15,10 @@ use super::Packets;
 use super::sink::{Sink, Step};
 use crate::SimulatorError;
 
-/// Times are microseconds.
+/// The clock of the packets: a tick is a microsecond.
 const TICKS_PER_SECOND: u32 = 1_000_000;
 
-/// The file, open.
+/// The open file.
 pub(super) struct PacketFile {
     file: GrowingFile,
     layout: Layout,
@@ -37,11 +38,12 @@ impl PacketFile {
     }
 }
 
-/// Appends the packets of a frame that an engine has computed last, in the order in which a core can send them. `time` is that
-/// of the frame in ticks, and whether it is the first.
+/// Appends the packets of the frame that an engine computed last, in an order in which a core can
+/// send them. `time` is the time of the frame in ticks, and a flag that is set for the first frame
+/// after a reset.
 ///
 /// # Errors
-/// When the layout is that of another design.
+/// Fails if the layout belongs to another design.
 pub fn write_packets(
     out: &mut Vec<u8>,
     layout: &Layout,
@@ -58,7 +60,8 @@ pub fn write_packets(
     write::end(out, number, End { regions_sent, ..End::default() })
 }
 
-/// Appends the packets of a row of regions of a frame; returns how many were REGION.
+/// Appends the packets of a row of regions of a frame. Returns the number of REGION packets among
+/// them.
 fn write_row(
     out: &mut Vec<u8>,
     layout: &Layout,
@@ -98,7 +101,7 @@ fn write_row(
     Ok(sent)
 }
 
-/// What a ROW says of a region.
+/// Returns the decision of a region, as a ROW packet holds it.
 fn decision(outcome: &FrameOutcome, region: usize) -> Decision {
     Decision {
         srs: outcome.srs[region],
@@ -107,13 +110,13 @@ fn decision(outcome: &FrameOutcome, region: usize) -> Decision {
     }
 }
 
-/// Changed pixels and scores of a region.
+/// Returns the temporal count and the scores of a region.
 fn scores(outcome: &FrameOutcome, region: usize) -> impl Iterator<Item = u64> {
     let scores = outcome.scores.iter().map(move |scores| scores[region]);
     std::iter::once(outcome.temporal_count[region].into()).chain(scores)
 }
 
-/// Appends the pixels of a region as they came, padded as the contract says.
+/// Appends the raw pixels of a region, padded as the contract says.
 fn raw_region(camera: &Camera, frame: &Raster, region: u32, pixels: &mut Vec<u16>) {
     let side = camera.region_size();
     let (left, top) = (region % camera.columns() * side, region / camera.columns() * side);
@@ -127,7 +130,7 @@ fn raw_region(camera: &Camera, frame: &Raster, region: u32, pixels: &mut Vec<u16
 impl Sink for PacketFile {
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError> {
         let Some(engine) = step.engine else { return Ok(()) };
-        // Numbers wrap around.
+        // The 32-bit numbers of frames wrap around.
         let frame = u32::try_from(step.number & u64::from(u32::MAX)).unwrap_or_default();
         let time = (step.source.time_us, step.first);
         let source = &step.source.frame;
@@ -139,7 +142,7 @@ impl Sink for PacketFile {
     }
 
     fn owed(&self, camera: &Camera) -> u64 {
-        // The last frame, if every region sends its pixels.
+        // This is the size of the last frame if every region sends its pixels.
         let rows = self.layout.row_bytes() + self.layout.scores_bytes();
         let regions = u64::from(camera.regions()) * self.layout.region_bytes(false) as u64;
         regions + u64::from(camera.rows()) * rows as u64

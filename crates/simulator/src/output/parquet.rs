@@ -12,14 +12,14 @@ use super::cannot_write;
 use super::row_writer::RowWriter;
 use crate::SimulatorError;
 
-/// Rows of a group: a few megabytes of memory, and few groups in the file's index.
+/// The number of rows of a group: a few megabytes of memory, and few groups in the file's index.
 const GROUP: usize = 1 << 18;
 
-/// The file, open.
+/// The open file.
 pub(super) struct ParquetTable {
     path: PathBuf,
     writer: ParquetWriter<File>,
-    /// A group could not be written: the file cannot be completed any more.
+    /// A group could not be written, so the file cannot be completed.
     broken: bool,
 }
 

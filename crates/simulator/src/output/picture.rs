@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A picture as bytes, on its way into a PNG or a video.
+//! A picture in memory, before it is written as a PNG or a video frame.
 
 use foveate_frame::{Plane, convert_depth, display_depth};
 
 use super::canvas::Canvas;
 use super::sink::Step;
 
-/// What the samples of a picture are.
+/// The sample format of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Samples {
     Grey8,
-    /// In native order.
+    /// Words in the byte order of the machine.
     Grey16,
     Rgb8,
 }
@@ -31,7 +31,8 @@ impl From<Canvas> for RawImage {
 }
 
 impl RawImage {
-    /// What is on the screen, at the depth that [`display_depth`] gives it, in the memory of `bytes`.
+    /// Makes a picture of the screen, at the depth of [`display_depth`]. It reuses the memory of
+    /// `bytes`.
     pub(super) fn grey(step: &Step<'_>, mut bytes: Vec<u8>) -> Self {
         let bits = step.camera.pixel_bits();
         let depth = display_depth(bits);
@@ -55,7 +56,7 @@ impl RawImage {
     }
 }
 
-/// An 8-bit value as a byte.
+/// Converts an 8-bit value to a byte.
 pub(super) fn low_byte(value: u16) -> u8 {
     u8::try_from(value).expect("it has 8 bits")
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An ordinary event camera, for comparison: every pixel for itself, by a contrast threshold.
+//! An ordinary event camera, for comparison: every pixel works independently, with a contrast
+//! threshold.
 //!
-//! A pixel remembers a level, at first that of the first frame. While its level now is a contrast C or
-//! more above (below) that, it sends an event of polarity 1 (0) and moves what it remembers by C. So
-//! one frame can bring several events of a pixel. All have the time of the frame: nothing is known
-//! between frames, and nothing is made up. Without noise, in integers (millionths), so that the same
-//! frames give the same events everywhere.
+//! A pixel stores a level, at first that of the first frame. While its current level is at least
+//! the contrast C above (below) the stored level, it sends an event of polarity 1 (0) and moves the
+//! stored level by C. So one frame can give several events of a pixel. All of them have the time of
+//! the frame, because nothing is known about the time between frames. There is no noise, and all
+//! arithmetic on levels is in integers (millionths), so that the same frames give the same events
+//! everywhere.
 
 use foveate_camera::{Camera, Decimal};
 use foveate_frame::Frame;
@@ -13,42 +15,42 @@ use foveate_frame::Frame;
 use super::PixelEvents;
 use crate::SimulatorError;
 
-/// Units of a level.
+/// The number of units of one level.
 const UNIT: u64 = 1_000_000;
-/// Below this grey level (of 255) a logarithmic pixel is linear, or one level of a dark pixel would be
-/// a large change.
+/// The grey level (of 255) up to which a logarithmic pixel is linear. Otherwise one level of a dark
+/// pixel would be a large change.
 const LINEAR_UP_TO: f64 = 20.0;
-/// The contrast of a logarithmic pixel where none is given, in millionths.
+/// The default contrast of a logarithmic pixel, in millionths.
 const LOG_CONTRAST: i64 = 200_000;
-/// The smallest contrast, in millionths: a guard against events without end.
+/// The smallest contrast, in millionths. It bounds the number of events.
 const SMALLEST_CONTRAST: i64 = 10_000;
 
-/// What a pixel sends.
+/// An event of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelEvent {
-    /// Column of the pixel.
+    /// The column of the pixel.
     pub x: u32,
-    /// Row of the pixel.
+    /// The row of the pixel.
     pub y: u32,
-    /// Whether it became brighter.
+    /// The pixel became brighter.
     pub brighter: bool,
 }
 
-/// The pixels of such a camera.
+/// The pixels of an ordinary event camera.
 #[derive(Clone, Debug)]
 pub struct PixelCamera {
     contrast: i64,
-    /// Level of every grey value.
+    /// The level of every grey value.
     levels: Vec<i64>,
-    /// What every pixel remembers; nothing before the first frame.
+    /// The stored level of every pixel. It is empty before the first frame.
     remembered: Vec<i64>,
 }
 
 impl PixelCamera {
-    /// A camera that has seen nothing yet.
+    /// Makes a camera that has not taken a frame yet.
     ///
     /// # Errors
-    /// When the contrast is below 0.01.
+    /// Fails if the contrast is below 0.01.
     pub fn new(camera: &Camera, options: PixelEvents) -> Result<Self, SimulatorError> {
         let contrast = match options.contrast {
             Some(contrast) => millionths(contrast),
@@ -64,7 +66,7 @@ impl PixelCamera {
         Ok(Self { contrast, levels, remembered: Vec::new() })
     }
 
-    /// Takes the next frame and calls `send` with what it brings, row by row.
+    /// Takes the next frame and calls `send` with its events, row by row.
     pub fn step(&mut self, frame: &Frame, mut send: impl FnMut(PixelEvent)) {
         let now = frame.pixels().iter().map(|&pixel| self.levels[usize::from(pixel)]);
         if self.remembered.is_empty() {
@@ -86,7 +88,8 @@ fn millionths(contrast: Decimal) -> i64 {
     i64::try_from(contrast.ceil_times(UNIT)).unwrap_or(i64::MAX)
 }
 
-/// The level of a grey value: itself, or the logarithm of its share of 255 above a linear foot.
+/// Returns the level of a grey value: the value itself, or the logarithm of its share of 255 with a
+/// linear part near 0.
 #[allow(clippy::cast_possible_truncation, reason = "at most 5.6 million")]
 fn level(value: u32, max: u32, log: bool) -> i64 {
     if !log {

@@ -14,20 +14,22 @@ use super::{PixelCamera, PixelEvents, cannot_write};
 use crate::SimulatorError;
 use foveate_staging::GrowingFile;
 
-/// An event as NumPy reads it, and as tonic names and types its fields; 13 bytes.
+/// The type of an event in NumPy's notation, with the field names and types of tonic. It has 13
+/// bytes.
 const EVENT: &str = "[('x', '<i2'), ('y', '<i2'), ('t', '<i8'), ('p', '|b1')]";
 
-/// The camera with its files, open.
+/// The camera and its open files.
 pub(super) struct PixelRecorder {
     camera: PixelCamera,
     npz: Option<NpzFile>,
     csv: Option<Csv>,
     events: u64,
-    /// Events of one frame as bytes.
+    /// The events of one frame as bytes.
     bytes: Vec<u8>,
 }
 
-/// The archive, and beside it the number of events before each frame until there is room for them.
+/// The archive, and a second file with the number of events before each frame, which is moved into
+/// the archive at the end.
 struct NpzFile {
     npz: Npz,
     starts_path: PathBuf,
@@ -84,7 +86,7 @@ impl PixelRecorder {
         })
     }
 
-    /// Completes the files; how many events they hold.
+    /// Completes the files. Returns the number of events in them.
     pub(super) fn finish(mut self) -> Result<u64, SimulatorError> {
         self.write_out(true)?;
         if let Some(npz) = self.npz {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A picture as a PNG file.
+//! PNG files of pictures.
 
 use std::fs;
 use std::io;
@@ -10,11 +10,11 @@ use image::{ExtendedColorType, ImageEncoder, ImageError};
 
 use super::picture::{RawImage, Samples};
 
-/// Writes one picture at once, by way of `bytes`.
+/// Encodes a picture into `bytes` and writes it to a file at once.
 pub(super) fn write(path: &Path, picture: &RawImage, bytes: &mut Vec<u8>) -> io::Result<()> {
     let colour = match picture.samples {
         Samples::Grey8 => ExtendedColorType::L8,
-        // The encoder takes native order and writes what PNG wants.
+        // The encoder takes the byte order of the machine, and writes that of PNG.
         Samples::Grey16 => ExtendedColorType::L16,
         Samples::Rgb8 => ExtendedColorType::Rgb8,
     };

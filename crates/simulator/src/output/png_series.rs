@@ -9,7 +9,7 @@ use super::crew::Crew;
 use super::picture::RawImage;
 use crate::SimulatorError;
 
-/// A folder of pictures `000000.png`, `000001.png` and on.
+/// A folder of pictures `000000.png`, `000001.png` and so on.
 pub(super) struct PngSeries {
     folder: PathBuf,
     next: u64,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Takes the outcome of every frame and writes it at once, so that memory stays as it is.
+//! The recorder, which takes the outcome of every frame and writes it at once, so that memory is
+//! bounded.
 
 use std::path::Path;
 
@@ -25,25 +26,27 @@ use crate::SimulatorError;
 use foveate_footage::{SetForm, SourceFrame};
 use foveate_toolchain::Interrupt;
 
-/// What a summary says of a run that the user stopped.
+/// The problem in the summary of a run that the user stopped.
 pub(crate) const INTERRUPTED: &str = "interrupted";
-/// How a full disk is called in a summary.
+/// The problem in the summary of a run on a full disk.
 pub(crate) const DISK_FULL: &str = "disk full";
-/// Bytes of an output that may wait in memory, beside those of its last frame.
+/// The number of bytes of an output that may wait in memory, besides those of its last frame.
 const BUFFERS: u64 = 1 << 17;
-/// Kept back for the summary, and for outputs that gather much, such as a group of a Parquet file.
+/// The space in bytes that is reserved for the summary, and for outputs that buffer much, such as a
+/// group of a Parquet file.
 const LEAST_RESERVE: u64 = 1 << 20;
 
-/// Every file of a run, open.
+/// The open files of a run.
 pub(crate) struct Recorder {
     design: Design,
     table: FrameTable,
-    /// Apart from the others because the summary asks for its number of events.
+    /// The pixel events. They are not among the sinks, because the summary needs their number.
     pixels: Option<PixelRecorder>,
     sinks: Vec<Box<dyn Sink>>,
     data_set: Option<DataSet>,
     totals: Totals,
-    /// Room to complete every file on a full disk, and for the videos apart.
+    /// The disk space to complete every file on a full disk. The field `spare` is the space for the
+    /// videos.
     reserve: Option<Reserve>,
     spare: Option<Reserve>,
 }
@@ -102,7 +105,7 @@ impl Recorder {
         })
     }
 
-    /// Writes what came of one frame, the last that `engine` has taken.
+    /// Writes the outcome of one frame, which must be the last that `engine` took.
     pub(crate) fn push(
         &mut self,
         source: &SourceFrame,
@@ -112,7 +115,7 @@ impl Recorder {
         self.push_step(&Step::new(engine, self.totals.frames, source, first))
     }
 
-    /// Writes a frame that was received, with what is on the screen then.
+    /// Writes a received frame with the screen after it.
     pub(crate) fn push_received(
         &mut self,
         source: &SourceFrame,
@@ -142,17 +145,18 @@ impl Recorder {
         pixels.and(sinks)
     }
 
-    /// Writes what has gathered, if it is much or if `all` is to go. When there is no room for it, it is
-    /// kept, and every file holds the same frames.
+    /// Writes the buffered data if it is much, or all of it with `all`. On a full disk the data is
+    /// kept, and every file has the same frames.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError> {
         self.table.write_out(all)?;
         self.pixels.as_mut().map_or(Ok(()), |pixels| pixels.write_out(all))?;
         self.sinks.iter_mut().try_for_each(|sink| sink.write_out(all))
     }
 
-    /// Completes every file and adds the summary; `problem` is why the run ended early, if it did.
-    /// Where there is no room left, what was kept back for this is used up, and then what can be spared is left out: pictures,
-    /// Parquet tables, videos. So is a video whose ffmpeg was interrupted, too.
+    /// Completes every file and adds the summary. `problem` is the reason why the run ended early,
+    /// if it did. On a full disk the reserved space is released. Then outputs that can be spared
+    /// are left out: pictures, Parquet tables, videos. A video is also left out if its ffmpeg was
+    /// interrupted.
     pub(crate) fn finish(
         mut self,
         folder: &Path,
@@ -169,7 +173,8 @@ impl Recorder {
         {
             return Err(error);
         }
-        // Files that other programs write end first: they would take the room that the rest needs.
+        // Files that other programs write are ended first, because they would use the space that
+        // the others need.
         drop(self.spare.take());
         let (apart, sinks): (Vec<_>, Vec<_>) =
             std::mem::take(&mut self.sinks).into_iter().partition(|sink| sink.is_written_apart());
@@ -188,13 +193,14 @@ impl Recorder {
             summary.data_set.clone_from(&self.data_set);
             summary.write(&folder.join("summary.json")).map(|()| summary)
         };
-        // It has its room before the last of it goes.
+        // The summary is written while there is space, before the last outputs are completed.
         let written = summary(problem.clone())?;
         complete(expendable, &lost, &mut problem)?;
         if written.problem == problem { Ok(written) } else { summary(problem) }
     }
 
-    /// Writes all that is needed, and gives up one output after the other where there is no room for it. Returns those that are left.
+    /// Writes all needed outputs. While there is no space, gives up one expendable output after the
+    /// other. Returns the remaining ones.
     fn make_room(
         &mut self,
         mut expendable: Vec<Box<dyn Sink>>,
@@ -205,13 +211,13 @@ impl Recorder {
             let sink = if error.is_full() { expendable.pop() } else { None };
             let Some(sink) = sink else { return Err(error) };
             let path = sink.expendable();
-            // Nobody writes to it any more.
+            // The file is closed now.
             drop(sink);
             path.iter().for_each(|path| give_up(path, problem));
         }
     }
 
-    /// Frames so far.
+    /// Returns the number of frames so far.
     pub(crate) fn frames(&self) -> u64 {
         self.totals.frames
     }
@@ -228,7 +234,7 @@ impl Recorder {
     }
 }
 
-/// Completes outputs that can be given up, if they can.
+/// Completes outputs. An expendable output that fails is given up.
 fn complete(
     sinks: Vec<Box<dyn Sink>>,
     lost: &dyn Fn(&SimulatorError) -> bool,
@@ -243,9 +249,10 @@ fn complete(
     Ok(())
 }
 
-/// Leaves out a file or a folder of pictures that cannot be completed, and says so.
+/// Removes a file or a folder of pictures that cannot be completed, and adds it to the problem of
+/// the run.
 fn give_up(path: &Path, problem: &mut Option<String>) {
-    // It is useless; where it cannot be removed it is at least named. It is in the folder of this run.
+    // The path lies in the folder of this run. If it cannot be removed, the summary still names it.
     let _ = std::fs::remove_file(path).or_else(|_| std::fs::remove_dir_all(path));
     let name = path.file_name().expect("an output has a name").display();
     let left_out = format!("{name} is left out");

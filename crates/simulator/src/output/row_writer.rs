@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the table of regions asks of a file format.
+//! The interface of the file formats of the table of regions.
 
 use std::path::PathBuf;
 
@@ -8,13 +8,13 @@ use foveate_engine::{EventTable, Moment};
 use super::csv::Csv;
 use crate::SimulatorError;
 
-/// A file of the table, open.
+/// An open file of the table.
 pub(super) trait RowWriter: Send {
     /// Appends the rows of a frame.
     fn rows(&mut self, table: &EventTable, moment: &Moment<'_>);
-    /// As [`super::sink::Sink::write_out`].
+    /// Writes the buffered data, as [`super::sink::Sink::write_out`] does.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
-    /// As [`super::sink::Sink::expendable`].
+    /// Returns the path that can be given up, as [`super::sink::Sink::expendable`] does.
     fn expendable(&self) -> Option<PathBuf> {
         None
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Where outcomes go: anything that takes frames one at a time and is finished once.
+//! The interface of outputs that take frames one at a time and are finished once.
 
 use std::path::PathBuf;
 
@@ -10,23 +10,23 @@ use foveate_frame::Plane;
 use crate::SimulatorError;
 use foveate_footage::SourceFrame;
 
-/// One frame and what came of it.
+/// One frame and its outcome.
 pub(super) struct Step<'a> {
     pub(super) camera: &'a Camera,
-    /// Number of the frame in the run.
+    /// The number of the frame in the run.
     pub(super) number: u64,
     pub(super) source: &'a SourceFrame,
     pub(super) outcome: &'a FrameOutcome,
-    /// What is on the screen.
+    /// The screen after the frame.
     pub(super) screen: Plane<'a>,
-    /// Whether it is the first since the camera forgot what was before.
+    /// The frame is the first one after a reset of the camera.
     pub(super) first: bool,
-    /// What the camera computed besides; none of a recording.
+    /// The engine that computed the outcome, or `None` for a recording.
     pub(super) engine: Option<&'a Engine>,
 }
 
 impl<'a> Step<'a> {
-    /// The last step of `engine`, which took `source`.
+    /// Makes the step of the frame `source`, which must be the last that `engine` took.
     pub(super) fn new(
         engine: &'a Engine,
         number: u64,
@@ -39,32 +39,33 @@ impl<'a> Step<'a> {
     }
 }
 
-/// An output that grows frame by frame in constant memory. Sinks of one run work side by side.
+/// An output that grows frame by frame in constant memory. The sinks of one run work in parallel.
 ///
-/// A full disk comes up in [`Sink::write_out`], which is asked before a frame is taken: so either all
-/// sinks take a frame or none does, and what they have taken is still there to be written.
+/// A full disk is found in [`Sink::write_out`], which is called before a frame is taken. So all
+/// sinks take a frame or none does, and the data that they have taken can still be written.
 pub(super) trait Sink: Send {
-    /// Takes what there is to say about the next frame.
+    /// Takes the next frame.
     fn push(&mut self, step: &Step<'_>) -> Result<(), SimulatorError>;
 
-    /// Writes what has gathered if it is much, or `all` of it.
+    /// Writes the buffered data if it is much, or all of it with `all`.
     fn write_out(&mut self, all: bool) -> Result<(), SimulatorError>;
 
-    /// At most how many bytes, beside some buffers, may have to be written after a full disk.
+    /// Returns the largest number of bytes, besides some buffers, that may have to be written after
+    /// the disk is full.
     fn owed(&self, _design: &Camera) -> u64 {
         0
     }
 
-    /// A file or folder that is given up when there is no room to complete everything.
+    /// Returns the file or folder that is given up if there is no space to complete everything.
     fn expendable(&self) -> Option<PathBuf> {
         None
     }
 
-    /// Whether another program writes it, as long as there is room.
+    /// Returns true if another program writes the output.
     fn is_written_apart(&self) -> bool {
         false
     }
 
-    /// Completes what was written; one that is dropped instead leaves something unfinished.
+    /// Completes the output. A sink that is dropped instead leaves an incomplete output.
     fn finish(self: Box<Self>) -> Result<(), SimulatorError>;
 }

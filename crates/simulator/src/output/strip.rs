@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The share of active regions from the first frame to this one, as bars below a picture.
+//! The share of active regions from the first frame to the current one, as bars below a picture.
 //!
-//! A bar is a frame until the strip is full; then two bars become one, the mean of both, and so on. So
-//! the strip shows the whole clip in constant memory without knowing how long it will be.
+//! A bar is one frame until the chart is full. Then each two bars become one, with the mean of
+//! both, and so on. So the chart shows the whole clip in constant memory, whatever its length.
 
 use foveate_pictures::palette::Colour;
 
 use super::canvas::{Canvas, Layout};
 
-/// The line that means one half.
+/// The colour of the line at one half.
 const HALF: Colour = [70, 70, 70];
 
 /// The bars so far.
 pub(super) struct Strip {
-    /// Active regions of all frames of a bar; only the last may have fewer frames than the others.
+    /// The number of active regions of all frames of each bar. Only the last bar may have fewer
+    /// frames than the others.
     bars: Vec<u64>,
     frames_per_bar: u64,
     frames_in_last: u64,
@@ -26,15 +27,15 @@ impl Default for Strip {
 }
 
 impl Strip {
-    /// Height in dots of a letter.
+    /// The height in dots.
     pub(super) const DOTS: u32 = 32;
 
-    /// Width of a bar.
+    /// Returns the width of a bar in pixels.
     pub(super) fn bar(layout: Layout) -> u32 {
         2 * layout.dot
     }
 
-    /// Adds a frame to a strip of at most `most` bars.
+    /// Adds a frame to a chart of at most `most` bars.
     pub(super) fn push(&mut self, active: u64, most: usize) {
         if self.frames_in_last < self.frames_per_bar {
             self.frames_in_last += 1;
@@ -56,7 +57,7 @@ impl Strip {
         self.frames_in_last = 1;
     }
 
-    /// Draws the bars at the bottom of a picture of frames with `regions` regions.
+    /// Draws the bars at the bottom of a picture. A frame has `regions` regions.
     pub(super) fn draw(&self, canvas: &mut Canvas, layout: Layout, regions: u64, colour: Colour) {
         let (bottom, height) = (canvas.height, Self::DOTS * layout.dot);
         let bar = Self::bar(layout);
@@ -67,7 +68,7 @@ impl Strip {
         {
             let frames = if index == last { self.frames_in_last } else { self.frames_per_bar };
             let share = active * u64::from(height) / (regions * frames);
-            // A bar with any active region shows.
+            // A bar with any active region is visible.
             let share = u32::try_from(share).expect("no more regions are active than there are");
             let share = share.max(u32::from(active > 0));
             canvas.fill(left, bottom - share, bar, share, colour);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `summary.json`: what was run and what came of it, in one page.
+//! The file `summary.json`: the run and its results on one page.
 
 use std::path::Path;
 
@@ -11,82 +11,85 @@ use super::cannot_write;
 use super::data_set::DataSet;
 use crate::SimulatorError;
 
-/// Changes when a key of the summary changes its meaning or goes.
+/// The version of the format. It changes when a key of the summary changes its meaning or is
+/// removed.
 const FORMAT_VERSION: u32 = 1;
 
-/// Regions side by side and one below the other.
+/// The numbers of columns and rows of regions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct Grid {
-    /// Regions side by side.
+    /// The number of columns of regions.
     pub columns: u32,
-    /// Regions one below the other.
+    /// The number of rows of regions.
     pub rows: u32,
 }
 
-/// Smallest and largest value of a series.
+/// The smallest and the largest value of a series.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Range {
-    /// Smallest.
+    /// The smallest value.
     pub min: f64,
-    /// Largest.
+    /// The largest value.
     pub max: f64,
 }
 
-/// The summary of a run. Shares are of all regions of all frames, rounded to six digits.
+/// The summary of a run. Shares refer to all regions of all frames, and are rounded to six digits.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Summary {
-    /// Version of this format.
+    /// The version of this format.
     pub format_version: u32,
-    /// Version of the program.
+    /// The version of the program.
     pub foveate_version: &'static str,
-    /// Fingerprint of the design.
+    /// The fingerprint of the design.
     pub design_fingerprint: String,
-    /// Whether the source was run to its end.
+    /// The source was run to its end.
     pub complete: bool,
-    /// Why it was not.
+    /// The reason why the run is not complete.
     pub problem: Option<String>,
-    /// Inputs as they were given.
+    /// The inputs as they were given.
     pub inputs: Vec<String>,
-    /// Number of frames.
+    /// The number of frames.
     pub frames: u64,
-    /// Frame width in pixels.
+    /// The frame width in pixels.
     pub width: u32,
-    /// Frame height in pixels.
+    /// The frame height in pixels.
     pub height: u32,
-    /// Bits per pixel.
+    /// The bits per pixel.
     pub pixel_bits: u32,
-    /// Grid of regions.
+    /// The grid of regions.
     pub grid: Grid,
-    /// Regions of a frame.
+    /// The number of regions of a frame.
     pub regions: u32,
-    /// Share of regions with SRS and TRS.
+    /// The share of active regions.
     pub active_share: f64,
-    /// Share of regions with SRS.
+    /// The share of regions with SRS.
     pub srs_share: f64,
-    /// Share of regions with TRS.
+    /// The share of regions with TRS.
     pub trs_share: f64,
-    /// Share of active regions in the frame with the fewest and in the one with the most.
+    /// The share of active regions in the frame with the fewest and in the frame with the most of
+    /// them.
     pub active_share_per_frame: Range,
-    /// Pixels of all frames.
+    /// The number of pixels of all frames.
     pub pixels_in: u64,
-    /// Pixels of all active regions; padding of ragged frames does not count.
+    /// The number of pixels of all active regions, without the padding of ragged frames.
     pub pixels_forwarded: u64,
-    /// Regions whose summary was sent; only of a camera whose irrelevant regions send their means.
+    /// The number of summaries that were sent. It exists only for a camera whose irrelevant regions
+    /// send their means.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub summaries_sent: Option<u64>,
-    /// Means of these summaries.
+    /// The number of means in these summaries.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub means_sent: Option<u64>,
-    /// What the cameras send.
+    /// The bytes and events that the kinds of camera send.
     pub bandwidth: Bandwidth,
-    /// The data set that was made, if one was.
+    /// The data set that was made, if one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub data_set: Option<DataSet>,
     /// The configuration, with the frame size filled in.
     pub configuration: Config,
 }
 
-/// What is sent of a frame, or of many.
+/// The data that is sent of one frame, or of many.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Sent {
     pub(super) pixels: u64,
@@ -112,7 +115,7 @@ impl Sent {
     }
 }
 
-/// Sums over the frames so far.
+/// The sums over the frames so far.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Totals {
     pub(super) frames: u64,
@@ -120,9 +123,10 @@ pub(super) struct Totals {
     pub(super) trs: u64,
     pub(super) active: u64,
     pub(super) sent: Sent,
-    /// Times of the first and the last frame.
+    /// The times of the first and of the last frame in microseconds.
     pub(super) times: Option<(u64, u64)>,
-    /// Active regions of the frame with the fewest and of the one with the most.
+    /// The number of active regions in the frame with the fewest and in the frame with the most of
+    /// them.
     pub(super) extremes: Option<(u64, u64)>,
 }
 
@@ -139,7 +143,7 @@ impl Totals {
         self.extremes = Some((min.min(active), max.max(active)));
     }
 
-    /// A frame was at this time.
+    /// Records the time of a frame.
     pub(super) fn at(&mut self, time_us: u64) {
         self.times = Some((self.times.map_or(time_us, |(first, _)| first), time_us));
     }
@@ -190,7 +194,7 @@ impl Totals {
 }
 
 impl Summary {
-    /// The summary as a JSON document.
+    /// Returns the summary as a JSON document.
     #[must_use]
     pub fn to_json(&self) -> String {
         serde_json::to_string_pretty(self).expect("plain data with text keys") + "\n"
@@ -201,7 +205,8 @@ impl Summary {
     }
 }
 
-/// `part / whole`, rounded to six digits after the point, the same on every machine.
+/// Returns `part / whole`, rounded to six digits after the point, so that it is the same on every
+/// machine.
 fn share(part: u64, whole: u64) -> f64 {
     const UNIT: u128 = 1_000_000;
     let whole = u128::from(whole.max(1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `frames.csv`: one line per frame, so that every row of the arrays has a name and a time. Names are
-//! plain, so that `numpy.genfromtxt`, pandas and `csv` read the same.
+//! The file `frames.csv`, with one line per frame, so that every row of the arrays has a name and a
+//! time. Names are escaped, so that `numpy.genfromtxt`, pandas and `csv` read the same values.
 
 use std::path::Path;
 
@@ -11,7 +11,7 @@ use super::csv::Csv;
 use super::summary::Sent;
 use crate::SimulatorError;
 
-/// What the table says of a frame.
+/// A row of the table.
 pub(super) struct FrameRow<'a> {
     pub(super) frame: u64,
     pub(super) time_us: u64,
@@ -23,10 +23,10 @@ pub(super) struct FrameRow<'a> {
     pub(super) sent: Sent,
 }
 
-/// The file, open.
+/// The open file.
 pub(super) struct FrameTable {
     csv: Csv,
-    /// Whether irrelevant regions send summaries, which are counted then.
+    /// Irrelevant regions send summaries, so the table has a column for them.
     has_summaries: bool,
 }
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A video file, through ffmpeg at the other end of a pipe: lossless FFV1 in `.mkv`, H.264 in `.mp4`.
+//! A video file, written by ffmpeg through a pipe: lossless FFV1 in `.mkv`, H.264 in `.mp4`.
 //!
-//! The video runs at one rate, that of its first two frames; a single frame is shown for 1/30 s.
+//! The video has a constant rate, which follows from the times of its first two frames. A single
+//! frame is shown for 1/30 s.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -12,17 +13,17 @@ use foveate_toolchain::{Feeder, Interrupt, Invocation, Tool, ToolError, Toolchai
 use super::picture::{RawImage, Samples};
 use crate::SimulatorError;
 
-/// Room that ffmpeg asks for at once, at most.
+/// The largest number of bytes of disk space that ffmpeg asks for at once.
 const ROOM: u64 = 1 << 20;
 
-/// Why there is no video.
+/// The reason why there is no video.
 #[derive(Clone)]
 struct EncoderFailure {
     said: String,
     is_full: bool,
 }
 
-/// A video in the making.
+/// A video while it is written.
 pub(super) struct VideoFile {
     path: PathBuf,
     ffmpeg: PathBuf,
@@ -32,15 +33,15 @@ pub(super) struct VideoFile {
 
 enum State {
     Empty,
-    /// The first picture waits for the time of the second.
+    /// The first picture, which waits for the time of the second one.
     First(RawImage, u64),
     Running(Feeder),
-    /// ffmpeg has ended too early, and said this.
+    /// ffmpeg ended too early with this message.
     Failed(EncoderFailure),
 }
 
 impl VideoFile {
-    /// A file whose extension says what it is.
+    /// Makes a file whose extension decides the format.
     pub(super) fn create(path: &Path, interrupt: &Interrupt) -> Result<Self, SimulatorError> {
         let found = Toolchain::system().cancelled_by(interrupt.flag()).find(Tool::Ffmpeg);
         let ffmpeg = found.map_err(|error| match error.is_interrupted() {
@@ -55,7 +56,7 @@ impl VideoFile {
         &self.path
     }
 
-    /// Takes the next picture; that ffmpeg does not, [`VideoFile::check`] says.
+    /// Takes the next picture. If ffmpeg fails, [`VideoFile::check`] returns the error.
     pub(super) fn push(&mut self, picture: RawImage, time_us: u64) -> Result<(), SimulatorError> {
         self.state = match std::mem::replace(&mut self.state, State::Empty) {
             State::Empty => State::First(picture, time_us),
@@ -73,7 +74,7 @@ impl VideoFile {
         Ok(())
     }
 
-    /// Whether ffmpeg has taken all pictures so far.
+    /// Checks that ffmpeg has taken all pictures so far.
     pub(super) fn check(&self) -> Result<(), SimulatorError> {
         let State::Failed(EncoderFailure { said, is_full }) = &self.state else { return Ok(()) };
         let (path, problem) = (self.path.clone(), said.clone());
@@ -119,7 +120,7 @@ impl VideoFile {
             (true, Samples::Rgb8) => &["-c:v", "ffv1", "-level", "3", "-pix_fmt", "bgr0"],
             (true, Samples::Grey8) => &["-c:v", "ffv1", "-level", "3", "-pix_fmt", "gray"],
             (true, Samples::Grey16) => &["-c:v", "ffv1", "-level", "3", "-pix_fmt", "gray16le"],
-            // Players want 4:2:0, which wants even sides.
+            // Many players support only 4:2:0, which needs even sides.
             (false, _) => &[
                 "-vf",
                 "pad=ceil(iw/2)*2:ceil(ih/2)*2",
@@ -139,11 +140,12 @@ impl VideoFile {
         if feeder.write_all(&picture.bytes).is_ok() {
             return Ok(State::Running(feeder));
         }
-        // It has ended, or takes nothing since an interrupt.
+        // ffmpeg has ended, or has taken no data since an interrupt.
         Ok(feeder.fail().map_or_else(|error| State::given_up(&error), |said| self.failed(said)))
     }
 
-    /// The last words of ffmpeg need not be why it ended: whether there is room is tried, too.
+    /// Makes the failed state. The last message of ffmpeg may not be the reason for its end, so the
+    /// free disk space is tested, too.
     fn failed(&self, said: Option<String>) -> State {
         let said = said.map(|line| line.trim().to_owned());
         let said = said.unwrap_or_else(|| "ffmpeg ended too early".to_owned());
@@ -163,15 +165,15 @@ impl State {
     }
 }
 
-/// A file as ffmpeg takes it: a name with a colon is no protocol.
+/// Returns a path as ffmpeg takes it, so that a colon in it does not start a protocol.
 fn local(path: &Path) -> std::ffi::OsString {
     let mut name = std::ffi::OsString::from("file:");
     name.push(path);
     name
 }
 
-/// The rate that an interval between frames stands for: whole, or whole * 1000/1001, where rounding
-/// to microseconds gives that interval, else one frame per interval.
+/// Returns the rate for an interval between frames in microseconds. It is a whole number, or whole
+/// * 1000/1001, if rounding to microseconds gives this interval, otherwise one frame per interval.
 fn frame_rate(interval_us: u64) -> String {
     if interval_us == 0 {
         return "30".to_owned();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The output folder is complete or not there, and nothing of anyone else's is touched.
+//! The output folder is complete or does not exist, and files of other origin are not touched.
 
 use std::fs;
 use std::path::Path;
@@ -66,7 +66,7 @@ fn a_failing_run_leaves_nothing() {
     assert_eq!(names(folder.path()), ["frames"]);
 }
 
-/// Stops after some frames and remembers what it was told.
+/// Hooks that cancel after some frames and record the progress.
 struct StopAfter {
     frames: u64,
     seen: Vec<Progress>,
@@ -133,7 +133,7 @@ fn a_folder_that_holds_something_is_refused_unless_overwriting_is_asked_for() {
     let error = zero(&output, &plain()).unwrap_err();
     assert!(matches!(error, SimulatorError::Output(StagingError::NotEmpty { .. })), "{error}");
     assert!(error.to_string().contains("out` is not empty"));
-    // A file that is not on the list of what was written belongs to somebody else.
+    // A file that is not in the list of written files belongs to the user.
     fs::write(output.join("mine.npy"), "").unwrap();
     let error = zero(&output, &overwrite()).unwrap_err();
     assert!(error.to_string().contains("mine.npy"), "{error}");
@@ -185,7 +185,7 @@ fn places_that_cannot_be_written_are_named() {
     }
 }
 
-/// A source of someone else's making.
+/// A source that is not one of the footage crate.
 struct Foreign {
     inputs: [String; 1],
     frames: Vec<Frame>,

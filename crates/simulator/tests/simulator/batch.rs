@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Many clips: what is one, where its output goes, and that one that fails does not lose the others.
+//! Batches: the division of inputs into clips, the place of each output, and a failing clip among
+//! others.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -10,7 +11,7 @@ use foveate_design::Config;
 use foveate_footage::{Clip, ClipPlan, FootageError, ImagesAs, InputOptions, plan};
 use foveate_simulator::{BatchHooks, BatchProgress, RunOptions, SimulatorError, run_batch};
 
-/// A stream of `frames` frames of 16x16 pixels.
+/// Writes a stream of `frames` frames of 16x16 pixels.
 fn y4m(path: &Path, frames: u8) -> PathBuf {
     let mut bytes = b"YUV4MPEG2 W16 H16 F25:1 Cmono\n".to_vec();
     for frame in 0..frames {
@@ -50,7 +51,7 @@ fn planned<P: AsRef<Path>>(inputs: &[P]) -> Vec<Clip> {
     }
 }
 
-/// A tree with videos, folders of frames, and classes.
+/// Makes a tree with videos, folders of frames, and classes.
 fn tree(root: &Path) {
     y4m(&root.join("top.y4m"), 2);
     y4m(&root.join("cars/a.y4m"), 2);

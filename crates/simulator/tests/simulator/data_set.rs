@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Data sets out: the form, names and labels of the set that came in, with what the camera renders.
+//! Data sets as outputs have the form, the names and the labels of the input set, with rendered
+//! images.
 
 use std::fs;
 use std::path::PathBuf;
@@ -35,7 +36,7 @@ fn idx_becomes_idx_byte_by_byte() {
             let plain =
                 if name.ends_with("gz") { unpacked(&file) } else { fs::read(&file).unwrap() };
             assert_eq!(plain, whole);
-            // The labels are packed as they were, not as the images are.
+            // The labels are gzipped because the input labels were, although the images may not be.
             assert_eq!(unpacked(&out.join("t-labels-idx1-ubyte.gz")), LABELS);
             let made = summary.data_set.unwrap();
             assert_eq!((made.images.as_str(), made.classes.len()), (name, 0));
@@ -93,7 +94,7 @@ fn a_tree_becomes_a_tree_with_the_same_names() {
     let file = |name: &str, at: u32| -> PathBuf {
         grey(&root.join(name), 20, 16, |x, _| if x > at { 200 } else { 9 })
     };
-    // In natural order.
+    // The files are in natural order.
     let inputs = [file("loose.png", 3), file("b 2/a.b.png", 2), file("b 2/x.png", 6)];
     let inputs = [&inputs[..], &[file("b 2/x.bmp", 6), file("b10/x.png", 12)]].concat();
     let out = dir.path().join("out");
@@ -104,7 +105,7 @@ fn a_tree_becomes_a_tree_with_the_same_names() {
     assert_eq!(rows[0], "image,file,label");
     let files: Vec<&str> = rows[1..].iter().map(|row| row.split(',').nth(1).unwrap()).collect();
     assert_eq!(files[..2], ["images/loose.png", "images/b 2/a.b.png"]);
-    // Two images of one name are kept apart.
+    // Two images of one name get different names.
     assert_eq!(files[2..], ["images/b 2/x.png", "images/b 2/x-000003.png", "images/b10/x.png"]);
     let labels = Npy::read(&out.join("labels.npy"));
     let numbers: Vec<i64> =
@@ -167,7 +168,7 @@ fn labels_have_a_name_of_their_own() {
     assert_eq!(fs::read(at("out/b.idx")).unwrap(), LABELS);
 }
 
-/// The real MNIST, where the environment variable FOVEATE_DATA names the folder of real data.
+/// Tests the real MNIST in the folder that the environment variable FOVEATE_DATA names.
 #[test]
 fn mnist_becomes_mnist() {
     let Some(data) = foveate_toolchain::testing::data_folder() else { return };

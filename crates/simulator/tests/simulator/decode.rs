@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is made of a stream of packets is what the simulation wrote; what is lost is listed, what cannot be is refused.
+//! A decoded stream of packets gives the files of the simulation. Losses are listed, and outputs
+//! that a stream cannot give are refused.
 
 use std::fs;
 use std::path::Path;
@@ -27,7 +28,7 @@ fn decode(
     )
 }
 
-/// All files below a folder but the stream and the list of files, with what is in them.
+/// Returns all files below a folder with their contents, except the stream and the list of files.
 fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     let mut files = Vec::new();
     for name in names(folder).into_iter().filter(|name| name != "packets.bin" && name != ".foveate")
@@ -43,7 +44,7 @@ fn files(folder: &Path) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// The column of names, which no packet has.
+/// Removes the column of names, which packets do not have.
 fn without_names(table: &[u8]) -> Vec<String> {
     let text = String::from_utf8(table.to_vec()).unwrap();
     let cut = |line: &str| {
@@ -100,7 +101,7 @@ fn a_lost_region_stays_as_it_was_and_is_listed() {
     let (sent, seen) = (folder.path().join("sent"), folder.path().join("seen"));
     street(&sent, DESIGNS[0], &options(Some(Packets::Plain)));
     let mut stream = fs::read(sent.join("packets.bin")).unwrap();
-    // The first REGION of the first frame, behind FRAME (56) and ROW (24).
+    // The first REGION packet of the first frame follows FRAME (56 bytes) and ROW (24 bytes).
     let is_region = |at: &usize| stream[*at] == 0xFA && stream[at + 1] & 15 == 4;
     let at = (56..stream.len()).step_by(8).find(is_region).unwrap();
     stream[at + 20] ^= 1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Explanations agree with the model, add up, and fit a terminal.
+//! Explanations agree with the model, are consistent, and fit a terminal.
 
 use crate::support::{design, frames};
 use foveate_design::Config;
@@ -24,8 +24,8 @@ fn hits(rows: &[Vec<bool>]) -> u64 {
     rows.iter().flatten().map(|&hit| u64::from(hit)).sum()
 }
 
-/// Every region of every frame: bits and scores are the model's, hits add up to scores, and the
-/// reference is what the rule of the contract says it is.
+/// Tests every region of every frame: bits and scores are the model's, the hits add up to the
+/// scores, and the reference follows the rule of the contract.
 #[test]
 fn every_explanation_is_the_models_and_adds_up() {
     for more in [

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Streams whose packets are whole and whose numbers cannot be right: they end nothing, ask for no memory, and what is right in
-//! them is there.
+//! Streams with valid packets and wrong numbers: they do not end the decoding, do not claim memory,
+//! and their valid parts are decoded.
 
 use std::fs;
 use std::path::Path;
@@ -16,7 +16,7 @@ use foveate_simulator::{
 use crate::packets::{DESIGNS, crc, options};
 use crate::support::street;
 
-/// The packets of five frames, frame by frame.
+/// Returns the packets of five frames, frame by frame.
 fn sent() -> Vec<Vec<u8>> {
     let folder = tempfile::tempdir().unwrap();
     street(&folder.path().join("sent"), DESIGNS[0], &options(Some(Packets::Plain)));
@@ -36,7 +36,7 @@ fn sent() -> Vec<Vec<u8>> {
     frames
 }
 
-/// Puts another word into the FRAME that these packets begin with, and makes its check right.
+/// Replaces a word in the FRAME packet at the start of these packets, and corrects its checksum.
 fn with_word(packets: &[u8], number: usize, word: u64) -> Vec<u8> {
     let mut packets = packets.to_vec();
     packets[8 * number..8 * number + 8].copy_from_slice(&word.to_le_bytes());
@@ -53,7 +53,7 @@ fn config(overrides: &[&str]) -> Config {
     Config::from_toml_with("", overrides).unwrap()
 }
 
-/// All that is received, and the frames that are refused.
+/// Returns all received frames and losses, and the messages for refused frames.
 fn receive(bytes: &[u8]) -> (Vec<ShownFrame>, Vec<Loss>, Vec<String>) {
     let mut stream = Stream::new(&config(DESIGNS[0]));
     let (mut frames, mut losses, mut refused) = (Vec::new(), Vec::new(), Vec::new());
@@ -132,7 +132,7 @@ fn a_frame_of_another_camera_on_the_way_costs_no_more_than_itself() {
     assert_eq!((decoded.summary.frames, decoded.summary.complete), (4, false));
     let table = fs::read_to_string(seen.join("losses.csv")).unwrap();
     assert_eq!(table.lines().skip(1).collect::<Vec<_>>(), ["foreign,2,,,,", "frames,2,,,1,"]);
-    // The first FRAME says whether the configuration is that of the camera.
+    // The first FRAME packet decides whether the configuration is that of the camera.
     let mut forged = sent;
     forged[0] = with_word(&forged[0], FINGERPRINT, 0x0123_4567_89AB_CDEF);
     let refused = decode(&forged.concat(), &folder.path().join("none"), &mut Silent).unwrap_err();
@@ -156,13 +156,13 @@ fn a_stream_alone_asks_for_no_more_memory_than_8k_video() {
         let message = refusal(&["region.size=64"]).unwrap();
         let size = format!("{width}x{height}");
         assert!(message.contains(&size) && message.contains("frame.width"), "{message}");
-        // One side is not the size.
+        // One side alone does not give the size.
         assert!(refusal(&[own[0], "region.size=64"]).is_some());
         if width > height {
             assert_eq!(refusal(&own), None, "the user's own size is refused");
         }
     }
-    // Sizes that no camera has are refused as ever.
+    // Sizes that no camera has are refused, too.
     let sent = sent();
     for size in [0, u64::MAX << 32 | 1_000_000, 0xFFFF_0001 << 32 | 1_000_000] {
         let mut stream = Stream::new(&Config::default());
@@ -171,7 +171,7 @@ fn a_stream_alone_asks_for_no_more_memory_than_8k_video() {
     }
 }
 
-/// Cancels once a frame is written.
+/// Hooks that cancel once a frame is written.
 #[derive(Default)]
 struct FirstFrameCanceller(u64);
 
@@ -190,7 +190,7 @@ fn decoding_is_stopped_between_frames_that_cost_few_bytes() {
     let sent = sent();
     let design = config(DESIGNS[0]).for_frames(45, 38).unwrap();
     let layout = Layout::new(&design, false, 1_000_000).unwrap();
-    // Many frames in the first bytes that are read.
+    // The first bytes that are read at once contain many frames.
     let mut bytes = sent[0].clone();
     for number in 1..500 {
         write::frame(&mut bytes, &layout, number, (u64::from(number), false));
@@ -202,7 +202,7 @@ fn decoding_is_stopped_between_frames_that_cost_few_bytes() {
     assert_eq!(decoded.summary.frames, 1);
 }
 
-/// How often; more with `FOVEATE_FUZZ_CASES`.
+/// Returns the number of cases, which `FOVEATE_FUZZ_CASES` can increase.
 fn cases() -> u64 {
     std::env::var("FOVEATE_FUZZ_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(300)
 }
@@ -222,7 +222,8 @@ fn fuzz_any_numbers_in_any_packets_end_nothing() {
         let times: Vec<u64> = frames.iter().filter_map(|frame| frame.time_us).collect();
         assert!(times.is_sorted(), "seed {seed}: {times:?}");
         assert!(times.windows(2).all(|pair| pair[1] - pair[0] <= 86_400_000_000), "seed {seed}");
-        // Where the FRAME that begins a run is forged, it may say another unit of time; frames behind it are refused then.
+        // If the FRAME packet that begins a run is forged, it may give another unit of time. The
+        // following frames are refused then.
         if let Some(shown) = frames.iter().rfind(|frame| frame.number == 4) {
             assert!(shown.outcome.srs == last.outcome.srs, "seed {seed}: {losses:?}");
         } else {
@@ -231,7 +232,7 @@ fn fuzz_any_numbers_in_any_packets_end_nothing() {
     }
 }
 
-/// Puts an odd number into a packet of a stream, and makes its check right.
+/// Writes a random number into a packet of a stream, and corrects its checksum.
 fn forge(rng: &mut Rng, bytes: &mut [u8]) {
     let mut starts = vec![0];
     while let Some(at) = starts.last().copied().filter(|&at| at + 4 <= bytes.len()) {

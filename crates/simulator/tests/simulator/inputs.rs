@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What may be named as input, in which order it is read, and what is said when it cannot be.
+//! The inputs that can be named, the order in which they are read, and the messages for inputs that
+//! cannot be read.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +15,7 @@ fn level(frame: usize) -> u8 {
     u8::try_from(frame).unwrap()
 }
 
-/// The names and the first pixels of all frames, in order.
+/// Returns the names and the first pixels of all frames, in order.
 fn read_all<P: AsRef<Path>>(inputs: &[P]) -> Result<Vec<(String, u16)>, FootageError> {
     let mut source = open(inputs, &CameraConfig::default(), &InputOptions::default())?;
     let total = source.frames();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The simulator: inputs of every kind, outputs against the model, what faults leave behind.
+//! Tests of the simulator: inputs of every kind, outputs compared with the model, and the state
+//! that faults leave.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod atomic;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run writes is what the model says, byte for byte.
+//! The outputs of a run equal the results of the model, byte for byte.
 
 use crate::support;
 use std::fs;
@@ -10,7 +10,7 @@ use foveate_model::FunctionalOutcome;
 use foveate_scenes::Scene;
 use foveate_simulator::{EventTables, Medium, PixelEvents, RunOptions};
 
-/// The lowest bytes of every value, which are all that it has.
+/// Returns the low bytes of every value, and checks that the others are zero.
 fn little_endian(bytes: usize, values: impl Iterator<Item = u64>) -> Vec<u8> {
     let low = |value: u64| {
         assert!(value < 1 << (8 * bytes));
@@ -36,7 +36,8 @@ fn arrays_hold_every_outcome() {
     expect("srs.npy", "|u1", flags(|outcome| &outcome.srs));
     expect("trs.npy", "|u1", flags(|outcome| &outcome.trs));
     expect("active.npy", "|u1", flags(|outcome| &outcome.active));
-    // 64 pixels of 8 bits: counts up to 64, and deviations of 127.5 at most, 64 times with a fraction.
+    // A region has 64 pixels of 8 bits, so counts are up to 64, and each deviation is at most
+    // 127.5, with a fraction bit.
     let counts = outcomes.iter().flat_map(|o| o.temporal_count.iter().copied().map(u64::from));
     expect("t_count.npy", "|u1", little_endian(1, counts));
     let scores = |index: usize| outcomes.iter().flat_map(move |o| o.scores[index].iter().copied());
@@ -130,7 +131,7 @@ fn frames_have_their_names_and_times() {
     let table = fs::read_to_string(output.join("frames.csv")).unwrap();
     let lines: Vec<&str> = table.lines().collect();
     assert!(lines[0].starts_with("frame,t_us,name,"));
-    // In a name nothing is left that a reader could take for something else.
+    // No character is left in a name that a reader could interpret.
     let first = folder.path().join("b%2C1%232 %22c%22.png");
     assert!(lines[1].starts_with(&format!("0,0,{},", first.display())), "{}", lines[1]);
     assert!(lines[2].starts_with(&format!("1,33333,{},", inputs[1].display())));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The packets that a simulation writes are what the page says of the model's integers.
+//! The packets that a simulation writes follow from the model's integers by the page on packets.
 
 use std::fs;
 
@@ -9,7 +9,8 @@ use foveate_simulator::{EventTables, Medium, Packets, RunOptions};
 
 use crate::support::{design, frames, street};
 
-/// Designs of all references, irrelevant modes, payloads and features, with odd sizes, of 1 to 16 bits.
+/// The designs cover all references, irrelevant modes, payloads and features, with odd sizes and 1
+/// to 16 bits.
 pub(crate) const DESIGNS: [&[&str]; 9] = [
     &["frame.width=45", "frame.height=38"],
     &["frame.width=45", "frame.height=38", "temporal.reference='last-sent'"],
@@ -70,13 +71,14 @@ pub(crate) fn options(packets: Option<Packets>) -> RunOptions {
     }
 }
 
-/// CRC-32, bit by bit.
+/// Returns the CRC-32, computed bit by bit.
 pub(crate) fn crc(bytes: &[u8]) -> u32 {
     let step = |crc: u32| (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg());
     !bytes.iter().fold(!0u32, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), |crc, _| step(crc)))
 }
 
-/// A packet as the page says: head, numbers of `bits` each from the lowest bit of the first word on, tail.
+/// Returns a packet by the page: a head, numbers of the given widths from the lowest bit of the
+/// first word on, and a tail.
 fn packet([kind, flags, row, column]: [u64; 4], numbers: &[(u64, usize)], frame: u32) -> Vec<u8> {
     let mut bits: Vec<bool> = Vec::new();
     for &(number, width) in numbers {
@@ -94,7 +96,7 @@ fn packet([kind, flags, row, column]: [u64; 4], numbers: &[(u64, usize)], frame:
     bytes
 }
 
-/// The packets of a frame, from the model and the page.
+/// Returns the packets of a frame, from the model and the page.
 fn by_the_page(design: &Design, number: u32, time: u64, outcome: &FunctionalOutcome) -> Vec<u8> {
     let side = u64::from(design.region_size());
     let (columns, rows) = (u64::from(design.columns()), u64::from(design.rows()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A camera whose irrelevant regions send their means: every output counts and names them.
+//! With a camera whose irrelevant regions send their means, every output counts and names them.
 
 use std::fs;
 
@@ -8,7 +8,8 @@ use foveate_design::Action;
 use foveate_footage::{InputOptions, open};
 use foveate_simulator::{EventTables, RunOptions, explain};
 
-/// The ragged street with edges alone, so that much of it is irrelevant.
+/// Returns the configuration of the ragged street with edges alone, so that many regions are
+/// irrelevant.
 fn overrides() -> Vec<&'static str> {
     let more = [
         "spatial=[{feature='edge',min_score=12}]",
@@ -39,7 +40,7 @@ fn every_output_counts_what_regions_send() {
     assert_eq!(summary.bandwidth.region.bytes, bits.div_ceil(8));
     assert_eq!(summary.bandwidth.region.events, Some(active + summaries));
 
-    // frames.csv, behind the pixels.
+    // The column of summaries in frames.csv follows that of the pixels.
     let text = fs::read_to_string(output.join("frames.csv")).unwrap();
     let mut lines = text.lines();
     assert!(lines.next().unwrap().ends_with(",pixels_forwarded,summaries_sent"));
@@ -52,7 +53,7 @@ fn every_output_counts_what_regions_send() {
         assert!(line.ends_with(&format!(",{pixels},{sent}")), "{line}");
     }
 
-    // events.csv: a row for every region that sends something.
+    // The table events.csv has a row for every region that sends something.
     let text = fs::read_to_string(output.join("events.csv")).unwrap();
     let told: Vec<&str> =
         text.lines().skip(1).map(|line| line.rsplit(',').next().unwrap()).collect();
@@ -78,7 +79,7 @@ fn without_a_periphery_nothing_is_added() {
     assert!(!fs::read_to_string(output.join("frames.csv")).unwrap().contains("summaries_sent"));
 }
 
-/// The means, what was shown before, and the words of the rule.
+/// The explanation has the means, the earlier summary, and the text of the rule.
 #[test]
 fn an_explanation_says_why_a_summary_was_sent() {
     let design = design(&overrides());

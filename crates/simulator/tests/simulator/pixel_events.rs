@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pixel events are those of a naive camera, and the files hold them byte for byte.
+//! The pixel events are those of a naive implementation, and the files contain them byte for byte.
 #![allow(clippy::cast_possible_truncation, reason = "a test fails by panicking")]
 
 use crate::support;
@@ -16,10 +16,10 @@ use foveate_simulator::{
     PIXEL_EVENT_BYTES, PixelCamera, PixelEvents, RunOptions, SimulatorError, Summary,
 };
 
-/// x, y, t, p.
+/// An event: x, y, t and p.
 type Event = (u32, u32, u64, u8);
 
-/// One pixel at a time, one crossing at a time, in floating point.
+/// Returns the events of a naive camera in floating point, one pixel and one crossing at a time.
 fn naive(frames: &[Frame], contrast: f64, log: bool) -> Vec<Event> {
     let max = f64::from(u16::MAX >> (16 - frames[0].bits()));
     let level = |value: u16| {
@@ -56,7 +56,7 @@ fn simulate(output: &Path, overrides: &[&str], options: PixelEvents) -> Summary 
     street(output, overrides, &options)
 }
 
-/// The files of an archive that is deflated, by the directory at its end.
+/// Returns the files of a deflated archive, by the directory at its end.
 fn unzip(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     let u16_at = |at: usize| usize::from(u16::from_le_bytes(bytes[at..at + 2].try_into().unwrap()));
     let u32_at = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
@@ -93,7 +93,7 @@ fn unzip(bytes: &[u8]) -> Vec<(String, Vec<u8>)> {
     files
 }
 
-/// CRC-32 bit by bit.
+/// Returns the CRC-32, computed bit by bit.
 fn crc(bytes: &[u8]) -> u32 {
     !bytes.iter().fold(u32::MAX, |crc, &byte| {
         (0..8).fold(crc ^ u32::from(byte), |crc, _| {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sets of images: IDX and CIFAR with their labels, labelled folders; every image is a first frame.
+//! Sets of images: IDX and CIFAR with their labels, and labelled folders. Every image is a first
+//! frame.
 
 use std::fs;
 use std::io::Write as _;
@@ -88,7 +89,7 @@ fn idx_files_that_are_wrong_are_named() {
     let fewer = [&[0, 0, 8, 1, 0, 0, 0, 2][..], &[1, 2]].concat();
     assert!(refusal(&images(), Some(&fewer)).contains("2 labels for 4 images"));
     assert!(refusal(&images(), Some(&images())).contains("not an IDX file of labels"));
-    // Labels are in memory, and a packed file of 4 GB is small.
+    // Labels are kept in memory, and a gzipped file of 4 GB is small.
     let many = 0x1000_0001_u32.to_be_bytes();
     let many_images = [&[0, 0, 8, 3][..], &many, &[0, 0, 0, 1, 0, 0, 0, 1]].concat();
     let many_labels = [&[0, 0, 8, 1][..], &many].concat();
@@ -175,7 +176,7 @@ fn every_image_of_a_set_is_a_first_frame() {
     assert_eq!(trs(ImagesAs::Clip), [1, 1, 1, 1, 0, 0, 0, 0, 0, 0, 0, 0]);
 }
 
-/// The real sets, where the environment variable FOVEATE_DATA names their folder.
+/// Tests the real sets in the folder that the environment variable FOVEATE_DATA names.
 #[test]
 fn real_sets_are_read() {
     let Some(data) = foveate_toolchain::testing::data_folder() else { return };

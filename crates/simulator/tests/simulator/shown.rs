@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Overlays, heat maps and videos show what the model says.
+//! Overlays, heat maps and videos show the results of the model.
 #![allow(clippy::cast_possible_truncation, reason = "a test fails by panicking")]
 
 use crate::support;
@@ -15,7 +15,8 @@ use foveate_toolchain::{Tool, Toolchain};
 use image::RgbImage;
 
 const NOTHING: fn() -> RunOptions = || RunOptions { rendered: None, ..RunOptions::default() };
-/// Enlargement of 45 x 38 pixels, to be at least 448 wide, and dots of the footer.
+/// The factor by which 45 x 38 pixels are enlarged to a width of at least 448. `DOT` is the size of
+/// a dot in the footer.
 const SCALE: u32 = 10;
 const DOT: u32 = 2;
 
@@ -34,7 +35,7 @@ fn the_overlay_shows_each_state_in_its_colour() {
     for (picture, outcome) in pictures(&output, "overlay").iter().zip(outcomes(&STREET)) {
         assert_eq!(picture.dimensions(), (45 * SCALE, 38 * SCALE + (5 + 4 + 32) * DOT));
         for region in 0..30 {
-            // A pixel beside the grid.
+            // This pixel is not on a line of the grid.
             let at = ((region % 6 * 8 + 3) * SCALE, (region / 6 * 8 + 3) * SCALE);
             let [r, g, b] = picture.get_pixel(at.0, at.1).0;
             let index = region as usize;
@@ -51,7 +52,7 @@ fn the_overlay_shows_each_state_in_its_colour() {
     }
 }
 
-/// The bar of every frame is as high as the share of active regions.
+/// The bar of every frame has the height of the share of active regions.
 #[test]
 fn the_strip_shows_the_share_of_active_regions() {
     let folder = tempfile::tempdir().unwrap();
@@ -69,7 +70,7 @@ fn the_strip_shows_the_share_of_active_regions() {
     }
 }
 
-/// Brightness on the scale grows with the score, and equal scores have equal colours.
+/// Brightness grows with the score, and equal scores have equal colours.
 #[test]
 fn heat_maps_are_ordered_like_the_scores() {
     let folder = tempfile::tempdir().unwrap();
@@ -124,7 +125,7 @@ fn tiny_and_narrow_frames_have_pictures_too() {
     }
 }
 
-/// The bytes of a video, decoded.
+/// Returns the decoded bytes of a video.
 fn decoded(path: &Path, format: &str) -> Vec<u8> {
     let ffmpeg = Toolchain::system().find(Tool::Ffmpeg).unwrap().path;
     let mut command = Command::new(ffmpeg);
@@ -175,7 +176,7 @@ fn overlays_as_video_are_the_pictures() {
     let (width, height) = pictures[0].dimensions();
     let expected: Vec<u8> = pictures.into_iter().flat_map(RgbImage::into_raw).collect();
     assert!(decoded(&video.join("overlay.mkv"), "rgb24") == expected);
-    // Odd sides gain a line in MP4.
+    // In MP4, odd sides grow by one line.
     street(&mp4, &STREET, &RunOptions { overlay: Some(Medium::Mp4), ..NOTHING() });
     let even = |side: u32| (side.next_multiple_of(2)) as usize;
     let bytes = decoded(&mp4.join("overlay.mp4"), "gray").len();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table of regions says what the model says, in every format, and agrees with the arrays and
-//! the summary.
+//! The table of regions equals the results of the model in every format, and agrees with the arrays
+//! and the summary.
 
 use crate::support;
 use std::fs::{self, File};
@@ -18,7 +18,7 @@ fn simulate(output: &Path, tables: EventTables) -> Summary {
     street(output, &STREET, &RunOptions { events: tables, rendered: None, ..RunOptions::default() })
 }
 
-/// The table as the model would write it.
+/// Returns the table that follows from the model.
 fn expected(only_active: bool) -> Vec<String> {
     let mut lines = Vec::new();
     for (frame, (outcome, time)) in
@@ -50,7 +50,7 @@ fn expected(only_active: bool) -> Vec<String> {
     lines
 }
 
-/// A Parquet file as lines of the CSV file.
+/// Returns a Parquet file as the lines of the CSV file.
 fn parquet_lines(path: &Path) -> (String, Vec<String>) {
     let reader = SerializedFileReader::new(File::open(path).unwrap()).unwrap();
     let schema = reader.metadata().file_metadata().schema_descr_ptr();
@@ -128,7 +128,7 @@ fn bytes_are_those_that_the_outcomes_need() {
     let overrides = [&STREET[..], &["frame.pixel_bits=10"]].concat();
     let summary = street(&folder.path().join("out"), &overrides, &RunOptions::default());
     let bandwidth = &summary.bandwidth;
-    // 5 frames of 45 x 38 pixels of 10 bits; 30 regions with 2 bits each.
+    // The clip has 5 frames of 45 x 38 pixels of 10 bits, and 30 regions with 2 bits each.
     assert_eq!(bandwidth.raw.bytes, (5 * 45 * 38 * 10u64).div_ceil(8));
     let bits = 5 * 30 * 2 + summary.pixels_forwarded * 10;
     assert_eq!(bandwidth.region.bytes, bits.div_ceil(8));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Video that is broken gives what there is and says so; what is no video is refused. Skipped visibly
-//! without ffmpeg.
+//! A damaged video gives the frames that can be decoded and is reported. A file that is not a video
+//! is refused. Without ffmpeg the tests are skipped with a message.
 
 use std::fs;
 
@@ -88,7 +88,7 @@ fn what_holds_no_video_is_refused_in_one_line() {
     fs::write(at("real.gif"), b"GIF89a\x01\x00\x01\x00\x00\x00\x00;").unwrap();
     ffmpeg(&["-f", "lavfi", "-i", "sine=duration=1", at("sound.wav").to_str().unwrap()]);
     let whole = fs::read(clip(dir.path(), "a.mp4", &["-pix_fmt", "yuv420p"])).unwrap();
-    // Without its index, which comes last, an mp4 cannot be decoded.
+    // An MP4 cannot be decoded without its index, which comes last.
     fs::write(at("cut.mp4"), &whole[..whole.len() / 2]).unwrap();
     for name in ["text.mp4", "empty.mp4", "real.gif", "sound.wav", "cut.mp4"] {
         let error = opened(&at(name), 8, &InputOptions::default()).err().unwrap();

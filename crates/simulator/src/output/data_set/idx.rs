@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! IDX to IDX: a file of images and one of labels, gzipped if the file was from which they come.
+//! A data set in the format IDX: a file of images and a file of labels. Each is gzipped if the
+//! input file was.
 //!
-//! IDX is a format of 8 bits per pixel here, going in and coming out.
+//! In this project IDX has 8 bits per pixel, as an input and as an output.
 
 use std::path::Path;
 
@@ -16,7 +17,7 @@ use foveate_frame::convert_depth;
 
 const BITS: u32 = 8;
 
-/// One sink for each file.
+/// Returns one sink for each file.
 pub(super) fn sinks(
     folder: &Path,
     images: &IdxFile,
@@ -37,10 +38,10 @@ pub(super) fn sinks(
     Ok(sinks)
 }
 
-/// The images, open.
+/// The file of images while it is written.
 struct Images {
     file: HeadedFile<16>,
-    /// No more than the 32-bit count of the file that is read.
+    /// The number of images. The 32-bit count of the input file bounds it.
     count: u32,
     size: (u32, u32),
     bytes: Vec<u8>,
@@ -70,7 +71,7 @@ impl Sink for Images {
     }
 }
 
-/// The labels, open.
+/// The file of labels while it is written.
 struct LabelBytes {
     file: HeadedFile<8>,
     count: u32,
@@ -93,7 +94,7 @@ impl Sink for LabelBytes {
     }
 }
 
-/// Numbers, high bytes first; the first is the magic of the file.
+/// Returns numbers with their high bytes first. The first number is the magic number of the file.
 fn header<const NUMBERS: usize, const BYTES: usize>(numbers: [u32; NUMBERS]) -> [u8; BYTES] {
     let mut bytes = [0; BYTES];
     for (bytes, number) in bytes.chunks_exact_mut(4).zip(numbers) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! PNG files below `images`, in a folder per label, and `images.csv`, which names the file of every
-//! row of the arrays.
+//! A data set of PNG files below `images`, in one folder per label, and `images.csv`, which names
+//! the file for every row of the arrays.
 
 use std::ffi::OsStr;
 use std::fs::{self, File};
@@ -16,19 +16,19 @@ use super::super::picture::RawImage;
 use super::super::sink::{Sink, Step};
 use crate::SimulatorError;
 
-/// The folder of the images.
+/// The name of the folder of images.
 pub(super) const FOLDER: &str = "images";
 
-/// What the new files are called.
+/// The naming of the new files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Names {
-    /// As the files that they come from.
+    /// The files have the names of the input files.
     Own,
-    /// By the number of the image.
+    /// The files have the number of the image as name.
     Numbers,
 }
 
-/// The tree and its table, open.
+/// The folder tree and its table while they are written.
 pub(super) struct Tree {
     folder: PathBuf,
     names: Names,
@@ -44,7 +44,7 @@ impl Tree {
         Ok(Self { folder: folder.to_owned(), names, table, crew: Crew::new()? })
     }
 
-    /// The path of a new file for an image, below the folder of the run; its name is taken.
+    /// Creates a new file for an image. Returns its path below the folder of the run.
     fn place(&self, step: &Step<'_>) -> Result<PathBuf, SimulatorError> {
         let mut below = PathBuf::from(FOLDER);
         if let Some(label) = &step.source.label {
@@ -59,7 +59,8 @@ impl Tree {
         };
         let first = below.join(format!("{}.png", stem.unwrap_or(&number)));
         match (create(&self.folder.join(&first)), stem) {
-            // `a.png` and `a.jpg`, or files of one name from several folders.
+            // The name is used already: the inputs are `a.png` and `a.jpg`, or files of one name
+            // from several folders.
             (Err(error), Some(stem)) if error.kind() == ErrorKind::AlreadyExists => {
                 let other = below.join(format!("{stem}-{number}.png"));
                 let path = self.folder.join(&other);
@@ -103,7 +104,7 @@ fn create(path: &Path) -> io::Result<File> {
     File::create_new(path)
 }
 
-/// A label as the name of one folder, wherever it comes from.
+/// Returns a label if it is the name of a single folder, otherwise `other`.
 fn single(label: &str) -> &str {
     let mut parts = Path::new(label).components();
     match (parts.next(), parts.next()) {

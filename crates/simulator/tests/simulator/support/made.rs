@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! For the tests of data sets: a small set, runs that make one of it, and what must come out.
+//! Helpers for the tests of data sets: a small set, runs that make a data set of it, and the
+//! expected results.
 
 use std::fs;
 use std::io::{Read as _, Write as _};
@@ -31,7 +32,7 @@ pub(crate) fn set() -> InputOptions {
     InputOptions { images: ImagesAs::Set, ..InputOptions::default() }
 }
 
-/// Seven ragged images, each with a bright square where it alone has one.
+/// Returns seven ragged images. Each has a bright square at a position where the others have none.
 pub(crate) fn pixels() -> Vec<u8> {
     let pixel = |i: u8, x: u8, y: u8| if (x / 4 + y / 4) % 7 == i { 250 - x - y } else { x };
     (0..7).flat_map(|i| (0..10).flat_map(move |y| (0..13).map(move |x| pixel(i, x, y)))).collect()
@@ -49,7 +50,7 @@ pub(crate) fn packed(bytes: &[u8]) -> Vec<u8> {
     zip.finish().unwrap()
 }
 
-/// One gzip member and nothing after it.
+/// Unpacks a file that is one gzip member with nothing after it.
 pub(crate) fn unpacked(path: &Path) -> Vec<u8> {
     let bytes = fs::read(path).unwrap();
     assert_eq!(bytes[4..8], [0; 4], "no time");
@@ -60,7 +61,7 @@ pub(crate) fn unpacked(path: &Path) -> Vec<u8> {
     plain
 }
 
-/// What the camera renders of 8-bit images that are first frames, with SRS and TRS.
+/// Returns the rendered images, SRS and TRS of 8-bit images that are first frames.
 pub(crate) fn rendered(
     config: &[&str],
     size: (u32, u32),
@@ -84,7 +85,7 @@ pub(crate) fn rendered(
     result
 }
 
-/// As it is, packed by whatever did it.
+/// Unpacks a gzipped file of any origin.
 pub(crate) fn unpacked_any(path: &Path) -> Vec<u8> {
     let mut plain = Vec::new();
     GzDecoder::new(fs::File::open(path).unwrap()).read_to_end(&mut plain).unwrap();

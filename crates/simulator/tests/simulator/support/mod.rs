@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the tests of this crate share: runs, images made on the spot, and a reader of NPY files.
+//! Helpers that the tests of this crate share: runs, generated images, and a reader of NPY files.
 
 #[path = "../../../../footage/tests/footage/clips.rs"]
 pub(crate) mod clips;
@@ -27,7 +27,7 @@ pub(crate) fn run<P: AsRef<Path>>(
     Simulation::new(&config, source)?.run(output, options, &mut Silent)
 }
 
-/// A ragged street of five frames with two features.
+/// The configuration of a ragged street with two features.
 pub(crate) const STREET: [&str; 4] = [
     "frame.width=45",
     "frame.height=38",
@@ -43,7 +43,7 @@ pub(crate) fn street(output: &Path, overrides: &[&str], options: &RunOptions) ->
     Simulation::new(&config, source).unwrap().run(output, options, &mut Silent).unwrap()
 }
 
-/// The same five frames.
+/// Returns the five frames of the street.
 pub(crate) fn frames(design: &Design) -> impl Iterator<Item = Frame> + use<> {
     Scene::Street.frames(SceneSize {
         width: design.width(),
@@ -58,7 +58,7 @@ pub(crate) fn design(overrides: &[&str]) -> Design {
     Config::from_toml_with("", overrides).unwrap().validate().unwrap()
 }
 
-/// What the model says of them.
+/// Returns the outcomes of the model for the five frames.
 pub(crate) fn outcomes(overrides: &[&str]) -> Vec<FunctionalOutcome> {
     let design = design(overrides);
     let mut camera = FunctionalCamera::new(&design);
@@ -76,7 +76,7 @@ pub(crate) fn grey(
     path.to_owned()
 }
 
-/// The names in a folder, hidden ones too.
+/// Returns the names in a folder, hidden ones included.
 pub(crate) fn names(folder: &Path) -> Vec<String> {
     let entries = fs::read_dir(folder).unwrap();
     let mut names: Vec<String> =
@@ -85,7 +85,7 @@ pub(crate) fn names(folder: &Path) -> Vec<String> {
     names
 }
 
-/// An NPY file as its header says it is.
+/// An NPY file, parsed by its header.
 pub(crate) struct Npy {
     pub(crate) descr: String,
     pub(crate) shape: Vec<usize>,
