@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How long a run may take.
+//! The depth of a run.
 
-/// How much of it.
+/// The depth of a run, which decides how long it takes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Depth {
-    /// Seconds: what the tests run.
+    /// A run of seconds, as the tests do it.
     Short,
-    /// Minutes: all that is promised.
+    /// A run of minutes, with all cases that the documentation promises.
     Full,
 }
 
 impl Depth {
-    /// One of two numbers.
+    /// Returns one of two values, depending on the depth.
     pub(crate) fn pick<T>(self, short: T, full: T) -> T {
         match self {
             Self::Short => short,

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The designs that the cases run on.
+//! The designs of the cases.
 
 use foveate_design::{
     Config, Decimal, Design, FeatureKind, Filter, Irrelevant, Neighborhood, Organization, Payload,
     Reference, SUMMARY_BLOCKS, SpatialConfig,
 };
 
-/// A configuration for frames of `size` with regions of side `side` and pixels of `bits`, thresholds low
-/// enough for any depth.
+/// Returns a configuration for frames of `size` with regions of side `side` and pixels of `bits`.
+/// The thresholds are low enough for any depth.
 pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[FeatureKind]) -> Config {
     let mut config = Config::default();
     (config.camera.frame.width, config.camera.frame.height) = (Some(size.0), Some(size.1));
@@ -30,12 +30,12 @@ pub(crate) fn config(size: (u32, u32), side: u32, bits: u32, features: &[Feature
     config
 }
 
-/// A design that the author of a case knows to be one.
+/// Validates a configuration that is known to be valid.
 pub(crate) fn design(config: &Config) -> Design {
     config.validate().unwrap_or_else(|error| unreachable!("the matrix holds designs: {error}"))
 }
 
-/// A feature, alone or among others.
+/// Returns a list of features that contains this one, alone or among others.
 fn among_others(kind: FeatureKind) -> &'static [FeatureKind] {
     use FeatureKind::{Corner, Edge, Mad, Variance};
     match kind {
@@ -46,13 +46,14 @@ fn among_others(kind: FeatureKind) -> &'static [FeatureKind] {
     }
 }
 
-/// Every feature that the organization of the cases takes.
+/// Returns every feature that the organization of the cases supports.
 pub(crate) fn kinds() -> Vec<FeatureKind> {
     let organization = Organization::default();
     FeatureKind::ALL.iter().copied().filter(|kind| organization.takes_feature(*kind)).collect()
 }
 
-/// Every neighborhood, filter and payload, every reference that the organization takes, with its features by turns.
+/// Returns designs with every neighborhood, filter and payload, every reference that the
+/// organization supports, and its features in turn.
 pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
     let kinds = kinds();
     let organization = Organization::default();
@@ -77,7 +78,8 @@ pub(crate) fn matrix(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
     designs
 }
 
-/// The same where irrelevant regions show the means of blocks, with thresholds between which random frames lie.
+/// Returns the designs of [`matrix`] with irrelevant regions that show the means of blocks. The
+/// scores of random frames lie on both sides of the thresholds.
 pub(crate) fn with_means(size: (u32, u32), side: u32, bits: u32) -> Vec<Design> {
     let mut designs = Vec::new();
     for (turn, one) in matrix(size, side, bits).iter().enumerate() {

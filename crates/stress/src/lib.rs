@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Hard cases, and their expected results.
+//! Hard cases and their expected results.
 //!
-//! Every case fixes the expected result before it looks at the observed one, and reports the worst error.
-//! Some cases show a *failure that the contract keeps on purpose* (the drift of `previous`), or the error
-//! of a method that Foveate does not use (single-pass variance in f32). They expect that failure: without
-//! it the case would not be hard.
+//! Every case fixes the expected result before it computes the observed one, and reports the worst
+//! error. Some cases show a *failure that the contract keeps on purpose* (the drift of `previous`),
+//! or the error of a method that Foveate does not use (single-pass variance in f32). They expect
+//! that failure: without it the case would not be hard.
 //!
 //! The models are not assumed to agree: frames run through the functional model, the engine and the
 //! cycle-level model.
@@ -21,8 +21,9 @@ use rayon::prelude::*;
 pub use depth::Depth;
 pub use row::CaseRow;
 
-/// Runs every case, side by side; `done` hears how many of how many are finished. Rows come in the order
-/// of the documentation; those of cases that had not begun when `cancelled` became true are missing.
+/// Runs every case in parallel. `done` is called with the number of finished cases and the number
+/// of all. The rows are in the order of the documentation. Cases that have not started when
+/// `cancelled` becomes true have no rows.
 pub fn run(
     depth: Depth,
     done: &(dyn Fn(usize, usize) + Sync),

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A line of the table.
+//! The rows of the table of cases.
 
 use serde::Serialize;
 
-/// One case on one design, or on a matrix of them.
+/// The result of one case on one design, or on a matrix of designs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct CaseRow {
-    /// What is tried.
+    /// The name of the case.
     pub case: &'static str,
-    /// On which designs.
+    /// The designs of the case.
     pub designs: String,
-    /// What must come out.
+    /// The expected result.
     pub expected: String,
-    /// What came out.
+    /// The observed result.
     pub observed: String,
-    /// The worst error, in the unit of what is expected.
+    /// The worst error, in the unit of the expected result.
     pub worst: String,
-    /// Whether the observation is as expected.
+    /// The observed result is as expected.
     pub holds: bool,
 }
 
 impl CaseRow {
-    /// A case in which two numbers must be equal.
+    /// Makes the row of a case in which two numbers must be equal.
     pub(crate) fn equal(
         case: &'static str,
         designs: impl Into<String>,
@@ -38,7 +38,8 @@ impl CaseRow {
         }
     }
 
-    /// A case in which nothing may go wrong, `wrong` times of `tried`; `worst` is the largest error.
+    /// Makes the row of a case in which no error may occur. `wrong` of `tried` trials failed, and
+    /// `worst` is the largest error.
     pub(crate) fn none(
         case: &'static str,
         designs: impl Into<String>,
@@ -52,7 +53,7 @@ impl CaseRow {
             expected: format!("0 {what}"),
             observed: format!("{wrong} of {tried}"),
             worst: worst.into().to_string(),
-            // A case that has tried nothing has shown nothing.
+            // A case without trials proves nothing.
             holds: wrong == 0 && tried > 0,
         }
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The same frames through the functional model, the engine and the cycle-level model.
+//! The comparison of the functional model, the engine and the cycle-level model over the same
+//! frames.
 
 use foveate_design::{Design, PipelinedDesign};
 use foveate_engine::Engine;
@@ -10,12 +11,12 @@ use foveate_model::{
 
 use crate::pixels::Random;
 
-/// What disagreed, and how often it could have.
+/// The number of values that differ, and the number that were compared.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct AgreementTally {
-    /// Values that differ from the functional model's.
+    /// The number of values that differ from those of the functional model.
     pub(crate) wrong: u64,
-    /// Values that were compared.
+    /// The number of values that were compared.
     pub(crate) tried: u64,
 }
 
@@ -30,8 +31,8 @@ impl AgreementTally {
     }
 }
 
-/// Runs frames through all three. `unrest` puts gaps between pixels, and before every eighth frame a
-/// part of a frame with a reset in its midst, after which everything starts anew.
+/// Runs frames through all three. `unrest` inserts gaps between pixels and, before every eighth
+/// frame, a part of a frame that a reset ends. All three are reset then.
 pub(crate) fn compare(
     design: &Design,
     frames: impl IntoIterator<Item = Frame>,
@@ -42,7 +43,7 @@ pub(crate) fn compare(
     let mut engine = Engine::new(design);
     let pipelined = design.pipelined().expect("cases are of pipelined designs");
     let mut clocks = Clocks::new(pipelined, unrest);
-    // A decision may come a frame late, and an interrupted run owes some for ever.
+    // A decision may come one frame late, and those that are pending at a reset never come.
     let mut owed = std::collections::VecDeque::new();
     for (number, frame) in (0u64..).zip(frames) {
         if unrest && number % 8 == 7 {
@@ -80,13 +81,13 @@ pub(crate) fn compare(
     tally
 }
 
-/// The cycle-level model, fed with whole frames.
+/// The cycle-level model, which takes whole frames.
 struct Clocks<'a> {
     design: PipelinedDesign<'a>,
     rcm: PipelinedRcm,
     thresholds: Thresholds,
     random: Random,
-    /// What stands at the ports while no pixel comes.
+    /// The values at the pixel ports while no pixel is valid.
     idle: Vec<u16>,
     unrest: bool,
 }
@@ -103,8 +104,8 @@ impl<'a> Clocks<'a> {
         }
     }
 
-    /// One frame, with gaps or at once, and silence until nothing more can come of it. Returns the
-    /// outputs of every decision.
+    /// Sends one frame, with or without gaps, and then idle clocks until all its decisions have
+    /// come. Returns the outputs of every decision.
     fn frame(&mut self, frame: &Frame) -> Vec<Vec<RpuOutput>> {
         let mut decisions = Vec::new();
         for pixels in self.streams(frame) {
@@ -119,7 +120,7 @@ impl<'a> Clocks<'a> {
         decisions
     }
 
-    /// A part of a frame, and a reset.
+    /// Sends a part of a frame, and a reset.
     fn interrupt(&mut self, frame: &Frame) {
         let streams = self.streams(frame);
         let cut = self.random.below(streams.len() as u64);
@@ -146,7 +147,7 @@ impl<'a> Clocks<'a> {
         })
     }
 
-    /// What all regions take, pixel by pixel.
+    /// Returns the pixels that all regions take at each clock.
     fn streams(&self, frame: &Frame) -> Vec<Vec<u16>> {
         let stream = |region| {
             let mut stream = Vec::new();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The short form holds, row by row.
+//! Every row of a short run has the expected result.
 
 use foveate_stress::{Depth, run};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional model, the engine and the cycle-level model say the same.
+//! The cases in which the functional model, the engine and the cycle-level model must agree.
 
 use foveate_design::Design;
 use foveate_scenes::{Scene, SceneSize};
@@ -27,8 +27,8 @@ fn all(
     designs.par_iter().map(one).reduce(AgreementTally::default, AgreementTally::plus)
 }
 
-/// Every scene: all zero, all maximum, checkerboard, hot pixels, ramps, half means, flicker, fade, light
-/// step, shake, rain at night, one moving pixel, late change, random.
+/// Compares the models on every scene: all zero, all maximum, checkerboard, hot pixels, ramps, half
+/// means, flicker, fade, light step, shake, rain at night, one moving pixel, late change, random.
 pub(crate) fn scenes(depth: Depth) -> Vec<CaseRow> {
     let (width, height) = depth.pick((40, 24), (96, 72));
     let designs = matrix((width, height), 8, 8);
@@ -41,7 +41,8 @@ pub(crate) fn scenes(depth: Depth) -> Vec<CaseRow> {
     Scene::ALL.iter().map(run).collect()
 }
 
-/// Odd regions, frames smaller than a region and one pixel larger.
+/// Compares the models on odd regions, and on frames that are smaller than a region or one pixel
+/// larger.
 pub(crate) fn sizes(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(3, 24);
     [
@@ -63,7 +64,7 @@ pub(crate) fn sizes(depth: Depth) -> Vec<CaseRow> {
     .into()
 }
 
-/// Every depth that the contract names.
+/// Compares the models on depths of 1, 10, 12 and 16 bits.
 pub(crate) fn depths(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(3, 24);
     [1, 10, 12, 16]
@@ -76,7 +77,7 @@ pub(crate) fn depths(depth: Depth) -> Vec<CaseRow> {
         .into()
 }
 
-/// Gaps between valid pixels, resets in mid-frame.
+/// Compares the models with gaps between valid pixels and resets in the middle of a frame.
 pub(crate) fn unrest(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(18, 200);
     let designs = matrix((24, 16), 8, 8);
@@ -84,7 +85,8 @@ pub(crate) fn unrest(depth: Depth) -> Vec<CaseRow> {
     vec![row("models agree: gaps and resets", format!("{} designs", designs.len()), tally)]
 }
 
-/// Irrelevant regions that show the means of blocks, on frames that end within a region.
+/// Compares the models with irrelevant regions that show the means of blocks, on frames that end
+/// within a region.
 pub(crate) fn means(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(18, 200);
     [(8, 8), (4, 12), (20, 8)]
@@ -98,7 +100,7 @@ pub(crate) fn means(depth: Depth) -> Vec<CaseRow> {
         .into()
 }
 
-/// Random frames of which every second repeats half of the one before.
+/// Returns random frames. Every second one repeats the upper half of the frame before it.
 fn random(size: (u32, u32), bits: u32, frames: u64) -> impl Iterator<Item = foveate_frame::Frame> {
     (0..frames).map(move |t| {
         let now = Random::new(t).frame(size, bits);

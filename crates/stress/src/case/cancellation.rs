@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Variance of data with a large mean and a small spread: where the sum of squares and the square of
-//! the sum agree in all their leading digits.
+//! The variance of data with a large mean and a small spread, for which the sum of squares and the
+//! square of the sum agree in their leading digits.
 
 use foveate_design::{FeatureKind, bits_for};
 use foveate_frame::Frame;
@@ -10,7 +10,7 @@ use crate::designs::{config, design};
 use crate::pixels::Random;
 use crate::{CaseRow, Depth};
 
-/// Our integers beside single-pass f32, both against two passes in f64.
+/// Compares our integers and a single-pass variance in f32 with two passes in f64.
 pub(crate) fn variance(depth: Depth) -> Vec<CaseRow> {
     let regions = depth.pick(200, 5_000);
     [(8, 8), (32, 8), (8, 16), (64, 16)].into_iter().flat_map(|size| pair(size, regions)).collect()
@@ -46,7 +46,7 @@ fn pair((side, bits): (u32, u32), regions: u32) -> [CaseRow; 2] {
         worst: format!("{:.2e}", error),
         holds,
     };
-    // Where the sum of squares fits into its 24 bits f32 is as good as an integer.
+    // If the sum of squares fits into the 24 bits of an f32, it is exact.
     let cancels = bits_for(u64::from(design.region_pixels()) * u64::from(base + 3).pow(2)) > 24;
     [
         row("variance, integers", "error below 1e-9", ours, ours < 1e-9),

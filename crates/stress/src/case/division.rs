@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Division by a reciprocal equals floor division, for every input.
+//! The division by a reciprocal, which must equal floor division for every input.
 
 use foveate_design::FeatureKind;
 use rayon::prelude::*;
@@ -7,11 +7,11 @@ use rayon::prelude::*;
 use crate::designs::{config, design};
 use crate::{CaseRow, Depth};
 
-/// Every N, powers of two as well, for several P and f.
+/// Tests every N, powers of two included, for several P and f.
 ///
-/// `(x * m) >> s` never falls as x grows, and neither does `floor(x / n)`. So the two are equal for all x
-/// if they are equal at both ends of every run of x with the same quotient: at `q * n` and at
-/// `q * n + n - 1`, for every q. That is tried, which proves all of them.
+/// `(x * m) >> s` never falls as x grows, and neither does `floor(x / n)`. So the two are equal for
+/// all x if they are equal at both ends of every run of x with the same quotient: at `q * n` and at
+/// `q * n + n - 1`, for every q. Trying these values proves all others.
 pub(crate) fn reciprocals(depth: Depth) -> Vec<CaseRow> {
     let kinds: &[(u32, u32)] = depth.pick(
         &[(8, 0), (10, 2), (16, 0)],
@@ -36,7 +36,7 @@ fn reciprocal((bits, fraction_bits): (u32, u32)) -> CaseRow {
     )
 }
 
-/// Largest number of fraction bits, ceil(log2 n).
+/// Returns the largest number of fraction bits, ceil(log2 n).
 fn fraction_limit(side: u32) -> u32 {
     u32::BITS - (side * side - 1).leading_zeros()
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Accumulators reach their derived maximum, and are not one bit short, nor one bit too wide.
+//! The accumulators reach their derived maximum, and have neither one bit too few nor one bit too
+//! many.
 
 use foveate_design::{FeatureKind, bits_for};
 use foveate_engine::Engine;
@@ -9,7 +10,8 @@ use crate::designs::{config, design, kinds};
 use crate::pixels::frame;
 use crate::{CaseRow, Depth};
 
-/// The sums: half of the pixels at the maximum, the others at zero; at the largest region, and at odd ones.
+/// Tests the sums with half of the pixels at the maximum and the others at zero, for the largest
+/// region and for odd ones.
 pub(crate) fn largest_scores(_: Depth) -> Vec<CaseRow> {
     let sizes = [(64, 16), (64, 8), (8, 8), (7, 16), (5, 10), (2, 1)];
     let mut sums = kinds();
@@ -25,13 +27,13 @@ fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     let max = design.pixel_max();
     let n = design.region_pixels();
     let feature = &design.features()[0];
-    // For an odd n the best split has one pixel more on one side; which, is what the width's derivation
-    // says, so both are tried.
+    // For an odd n, the best split has one pixel more on one side. The derivation of the width decides
+    // which side it is; the case tries both, so that it does not depend on the derivation.
     let scores = [n / 2, n.div_ceil(2)].map(|ones| {
         let half = frame((side, side), bits, |x, y| if y * side + x < ones { max } else { 0 });
         let clear = FunctionalCamera::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
         let fast = Engine::new(&design).step(&half).map(|outcome| outcome.scores[0][0]);
-        // What the two disagree on is no score at all.
+        // If the two disagree, the score is not valid.
         clear.ok().filter(|clear| fast.ok() == Some(*clear)).unwrap_or(0)
     });
     let [low, high] = scores;
@@ -42,14 +44,14 @@ fn largest_score(kind: FeatureKind, (side, bits): (u32, u32)) -> CaseRow {
     CaseRow { holds: row.holds && tight, ..row }
 }
 
-/// The counts: every pixel of a region a hit.
+/// Tests the counts with a hit at every pixel of a region.
 pub(crate) fn counts(_: Depth) -> Vec<CaseRow> {
     let edge = |(side, bits): (u32, u32)| {
         let mut config = config((side, side), side, bits, &[FeatureKind::Edge]);
         config.camera.spatial[0].level = Some(0);
         config.camera.denoise.filter = foveate_design::Filter::None;
         let design = design(&config);
-        // A slope has a gradient everywhere, in the clamped windows of the border too.
+        // A slope has a gradient everywhere, also in the clamped windows of the border.
         let slope = frame((side, side), bits, |x, _| x * design.pixel_max() / (side - 1));
         let outcome = FunctionalCamera::new(&design)
             .step(&slope)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Means that end in exactly one half, one pixel less and one more.
+//! Means that end in exactly one half, or one pixel below or above it.
 
 use foveate_design::FeatureKind;
 use foveate_model::FunctionalCamera;
@@ -8,8 +8,8 @@ use crate::designs::{config, design};
 use crate::pixels::frame;
 use crate::{CaseRow, Depth};
 
-/// For every sum around a half the score is that of the mean rounded up at one half: in exact rational
-/// arithmetic, `floor((2 sum + n) / (2 n))`.
+/// Tests that for every sum around a half, the score is that of the mean rounded up at one half. In
+/// exact rational arithmetic the mean is `floor((2 sum + n) / (2 n))`.
 pub(crate) fn halves(_: Depth) -> Vec<CaseRow> {
     [2, 3, 5, 8, 16].map(around_halves).into()
 }
@@ -23,7 +23,7 @@ fn around_halves(side: u32) -> CaseRow {
     let (mut wrong, mut tried, mut worst) = (0, 0, 0);
     for base in [0, 1, 127, 253] {
         for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
-            // `above` pixels are one level higher: the mean is base + above / n.
+            // `above` pixels are one level higher, so the mean is base + above / n.
             let region = frame((side, side), 8, |x, y| base + u32::from(y * side + x < above));
             let mean = base + u32::from(2 * above >= n);
             let expected: u64 = region

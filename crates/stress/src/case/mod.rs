@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cases, one file each, in the order of the table.
+//! The cases, one file for each group, in the order of the table.
 
 mod agreement;
 mod cancellation;
@@ -13,7 +13,7 @@ mod wraps;
 
 use crate::{CaseRow, Depth};
 
-/// Runs one case.
+/// A function that runs one case.
 pub(crate) type Case = fn(Depth) -> Vec<CaseRow>;
 
 /// Every case.

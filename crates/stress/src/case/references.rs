@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is on the screen beside what is in front of the camera, over long runs.
+//! The difference between the screen and the scene over long runs.
 
 use foveate_design::{Config, Design, FeatureKind, Filter, Reference};
 use foveate_frame::Frame;
@@ -13,7 +13,7 @@ use crate::{CaseRow, Depth};
 const SIDE: u32 = 8;
 const SIZE: (u32, u32) = (16, 16);
 
-/// A checked texture, so that every region is relevant, whose brightness `light` gives.
+/// Returns a checked texture whose brightness is `light`. Every region of it is relevant.
 fn textured(light: u32) -> Frame {
     frame(SIZE, 8, |x, y| if (x / 2 + y / 2) % 2 == 0 { light } else { light + 100 })
 }
@@ -27,14 +27,15 @@ fn with(reference: Reference) -> Config {
     config
 }
 
-/// How far the screen was off in relevant regions, at worst.
+/// The largest errors of the screen in relevant regions.
 #[derive(Clone, Copy, Debug, Default)]
 struct Worst {
-    /// Frames and regions in which `min_count` pixels or more were off by more than `level`.
+    /// The number of frames and regions in which `min_count` pixels or more were off by more than
+    /// `level`.
     broken: u64,
-    /// Frames and regions that were looked at: those with SRS.
+    /// The number of frames and regions that were compared: those with SRS.
     relevant: u64,
-    /// Largest difference of a pixel.
+    /// The largest difference of a pixel.
     difference: u32,
 }
 
@@ -75,13 +76,13 @@ fn watch(design: &Design, frames: impl Iterator<Item = Frame>) -> Worst {
     worst
 }
 
-/// What `last-sent` promises.
+/// Makes the row of a case that tests the promise of `last-sent`.
 fn invariant(case: &'static str, designs: String, worst: Worst) -> CaseRow {
     let tally = (worst.broken, worst.relevant);
     CaseRow::none(case, designs, "regions off by min_count pixels", tally, worst.difference)
 }
 
-/// One level per frame, up and down.
+/// Tests a fade of one level per frame, up and down.
 pub(crate) fn slow_fade(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(600, 10_000);
     let light = |t: u32| if (t / 150).is_multiple_of(2) { t % 150 } else { 150 - t % 150 };
@@ -105,7 +106,8 @@ pub(crate) fn slow_fade(depth: Depth) -> Vec<CaseRow> {
     ]
 }
 
-/// Two neighboring levels in turn: below the temporal level, so nothing is sent, and nothing is wrong.
+/// Tests two levels that alternate from frame to frame, with differences below, at and above the
+/// temporal level.
 pub(crate) fn flicker(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(600, 10_000);
     let amplitudes = [1, 8, 9];
@@ -119,15 +121,16 @@ pub(crate) fn flicker(depth: Depth) -> Vec<CaseRow> {
         .into()
 }
 
-/// A region whose relevance goes and comes back, unchanged: `last-sent` sends it again, `previous` leaves
-/// it black, as the paper defines it.
+/// Tests a region whose relevance goes and returns without a change of its pixels beyond the level:
+/// `last-sent` sends it again, `previous` leaves it black, as the paper defines it.
 pub(crate) fn blanked(_: Depth) -> Vec<CaseRow> {
     let plain = || frame(SIZE, 8, |_, _| 50);
     let black = |reference| {
         let design = design(&with(reference));
         let mut camera = FunctionalCamera::new(&design);
         let mut shown = 0;
-        // Seen, gone, and back for two frames; at the second of them nothing changes any more.
+        // The texture appears, disappears, and returns for two frames. The second of these has no
+        // change.
         for frame in [textured(0), plain(), textured(0), textured(0)] {
             if let Ok(outcome) = camera.step(&frame) {
                 shown = outcome.rendered.pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
@@ -136,15 +139,16 @@ pub(crate) fn blanked(_: Depth) -> Vec<CaseRow> {
         shown
     };
     let lit: u64 = textured(0).pixels().iter().map(|&pixel| u64::from(pixel > 0)).sum();
-    // A texture that comes back at the brightness of the plain is no change for half of its pixels, but
-    // for the other half it is: both references see it. A return without any change needs SRS alone to move.
+    // When the texture returns after the plain frame, its pixels change, so both references detect it.
+    // In a return without a change, only SRS may change.
     let returned = |reference| {
         let mut config = with(reference);
         config.camera.spatial[0].level = Some(390);
         let design = design(&config);
         let mut camera = FunctionalCamera::new(&design);
         let mut shown = 0;
-        // The contrast sinks below what counts as an edge by less than the temporal level, and returns.
+        // The contrast falls below the level of an edge by less than the temporal level, and
+        // returns.
         for contrast in [100, 95, 100] {
             let frame = frame(SIZE, 8, |x, y| if (x / 2 + y / 2) % 2 == 0 { 0 } else { contrast });
             if let Ok(outcome) = camera.step(&frame) {
@@ -181,7 +185,7 @@ pub(crate) fn blanked(_: Depth) -> Vec<CaseRow> {
     ]
 }
 
-/// The promise of `last-sent` on every scene.
+/// Tests the promise of `last-sent` on every scene.
 pub(crate) fn invariant_on_scenes(depth: Depth) -> Vec<CaseRow> {
     let mut worst = Worst::default();
     let size = depth.pick((48, 40), (224, 224));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Means of blocks that irrelevant regions show: rounded right, and never far from the scene.
+//! The means of blocks that irrelevant regions show: they are rounded correctly, and stay near the
+//! scene.
 
 use foveate_design::{Config, FeatureKind, Filter, Irrelevant, SUMMARY_BLOCKS};
 use foveate_frame::Frame;
@@ -9,7 +10,8 @@ use crate::designs::{config, design};
 use crate::pixels::{Random, frame};
 use crate::{CaseRow, Depth};
 
-/// Regions of pixels that differ by one level are irrelevant, and show the means of blocks.
+/// Returns a configuration in which regions whose pixels differ by one level are irrelevant, and
+/// show the means of blocks.
 fn with_means(size: (u32, u32), side: u32, bits: u32, blocks: u32, level: u32) -> Config {
     let mut config = config(size, side, bits, &[FeatureKind::Edge]);
     config.camera.denoise.filter = Filter::None;
@@ -19,8 +21,9 @@ fn with_means(size: (u32, u32), side: u32, bits: u32, blocks: u32, level: u32) -
     config
 }
 
-/// For every sum around a half, at both ends of the range of pixels, the screen shows the mean rounded up at one half: in exact rational arithmetic,
-/// `floor((2 sum + n) / (2 n))` of the n pixels of a block.
+/// Tests that for every sum around a half, at both ends of the range of pixels, the screen shows
+/// the mean rounded up at one half. In exact rational arithmetic it is `floor((2 sum + n) / (2 n))`
+/// for the n pixels of a block.
 pub(crate) fn halves(_: Depth) -> Vec<CaseRow> {
     let sides = [(2, 1), (3, 1), (6, 2), (8, 4), (20, 4), (64, 1)];
     let depths = [8, 16];
@@ -34,7 +37,7 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
     let (mut wrong, mut tried, mut worst) = (0, 0, 0);
     for base in [0, 1, max / 2, max - 1] {
         for above in (n / 2).saturating_sub(2)..=(n / 2 + 2).min(n) {
-            // In every block `above` pixels are one level higher: its mean is base + above / n.
+            // In every block `above` pixels are one level higher, so its mean is base + above / n.
             let place = |x, y| (y % block) * block + x % block;
             let region = frame((side, side), bits, |x, y| base + u32::from(place(x, y) < above));
             let mean = base + u32::from(2 * above >= n);
@@ -51,7 +54,8 @@ fn around_halves((side, blocks): (u32, u32), bits: u32) -> CaseRow {
     CaseRow::none("means of blocks on one half", designs, "pixels wrong", (wrong, tried), worst)
 }
 
-/// One level per frame, up and down, and jumps: what a block shows is within the level of its mean, in every frame.
+/// Tests a fade of one level per frame, up and down, and jumps. In every frame, the value that a
+/// block shows is within the level of its mean.
 pub(crate) fn fade(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(600, 10_000);
     let slow = |t: u32| if (t / 250).is_multiple_of(2) { t % 250 } else { 250 - t % 250 };
@@ -71,7 +75,7 @@ pub(crate) fn fade(depth: Depth) -> Vec<CaseRow> {
     rows
 }
 
-/// How far the screen is from a flat scene.
+/// Makes the row of a case that compares the screen with a flat scene.
 fn followed(name: &str, lights: &[u32], blocks: u32, level: u32) -> CaseRow {
     const SIZE: (u32, u32) = (13, 11);
     let mut camera = FunctionalCamera::new(&design(&with_means(SIZE, 8, 8, blocks, level)));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds exactly on what is measured, one below and one above.
+//! Thresholds at a measured value, one below and one above it.
 
 use foveate_design::{Config, Decimal, FeatureKind, Filter};
 use foveate_engine::Engine;
@@ -10,7 +10,8 @@ use crate::designs::{config, design, kinds};
 use crate::pixels::Random;
 use crate::{CaseRow, Depth};
 
-/// A score votes at its own value and not one above; a pixel is a hit one below its magnitude and not at it.
+/// Tests that a score votes if the minimum is equal to it and not if it is one higher, and that a
+/// pixel is a hit if the level is one below its magnitude and not if it is equal.
 pub(crate) fn on_below_above(depth: Depth) -> Vec<CaseRow> {
     let rounds = depth.pick(12, 200);
     let counted = kinds().into_iter().filter(|kind| kind.measure().is_count());
@@ -26,7 +27,8 @@ fn bare(feature: FeatureKind) -> Config {
     config
 }
 
-/// Both models' answer to one question about the second of two frames; `None` if they differ.
+/// Returns the answer of both models to one question about the second of two frames, or `None` if
+/// they differ.
 fn ask<A: PartialEq>(
     config: &Config,
     frames: [&Frame; 2],
@@ -41,7 +43,7 @@ fn ask<A: PartialEq>(
     (clear == fast(engine.step(frames[1]).ok()?)).then_some(clear)
 }
 
-/// `wrong` of `tried` questions.
+/// Makes a row from the answers, of which the false ones are wrong.
 fn row(designs: &str, what: &str, answers: &[bool]) -> CaseRow {
     let wrong = answers.iter().map(|&right| u64::from(!right)).sum();
     CaseRow::none(
@@ -74,12 +76,13 @@ fn scores(kind: FeatureKind, rounds: u64) -> CaseRow {
     row(&format!("{kind}, N {SIDE}, min_score"), "votes wrong", &answers)
 }
 
-/// The level of `edge`, swept over the magnitude of one step in brightness.
+/// Tests the level of `edge` with steps in brightness of different height.
 fn levels(rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for step in 1..=rounds.min(255) {
         let step = u32::try_from(step).expect("at most 255");
-        // A vertical step of brightness: |Gx| is four times its height in the two columns beside it.
+        // At a vertical step of brightness, |Gx| is four times its height in the two columns beside
+        // it.
         let frame = crate::pixels::frame((SIDE, SIDE), 8, |x, _| if x < 4 { 0 } else { step });
         for level in [4 * step - 1, 4 * step, 4 * step + 1] {
             let mut config = bare(FeatureKind::Edge);
@@ -92,7 +95,7 @@ fn levels(rounds: u64) -> CaseRow {
     row(&format!("edge, N {SIDE}, level"), "hits wrong", &answers)
 }
 
-/// The temporal level and count, on a known difference in a known number of pixels.
+/// Tests the temporal level and count with a known difference in a known number of pixels.
 fn counts(rounds: u64) -> CaseRow {
     let mut answers = Vec::new();
     for seed in 0..rounds {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Long runs: positions, windows and flags wrap thousands of times, and frame numbers pass every width
-//! that a careless counter might have.
+//! Long runs: positions, windows and flags wrap thousands of times, and frame numbers exceed 8 and
+//! 16 bits, in case a counter is too narrow.
 
 use crate::designs::matrix;
 use crate::pixels::Random;
 use crate::trio::{AgreementTally, compare};
 use crate::{CaseRow, Depth};
 
-/// More frames than 8 bits count, and in the long form more than 16 bits do.
+/// Runs more frames than 8 bits can count, and in the full depth more than 16 bits can count.
 pub(crate) fn long_runs(depth: Depth) -> Vec<CaseRow> {
     let frames = depth.pick(300, 66_000);
     let designs = matrix((4, 2), 2, 8);
-    // Random frames with long pauses in which nothing changes.
+    // Random frames alternate with long pauses without changes.
     let frame = |t: u64| Random::new(if t % 100 < 40 { t } else { t / 100 }).frame((4, 2), 8);
     let picked = [0, 5, 10, 15].map(|at: usize| &designs[at.min(designs.len() - 1)]);
     let tally = picked
