@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One level after the other.
+//! The benchmark, which runs one level after the other.
 
 use std::time::Duration;
 
@@ -15,26 +15,27 @@ use crate::tools::Tools;
 use crate::vectors::Vectors;
 use crate::{cycle, functional, netlist, rtl};
 
-/// What to run.
+/// The parameters of a benchmark.
 #[derive(Clone, Debug)]
 pub struct Bench {
     /// The design.
     pub design: Design,
-    /// The frames, of its size and depth.
+    /// The frames, with the size and depth of the design.
     pub frames: Vec<Frame>,
-    /// Seed of what is on the ports while no pixel is.
+    /// The seed of the values at the ports while no pixel is valid.
     pub seed: u64,
-    /// How long each level is timed; at least one pass.
+    /// The shortest time for which each level is timed. At least one pass is done.
     pub at_least: Duration,
-    /// Whether the netlist is run, too.
+    /// Runs the netlist, too.
     pub netlist: bool,
 }
 
 impl Bench {
-    /// Runs every level; `progress` hears what comes next.
+    /// Runs every level. `progress` is called with the name of each step before it begins.
     ///
     /// # Errors
-    /// When there is no result. A tool that is missing is a row that says so; differences are a result.
+    /// Fails if there is no result. A missing tool gives a row that says so, and differences are a
+    /// result.
     pub fn run(
         &self,
         tools: Tools<'_>,
@@ -73,7 +74,8 @@ impl Bench {
         Ok(report)
     }
 
-    /// The vectors that every level with clocks sees: the frames back to back, a pixel at every clock.
+    /// Records the vectors of all levels with clocks: the frames without gaps, with a pixel at
+    /// every clock.
     fn record(&self, timer: Timer<'_>) -> Result<Recording, BenchError> {
         let frames = self.frames.clone();
         let stimulus =
@@ -98,7 +100,7 @@ impl Bench {
     }
 }
 
-/// Why a level cannot run, if a tool that it needs is not there or too old.
+/// Returns the reason why a level cannot run, if a tool that it needs is missing or too old.
 fn missing(toolchain: &Toolchain, needed: &[Tool]) -> Result<Option<String>, BenchError> {
     for &tool in needed {
         match toolchain.find(tool) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cycle-level model of the array, by which the recording was made.
+//! The cycle-level model of the array, which also made the recording.
 
 use std::hint::black_box;
 
@@ -16,8 +16,8 @@ use crate::report::{Level, LevelRow, Measured};
 use crate::timer::Timer;
 use crate::vectors::{Vectors, compare};
 
-/// Compares what it decides with the functional model, and what it shows when the vectors come again
-/// with the recording; then times it.
+/// Compares the model's decisions with the functional model and its outputs for the recorded inputs
+/// with the recording, and then times it.
 pub(crate) fn cycle(
     design: &Design,
     frames: &[Frame],
@@ -45,7 +45,7 @@ pub(crate) fn cycle(
     Ok(LevelRow::of(Level::Cycle, type_name(design.organization()), measured))
 }
 
-/// The type of the model.
+/// Returns the name of the model's type.
 fn type_name(organization: Organization) -> &'static str {
     match organization {
         Organization::Pipelined => "PipelinedRcm",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Errors of a bench. A missing tool is a row of the result, and a mismatch is a result; neither is an error.
+//! The errors of a benchmark. A missing tool is a row of the result, and a mismatch is a result;
+//! neither is an error.
 
 use foveate_cosim::CosimError;
 use foveate_design::ConfigError;
@@ -9,43 +10,43 @@ use foveate_model::ModelError;
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-/// Why a bench could not come to a result.
+/// The error that is returned if a benchmark has no result.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum BenchError {
-    /// Vectors could not be made, or a simulator failed.
+    /// The vectors could not be made, or a simulator failed.
     #[error(transparent)]
     Cosim(#[from] CosimError),
     /// Pixels do not make a frame.
     #[error(transparent)]
     Frame(#[from] FrameError),
-    /// A frame is not of the design's kind.
+    /// A frame does not have the size and depth of the design.
     #[error(transparent)]
     Model(#[from] ModelError),
     /// The engine refused a frame.
     #[error(transparent)]
     Engine(#[from] EngineError),
-    /// The part of the design that goes into the netlist is not a valid design.
+    /// The part of the design for the netlist is not a valid design.
     #[error(transparent)]
     Design(#[from] ConfigError),
     /// The vectors could not be read back.
     #[error("cannot read `{path}`: {source}")]
     Vectors {
-        /// The file.
+        /// The path of the file.
         path: String,
-        /// Why.
+        /// The error of the system.
         source: std::io::Error,
     },
-    /// There is nothing to run.
+    /// There is no frame to run.
     #[error("no frame to run; give at least one")]
     NoFrames,
-    /// The user stopped it.
+    /// The user stopped the benchmark.
     #[error("interrupted")]
     Interrupted,
 }
 
 impl BenchError {
-    /// Whether the user stopped it.
+    /// Returns true if the user stopped the benchmark.
     #[must_use]
     pub fn is_interrupted(&self) -> bool {
         match self {

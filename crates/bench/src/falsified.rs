@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Negative control: one false bit, in what the levels with clocks are compared with or in the frames,
-//! must be noticed by each of them.
+//! The negative control: every level with clocks must detect one false bit in its expected outputs,
+//! and changed frames.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use std::sync::atomic::AtomicBool;
@@ -46,7 +46,7 @@ impl Case {
         Self { design, frames, recording, vectors }
     }
 
-    /// Turns the first bit of an output that is compared at every clock, in the middle of the run.
+    /// Flips the first bit of an output that is compared at every clock, in the middle of the run.
     fn falsify(&self) {
         let path = self.recording.expected_path();
         let mut bytes = std::fs::read(&path).unwrap();

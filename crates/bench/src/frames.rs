@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames of random pixels: no level can take a short cut on them.
+//! Frames of random pixels, on which no level can skip work.
 
 use foveate_design::Design;
 use foveate_frame::{Frame, FrameError};
 
-/// `count` frames of the design's kind, every pixel random; equal seeds give equal frames.
+/// Returns `count` frames with the size and depth of the design and random pixels. Equal seeds give
+/// equal frames.
 ///
 /// # Errors
-/// None for a valid design.
+/// A valid design causes no error.
 pub fn random_frames(design: &Design, seed: u64, count: u32) -> Result<Vec<Frame>, FrameError> {
     let mut state = seed ^ 0x9E37_79B9_7F4A_7C15;
     let mut pixel = |_, _| {

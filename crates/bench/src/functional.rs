@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The levels that take whole frames: the clear model, and the engine that must say the same.
+//! The levels that take whole frames: the clear model, and the engine that must give the same
+//! results.
 
 use std::hint::black_box;
 
@@ -14,7 +15,7 @@ use crate::memory::Before;
 use crate::report::{Level, LevelRow, Measured};
 use crate::timer::{Time, Timer};
 
-/// [`FunctionalCamera`], which everything is compared with in the end.
+/// Times [`FunctionalCamera`], the reference of all comparisons.
 pub(crate) fn clear(
     design: &Design,
     frames: &[Frame],
@@ -32,8 +33,8 @@ pub(crate) fn clear(
     Ok(LevelRow::of(Level::FunctionalClear, "FunctionalCamera", measured))
 }
 
-/// [`Engine`] on one thread. It may not skip regions that have not changed: the frames come again and
-/// again, and a single one would cost nothing.
+/// Compares and times [`Engine`] on one thread. It may not skip regions that have not changed,
+/// because the same frames are repeated, and a single frame would cost nothing.
 pub(crate) fn fast(
     design: &Design,
     frames: &[Frame],
@@ -57,7 +58,8 @@ pub(crate) fn fast(
     ))
 }
 
-/// Every result of every region and every pixel of the screen; the engine sees `fast`, the model `clear`.
+/// Compares every result of every region and every pixel of the screen. The engine takes `fast`,
+/// and the model takes `clear`.
 fn agreement(design: &Design, clear: &[Frame], fast: &[Frame]) -> Result<Agreement, BenchError> {
     let (mut camera, mut engine) = (FunctionalCamera::new(design), Engine::new(design));
     let mut agreement = Agreement::default();

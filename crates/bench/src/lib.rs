@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs the same frames through every level of a design: what each level costs, and whether they agree.
+//! Benchmarks: the same frames run through every level of a design. The result is the cost of each
+//! level, and whether the levels agree.
 //!
-//! A [`Bench`] goes from the whole frame down to the gates, each level on one thread, one after the
-//! other, and compares each with one above it:
+//! A [`Bench`] goes from whole frames down to gates. Each level runs on one thread, one after the
+//! other, and is compared with a level above it:
 //!
 //! ```text
 //! functional, clear   FunctionalCamera  frames          the reference
@@ -12,8 +13,9 @@
 //! netlist             Icarus            one RPU         every port at every clock = cycle
 //! ```
 //!
-//! The levels with clocks see the same [`Recording`](foveate_cosim::Recording). Each level is first
-//! compared, in a separate pass, and then timed from memory, without files, comparison or reading of outputs.
+//! The levels with clocks take the same [`Recording`](foveate_cosim::Recording). Each level is
+//! first compared, in a separate pass, and then timed from memory, without files, comparison or
+//! reading of outputs.
 
 mod bench;
 mod cycle;

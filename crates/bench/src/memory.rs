@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How much memory a level takes that runs in this process, as far as Linux tells.
+//! The memory of a level that runs in this process, as far as Linux reports it.
 //!
-//! The kernel keeps the largest resident size of a process and forgets it on demand; what it is above the
-//! size before the level is made is the level's. Memory that was freed before and is used again does not
-//! show, so that the figure is a lower bound.
+//! The kernel records the largest resident size of a process, and can reset it. The memory of a
+//! level is the amount by which this size exceeds the size before the level is made. Memory that
+//! was freed before and is used again is not counted, so the figure is a lower bound.
 
 use std::fs;
 
-/// The size of this process before something is made.
+/// The resident size of this process before a level is made, in kilobytes.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Before(Option<u64>);
 
 impl Before {
     pub(crate) fn now() -> Self {
-        // Where the system cannot forget the peak, there is no figure.
+        // A system that cannot reset the peak gives no figure.
         let is_forgotten = fs::write("/proc/self/clear_refs", "5").is_ok();
         Self(if is_forgotten { kilobytes("VmRSS:") } else { None })
     }
 
-    /// Bytes that have been taken at most since then.
+    /// Returns the largest number of bytes that were taken since then.
     pub(crate) fn peak_bytes(self) -> Option<u64> {
         let before = self.0?;
         Some(kilobytes("VmHWM:")?.saturating_sub(before).saturating_mul(1024))

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What Yosys makes of one RPU, of one serial lane, or of a small raster core, in Icarus: the first regions of the same frames.
+//! The netlist that Yosys makes of one RPU, of one serial lane, or of a small raster core,
+//! simulated in Icarus with the first regions of the same frames.
 
 use foveate_staging::ScratchFolder;
 use std::time::Instant;
@@ -12,12 +13,13 @@ use crate::error::BenchError;
 use crate::report::{Level, LevelRow, Measured};
 use crate::tools::{LIMIT, Tools};
 
-/// What people call it.
+/// Returns the name of the level in reports.
 pub(crate) fn name(design: &Design) -> String {
     format!("1 {} in Icarus", design.unit().name)
 }
 
-/// Synthesizes and simulates it, every port compared at every clock up to the first that differs.
+/// Synthesizes and simulates the netlist. Every port is compared at every clock up to the first
+/// that differs.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
 pub(crate) fn netlist(
     design: &Design,
@@ -60,7 +62,8 @@ pub(crate) fn netlist(
     Ok(LevelRow::of(Level::Netlist, &name(design), measured.agrees(Level::Cycle, agreement)))
 }
 
-/// The design for a frame of the regions of one unit, or of fewer where that unit is the whole array.
+/// Returns the design for a frame of the regions of one unit, or for a smaller frame if the unit is
+/// the whole array.
 fn part(design: &Design) -> Result<Design, BenchError> {
     match design.unit().array {
         Array::Copies => {

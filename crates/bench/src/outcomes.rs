@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether the clocks of a recording decide what the functional model decides: scores, counts and
-//! decisions of every region of every frame, whenever they come.
+//! The comparison of a recording with the functional model: scores, counts and decisions of every
+//! region of every frame, at whatever clock they come.
 
 use foveate_cosim::{Agreement, Layout, Recording};
 use foveate_design::{BeatRegion, Design, PortRole, StreamRole};
@@ -10,7 +10,8 @@ use foveate_model::{FunctionalCamera, FunctionalOutcome};
 use crate::error::BenchError;
 use crate::vectors::{each_clock, field};
 
-/// Compares a recording of `streamed` frames; after the last of `frames` it comes again.
+/// Compares a recording of `streamed` frames. The recording repeats the last of `frames` until all
+/// outputs have left.
 pub(crate) fn agreement(
     design: &Design,
     recording: &Recording,
@@ -29,16 +30,16 @@ pub(crate) fn agreement(
     Ok(judge.finish())
 }
 
-/// Looks at the outputs of one clock after the other.
+/// The comparison of one clock after the other.
 struct Judge<'a> {
     design: &'a Design,
     layout: &'a Layout,
     outcomes: Vec<FunctionalOutcome>,
-    /// Whether scores come one after the other, and not with their decision.
+    /// Scores come one after the other on their own stream, not together with their decision.
     has_scores: bool,
-    /// How a decision names its region.
+    /// The way in which a decision names its region.
     decided_by: BeatRegion,
-    /// Decisions that have been seen, by region.
+    /// The number of decisions so far, by region.
     decided: Vec<usize>,
     agreement: Agreement,
 }
@@ -83,7 +84,7 @@ impl<'a> Judge<'a> {
         usize::try_from(value).expect("a number of at most 32 bits")
     }
 
-    /// The decision of a region with all its scores, in a lane of the ports.
+    /// Compares the decision of a region with all its scores, in one lane of the ports.
     fn look_at_scores(&mut self, record: &[u8], region: usize, lane: u32) {
         let count = self.value(record, PortRole::TemporalCount, lane);
         self.check(region, count, |outcome| outcome.temporal_count[region].into());
@@ -94,7 +95,7 @@ impl<'a> Judge<'a> {
         self.decide(record, region, lane);
     }
 
-    /// A score of one region, and perhaps its decision.
+    /// Compares one score of a region, and its decision if it comes at the same clock.
     fn look_at_one(&mut self, record: &[u8]) {
         if self.value(record, PortRole::ScoreValid, 0) != Some(1) {
             return;
@@ -125,7 +126,8 @@ impl<'a> Judge<'a> {
         }
     }
 
-    /// One value of the frame that the region is at; nothing where the port is not there.
+    /// Compares one value with the region's current frame. A port that does not exist is not
+    /// compared.
     fn check(
         &mut self,
         region: usize,
@@ -142,7 +144,7 @@ impl<'a> Judge<'a> {
         field(self.layout, role).map(|field| field.get(record, lane))
     }
 
-    /// A decision that never came is a difference.
+    /// Returns the result. A decision that never came counts as a difference.
     fn finish(mut self) -> Agreement {
         let missing = |&decided: &usize| self.outcomes.len().saturating_sub(decided) as u64;
         let missing = self.decided.iter().map(missing).sum::<u64>();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How fast a level with clocks is.
+//! The rates of a level with clocks.
 
 use foveate_design::Design;
 
@@ -7,7 +7,7 @@ use crate::report::Measured;
 use crate::timer::Time;
 use crate::vectors::Vectors;
 
-/// Rates of a level with clocks.
+/// Returns the rates of a level with clocks.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
 pub(crate) fn per_clock(design: &Design, vectors: &Vectors, time: Time) -> Measured {
     let passes_per_second = time.passes as f64 / time.seconds;

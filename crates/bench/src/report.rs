@@ -1,98 +1,101 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The result of a bench.
+//! The result of a benchmark.
 
 use foveate_cosim::Agreement;
 use serde::Serialize;
 
-/// Version of [`BenchReport`] as JSON; changes when a field changes its meaning or goes.
+/// The version of [`BenchReport`] as JSON. It changes when a field changes its meaning or is
+/// removed.
 pub const FORMAT_VERSION: u32 = 2;
 
 /// A level of the design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Level {
-    /// Whole frames, written to be read.
+    /// The functional model of whole frames, written to be read.
     FunctionalClear,
-    /// Whole frames, written to be fast.
+    /// The engine for whole frames, written to be fast.
     FunctionalFast,
-    /// Every port at every clock.
+    /// The cycle-level model: every port at every clock.
     Cycle,
-    /// The Verilog.
+    /// The Verilog in a simulator.
     Rtl,
-    /// What synthesis makes of it.
+    /// The netlist after synthesis.
     Netlist,
 }
 
-/// All levels of one design, top down.
+/// The results of all levels of one design, from top to bottom.
 #[derive(Clone, Debug, Serialize)]
 pub struct BenchReport {
-    /// [`FORMAT_VERSION`].
+    /// The version of the format, [`FORMAT_VERSION`].
     pub format_version: u32,
-    /// Fingerprint of the design.
+    /// The fingerprint of the design.
     pub design: String,
-    /// Its organization.
+    /// The organization of the design.
     pub organization: &'static str,
-    /// Its regions.
+    /// The number of regions.
     pub regions: u32,
-    /// Pixels of a frame, side by side and one below the other.
+    /// The width and height of a frame in pixels.
     pub size: (u32, u32),
-    /// Frames that the functional levels see.
+    /// The number of frames that the functional levels take.
     pub frames: u64,
-    /// Frames that the levels with clocks see: those, and the last one again until everything has left.
+    /// The number of frames that the levels with clocks take: the same frames, with the last one
+    /// repeated until all outputs have left.
     pub streamed: u64,
-    /// Clocks that these take.
+    /// The number of clocks for these frames.
     pub clocks: u64,
-    /// The processor's vector instructions that the fast levels use.
+    /// The vector instructions of the processor that the fast levels use.
     pub instructions: String,
-    /// One per level.
+    /// One row per level.
     pub rows: Vec<LevelRow>,
 }
 
-/// One level.
+/// The result of one level.
 #[derive(Clone, Debug, Serialize)]
 pub struct LevelRow {
-    /// Which.
+    /// The level.
     pub level: Level,
-    /// What runs there.
+    /// The name of what runs at this level.
     pub name: String,
-    /// What it came to, unless it could not run.
+    /// The measurements, unless the level could not run.
     pub measured: Option<Measured>,
-    /// Why it could not.
+    /// The reason why the level could not run.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub missing: Option<String>,
 }
 
-/// What a level costs, and how far it agrees.
+/// The cost of a level, and its agreement with another level.
 #[derive(Clone, Debug, Default, Serialize)]
 pub struct Measured {
-    /// Frames per second.
+    /// The number of frames per second.
     pub frames_per_second: f64,
-    /// Clocks per second, where there are clocks.
+    /// The number of clocks per second, if the level has clocks.
     pub clocks_per_second: Option<f64>,
-    /// Pixels of frames per second.
+    /// The number of pixels of frames per second.
     pub pixels_per_second: f64,
-    /// Clocks per second over those of the RTL.
+    /// The clocks per second divided by those of the RTL.
     pub times_rtl: Option<f64>,
-    /// Bytes that the level takes at most, where the system tells.
+    /// The largest number of bytes that the level takes, if the system reports it.
     pub peak_bytes: Option<u64>,
-    /// Seconds to build it; nothing for what is part of this program.
+    /// The number of seconds to build the level, or `None` if it is a part of this program.
     pub build_seconds: Option<f64>,
-    /// Whether the build was found in the cache, so that its seconds mean nothing.
+    /// The build was found in the cache, so its seconds mean nothing.
     pub is_cached: bool,
-    /// The level with which it was compared.
+    /// The level with which this level was compared.
     pub same_as: Option<Level>,
-    /// Values that were compared, and those that differ.
+    /// The number of values that were compared.
     pub compared: u64,
-    /// Values that differ.
+    /// The number of values that differ.
     pub differing: u64,
-    /// How often the frames went through while the time was taken.
+    /// The number of timed passes over the frames.
     pub passes: u64,
-    /// Seconds of these passes.
+    /// The number of seconds of these passes.
     pub seconds: f64,
-    /// Clocks per second from file to file; the figure above is from memory.
+    /// The number of clocks per second with inputs and outputs in files. `clocks_per_second` is
+    /// measured from memory.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub files_clocks_per_second: Option<f64>,
-    /// The part of the time that went into unpacking the inputs, 0 to 1.
+    /// The share of the time for unpacking the inputs, 0 to 1.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unpacking: Option<f64>,
 }
@@ -115,13 +118,14 @@ impl LevelRow {
 }
 
 impl BenchReport {
-    /// Values that differ between levels that claim the same.
+    /// Returns the number of values that differ between levels that should agree.
     #[must_use]
     pub fn differing(&self) -> u64 {
         self.rows.iter().filter_map(|row| row.measured.as_ref()).map(|row| row.differing).sum()
     }
 
-    /// Fills in how many times faster than the RTL the others are; one RPU of a netlist is no array.
+    /// Fills in the ratios of the levels' speeds to that of the RTL. A netlist has no ratio,
+    /// because one RPU is not an array.
     pub(crate) fn relate(&mut self) {
         let rtl = self.rows.iter().find(|row| row.level == Level::Rtl);
         let Some(rtl) = rtl.and_then(|row| row.measured.as_ref()?.clocks_per_second) else {

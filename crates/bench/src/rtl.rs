@@ -14,7 +14,7 @@ use crate::timer::{Time, Timer};
 use crate::tools::{LIMIT, Tools};
 use crate::vectors::Vectors;
 
-/// Builds it, compares every port at every clock, then times it.
+/// Builds the simulation, compares every port at every clock, and then times it.
 #[allow(clippy::cast_precision_loss, reason = "rates need no 53 bits")]
 pub(crate) fn rtl(
     design: &Design,
@@ -48,7 +48,7 @@ pub(crate) fn rtl(
     Ok(LevelRow::of(Level::Rtl, &name, measured.agrees(Level::Cycle, timed.agreement)))
 }
 
-/// `Verilator 5.006` of what it says.
+/// Shortens a banner to the name and the version, such as `Verilator 5.006`.
 fn short_version(banner: &str) -> String {
     banner.split_whitespace().take(2).collect::<Vec<_>>().join(" ")
 }

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Does the same again and again for some time.
+//! The timing of repeated passes.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::error::BenchError;
 
-/// How long, and what stops it.
+/// The shortest time of a measurement, and the flag that stops it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Timer<'a> {
     pub(crate) at_least: Duration,
     pub(crate) cancel: &'a AtomicBool,
 }
 
-/// How often something was done, and how long it took altogether.
+/// The number of passes, and their time in seconds.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Time {
     pub(crate) passes: u64,
@@ -39,7 +39,7 @@ impl Timer<'_> {
         }
     }
 
-    /// An error once the user has stopped it.
+    /// Fails if the user has stopped the benchmark.
     pub(crate) fn check(self) -> Result<(), BenchError> {
         if self.cancel.load(Ordering::Relaxed) { Err(BenchError::Interrupted) } else { Ok(()) }
     }

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! External programs that run some of the levels.
+//! The external programs that run some of the levels.
 
 use std::time::Duration;
 
 use foveate_toolchain::{Cache, Toolchain};
 
-/// The longest that a run may take.
+/// The time limit of a run.
 pub(crate) const LIMIT: Duration = Duration::from_secs(3600);
 
-/// The tools of the machine, and what they have built.
+/// The tools of the machine, and the cache of their builds.
 #[derive(Clone, Copy, Debug)]
 pub struct Tools<'a> {
-    /// Found and run by it; its flag stops the bench.
+    /// The toolchain that finds and runs the tools. Its flag stops the benchmark.
     pub toolchain: &'a Toolchain,
-    /// Finished builds.
+    /// The cache of finished builds.
     pub cache: &'a Cache,
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The inputs of a recording, unpacked into memory: what the models take at every clock.
+//! The inputs of a recording, unpacked into memory: the inputs of the models at every clock.
 
 use std::fs::File;
 use std::io::{BufReader, Read};
@@ -16,24 +16,24 @@ use crate::error::BenchError;
 pub(crate) struct Vectors {
     controls: Vec<Control>,
     pixels: Vec<u16>,
-    /// The pixels at the port of references of a core that has one.
+    /// The pixels at the port of references, if the core has one.
     references: Vec<u16>,
-    /// Pixels at the port per clock.
+    /// The number of pixels at the port per clock.
     width: usize,
-    /// Frames that are taken in.
+    /// The number of frames that the core takes.
     pub(crate) streamed: u64,
 }
 
-/// The inputs of one clock but for its pixels.
+/// The inputs of one clock, except its pixels.
 #[derive(Clone, Copy, Debug)]
 struct Control {
     reset: bool,
     valid: bool,
-    /// Whether it is the first of a frame, where that is a port.
+    /// The pixel is the first of a frame, if the core has a port for this.
     sof: bool,
-    /// Whether a reference is valid, where that is a port.
+    /// The reference is valid, if the core has a port for this.
     reference_valid: bool,
-    /// Whether the sink takes what leaves, where that is a port.
+    /// The sink takes forwarded pixels, if the core has a port for this.
     forward_ready: bool,
     thresholds: Thresholds,
 }
@@ -70,7 +70,7 @@ impl Vectors {
         self.controls.len() as u64
     }
 
-    /// What is applied at every clock.
+    /// Returns the inputs of every clock.
     pub(crate) fn inputs(&self) -> impl Iterator<Item = CoreInput<'_>> {
         let reference_width = if self.references.is_empty() { 0 } else { self.width };
         let pixels = self.pixels.chunks_exact(self.width.max(1));
@@ -109,7 +109,8 @@ impl Control {
                 PortRole::TemporalLevel => thresholds.temporal_level = word(value()),
                 PortRole::TemporalMinCount => thresholds.temporal_min_count = word(value()),
                 PortRole::SummaryLevel => thresholds.summary_level = word(value()),
-                // Pixels, outputs, and the borders of a lone RPU.
+                // Pixels are read separately, outputs are not applied, and the borders belong to a
+                // single RPU.
                 _ => {}
             }
         }
@@ -123,12 +124,12 @@ impl Control {
     }
 }
 
-/// The port of a role.
+/// Returns the port with a role.
 pub(crate) fn field(layout: &Layout, role: PortRole) -> Option<&Field> {
     layout.fields().iter().find(|field| field.port.role == role)
 }
 
-/// Inputs and expected outputs, clock by clock.
+/// Calls `look` with the inputs and the expected outputs of each clock.
 pub(crate) fn each_clock(
     recording: &Recording,
     mut look: impl FnMut(&[u8], &[u8]),
@@ -144,7 +145,8 @@ pub(crate) fn each_clock(
     Ok(())
 }
 
-/// Compares the outputs of a model with the recording; `step` puts those of the next clock into a record.
+/// Compares the outputs of a model with the recording. `step` writes the outputs of the next clock
+/// into a record.
 pub(crate) fn compare(
     recording: &Recording,
     mut step: impl FnMut(&mut [u8]),
