@@ -84,7 +84,7 @@ impl Recorder {
             }
         }
         let table = FrameTable::create(&folder.join("frames.csv"), design)?;
-        // After the others: its names are the user's, and it takes none that is taken.
+        // The data set is last: its file names come from the inputs, and must not replace other outputs.
         if options.data_set {
             sinks.append(&mut data_set::sinks(folder, form)?);
         }
