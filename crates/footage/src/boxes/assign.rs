@@ -20,8 +20,8 @@ pub struct Clip<'a> {
     pub input: &'a Path,
 }
 
-/// Reads the boxes of every clip, in the order of the clips. A file that several clips share is read
-/// once.
+/// Reads the boxes of every clip, in the order of the clips. A file that several clips share is
+/// read once.
 ///
 /// # Errors
 /// Fails if the numbers of files and of clips differ, a file does not exist or cannot be read, or

@@ -19,8 +19,8 @@ use super::decoder::{Decoder, Ffmpeg, Start};
 use super::probe::Probe;
 use crate::FootageError;
 
-/// The earliest start, in microseconds, for which a seek pays. Before it, decoding from the beginning
-/// takes no longer than the test whether a seek is exact.
+/// The earliest start, in microseconds, for which a seek pays. Before it, decoding from the
+/// beginning takes no longer than the test whether a seek is exact.
 const WORTH_US: u64 = 3_000_000;
 /// The time in microseconds by which decoding starts earlier, since the beginnings of a file and of
 /// its video may differ a little.
