@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Measures the throughput of the engine on a clip in memory. Prints one JSON object per line.
 //!
-//! `throughput CLIP.npy --side N --features edge,corner,mad [--neighborhood shared] [--threads 1]
-//! [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]
-//! [--blocks 2]`
+//! ```text
+//! throughput CLIP.npy --side N --features edge,corner,mad [--neighborhood shared] [--threads 1]
+//!     [--batch 1] [--screens] [--no-skip] [--level avx2] [--seconds 1] [--reference last-sent]
+//!     [--blocks 2]
+//! ```
 //!
 //! With `--blocks`, irrelevant regions send means of that many blocks per side. Frames are given
-//! `--batch` at a time, and with `--screens` the rendered frame of each is kept. `throughput
-//! --copy` measures the copy bandwidth of the machine. `mpixel_s` is in megapixels per second over
-//! the faster half of the frames, as `cv_pipeline.py` reports it. `mpixel_s_mean` is over all
-//! frames of the clip, each with its fastest time.
+//! `--batch` at a time, and with `--screens` the rendered frame of each is kept.
+//! `throughput --copy` measures the copy bandwidth of the machine. `mpixel_s` is in megapixels per
+//! second over the faster half of the frames, as `cv_pipeline.py` reports it. `mpixel_s_mean` is
+//! over all frames of the clip, each with its fastest time.
 
 use std::sync::Barrier;
 use std::time::{Duration, Instant};

@@ -16,8 +16,8 @@ impl Frame {
     /// Makes a frame from its pixels in row-major order.
     ///
     /// # Errors
-    /// Fails if a side is zero, `bits` is not in `1..=16`, the number of pixels is not `width *
-    /// height`, or a pixel does not fit into `bits` bits.
+    /// Fails if a side is zero, `bits` is not in `1..=16`, the number of pixels is not
+    /// `width * height`, or a pixel does not fit into `bits` bits.
     pub fn new(width: u32, height: u32, bits: u32, pixels: Vec<u16>) -> Result<Self, FrameError> {
         if width == 0 || height == 0 {
             return Err(FrameError::EmptyFrame { width, height });

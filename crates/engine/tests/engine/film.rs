@@ -17,7 +17,8 @@ pub(crate) enum Change {
     Spot(f64, f64),
     /// A square of a quarter of the width is new.
     Patch(f64, f64),
-    /// The same square gets one value, so that a relevant region becomes irrelevant.
+    /// A square of a quarter of the width gets one value, so that relevant regions become
+    /// irrelevant.
     Wipe(f64, f64),
     /// All pixels get one value.
     Flat,

@@ -121,8 +121,9 @@ pub(crate) fn flicker(depth: Depth) -> Vec<CaseRow> {
         .into()
 }
 
-/// Tests a region whose relevance goes and returns without a change of its pixels beyond the level:
-/// `last-sent` sends it again, `previous` leaves it black, as the paper defines it.
+/// Tests a region whose relevance goes and returns. If its pixels have changed, both references
+/// send it again. If they have not, `last-sent` sends it again, and `previous` leaves it black, as
+/// the paper defines it.
 pub(crate) fn blanked(_: Depth) -> Vec<CaseRow> {
     let plain = || frame(SIZE, 8, |_, _| 50);
     let black = |reference| {
