@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which parts of a leaf a design elaborates.
+//! Decides which parts of a leaf a design elaborates.
 //!
-//! A leaf instantiates some of its parts in a branch of a `generate` that not every design takes. What no branch
-//! needs is not shipped. A part that is not listed here is in no such branch.
+//! A leaf instantiates some of its parts in a branch of a `generate` that not every design takes. A
+//! part that no taken branch needs is not shipped. A part that is not listed here is in no such
+//! branch.
 //!
-//! Two tools look at more than what is elaborated, so the text of a leaf that lacks parts is made to fit. Yosys
-//! follows the defaults of parameters when it reads a file: they become those of the design. Verilator takes a
-//! parameter for unused whose only use is an instance of what is not there: it is told so.
+//! Two tools also examine branches that are not taken, so the text of a leaf that lacks parts is
+//! adapted. Yosys uses the default values of parameters when it reads a file, so the defaults
+//! become the values of the design. Verilator reports a parameter as unused if its only use is an
+//! instance of a missing module, so this warning is turned off in the file.
 
 use crate::Leaf;
 use foveate_design::{
@@ -14,7 +16,7 @@ use foveate_design::{
     Reference, SerialDesign, Store, Written,
 };
 
-/// Whether a leaf of a serial array has `part` inside.
+/// Returns whether a leaf of a serial array contains `part`.
 pub(crate) fn of_serial(design: SerialDesign<'_>, leaf: &str, part: &str) -> bool {
     match (leaf, part) {
         ("serial_array", "serial_raster_feed") => design.feed() == Feed::Raster,
@@ -28,7 +30,7 @@ pub(crate) fn of_serial(design: SerialDesign<'_>, leaf: &str, part: &str) -> boo
     }
 }
 
-/// Whether a leaf of a raster core has `part` inside.
+/// Returns whether a leaf of a raster core contains `part`.
 pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> bool {
     let scored = || design.features().iter().any(|f| parts_of_score(f.kind()).contains(&part));
     let median = || design.filter() == Filter::Median3x3;
@@ -55,7 +57,8 @@ pub(crate) fn of_raster(design: RasterDesign<'_>, leaf: &str, part: &str) -> boo
     }
 }
 
-/// Parts of a raster core that make the score of a feature, and that a core without it need not have.
+/// Returns the parts of a raster core that compute the score of a feature; a core without the
+/// feature need not have them.
 fn parts_of_score(kind: FeatureKind) -> &'static [&'static str] {
     match kind {
         FeatureKind::Edge => &["raster_edge"],
@@ -65,17 +68,17 @@ fn parts_of_score(kind: FeatureKind) -> &'static [&'static str] {
     }
 }
 
-/// Whether a part of a raster core is there for the score of some feature.
+/// Returns whether a part of a raster core computes the score of some feature.
 fn makes_a_score(part: &str) -> bool {
     FeatureKind::ALL.iter().any(|&kind| parts_of_score(kind).contains(&part))
 }
 
-/// Whether there is a memory of which regions have a reference.
+/// Returns whether a memory records which regions have a reference.
 fn marks_regions(design: &Design) -> bool {
     design.temporal().reference.bits_per_region() > 0
 }
 
-/// Whether references are written in the order of the frame.
+/// Returns whether references are written in the order of the frame.
 fn is_in_order(reference: Reference) -> bool {
     match reference.written() {
         Written::WithEveryFrame => true,
@@ -83,16 +86,16 @@ fn is_in_order(reference: Reference) -> bool {
     }
 }
 
-/// Whether the frame ends inside of a row of regions, so that its last row is repeated.
+/// Returns whether the frame ends inside a row of regions, so that its last row is repeated.
 fn is_padded_below(design: &Design) -> bool {
     !design.height().is_multiple_of(design.region_size())
 }
 
-/// Words of a bank of the store, as in `raster_core`.
+/// The words of a bank of the store, as in `raster_core`.
 const BANK_WORDS: u64 = 1 << 14;
 
-/// Whether the frame store is made of groups of banks: a large one that has to be fast, whose references come in
-/// order and can be asked for early enough.
+/// Returns whether the frame store consists of groups of banks. This is a large store that must be
+/// fast, and whose references come in order and can be requested early enough.
 fn is_in_banks(design: RasterDesign<'_>) -> bool {
     design.pipelining() == Pipelining::Deep
         && design.store() == Store::Block
@@ -101,11 +104,11 @@ fn is_in_banks(design: RasterDesign<'_>) -> bool {
         && (design.filter() != Filter::None || design.has_feature_window())
 }
 
-/// Parameters of a leaf and their values.
+/// The parameters of a leaf and their values.
 pub(crate) type Values = Vec<(&'static str, String)>;
 
-/// The text of a leaf as a design ships it; its parameters have these `values` in the design, which elaborates all of
-/// its parts, or not.
+/// Returns the text of a leaf as a design ships it. The parameters of the leaf have these `values`
+/// in the design. `is_whole` says whether the design elaborates all parts of the leaf.
 pub(crate) fn text(leaf: &Leaf, values: &[(&str, String)], is_whole: bool) -> String {
     let plain = leaf.contents.to_owned();
     let text = values.iter().fold(plain, |text, (name, value)| with_default(&text, name, value));
@@ -119,7 +122,8 @@ pub(crate) fn text(leaf: &Leaf, values: &[(&str, String)], is_whole: bool) -> St
         .replacen("`default_nettype wire", &format!("{end}\n`default_nettype wire"), 1)
 }
 
-/// The text of a module with another default of a parameter; what stands behind it keeps its column if it can.
+/// Returns the text of a module with another default of a parameter. A comment on that line keeps
+/// its column if there is room.
 fn with_default(text: &str, name: &str, value: &str) -> String {
     let start = format!(" {name} = ");
     let is_declared =

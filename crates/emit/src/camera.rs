@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The camera's choices as the Verilog knows them: flags. A new reference, or something else to show of irrelevant
-//! regions, has to be decided here before anything is generated.
+//! The camera's choices as flags of the Verilog. A new kind of reference, or a new content of
+//! irrelevant regions, must be mapped to these flags before it can be generated.
 
 use foveate_camera::{Camera, Irrelevant, Reference};
 
-/// `LAST_SENT`, and whether a pipelined RPU has a store of what was sent last: the Verilog knows two references, and the
-/// flag has no third value. What else follows from the reference asks it, and not this.
+/// Returns `LAST_SENT`, which is also whether a pipelined RPU stores the pixels sent last. The
+/// Verilog knows two references, so the flag has two values. Code that needs another property of
+/// the reference asks the reference itself.
 pub(crate) fn last_sent(camera: &Camera) -> bool {
     match camera.temporal().reference {
         Reference::Previous => false,
@@ -13,7 +14,8 @@ pub(crate) fn last_sent(camera: &Camera) -> bool {
     }
 }
 
-/// `BLANKS`: an irrelevant region becomes black or shows its means, and so has no reference.
+/// Returns `BLANKS`: whether an irrelevant region becomes black or shows its means, and so loses
+/// its reference.
 pub(crate) fn blanks(camera: &Camera) -> bool {
     match camera.irrelevant() {
         Irrelevant::Zero | Irrelevant::Mean => true,

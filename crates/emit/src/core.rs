@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The files of a core beside its Verilog: file lists, FuseSoC, constraints, Vivado, the benches' script.
-//! Its README is in [`crate::readme`].
+//! The files of a core apart from its Verilog: file lists, FuseSoC, constraints, Vivado, and the
+//! script that runs the benches. The README is in [`crate::readme`].
 
 use crate::axi;
 use crate::organization::emitter;
@@ -17,7 +17,7 @@ struct FuseSoc<'a> {
     version: &'static str,
     name: String,
     before: String,
-    /// The module that synthesis takes.
+    /// The module that is synthesized.
     whole: String,
     has_rpu: bool,
     on_axi: bool,
@@ -25,7 +25,7 @@ struct FuseSoc<'a> {
     rows: u32,
     n: u32,
     files: Vec<&'a str>,
-    /// What nextpnr is told for the first device of each family.
+    /// The options of nextpnr for the first device of each family.
     ecp5: String,
     ice40: String,
 }
@@ -34,7 +34,7 @@ struct FuseSoc<'a> {
 #[template(path = "replay.sh")]
 struct Replay {
     banner: String,
-    /// What file lists and benches begin with: the prefix and its `_`.
+    /// The beginning of the names of file lists and benches: the prefix and its `_`.
     before: String,
     has_rpu: bool,
     simulator: &'static str,
@@ -45,17 +45,18 @@ struct Replay {
 struct Vivado {
     banner: String,
     before: String,
-    /// The module that is synthesized unless something else is asked for.
+    /// The module that is synthesized if the user names none.
     whole: &'static str,
     has_rpu: bool,
     on_axi: bool,
 }
 
-/// Clocks of a frame, of all lanes, from which a bench is slower in Icarus than Verilator takes to compile it.
+/// The clocks of a frame, summed over all lanes, above which a bench runs longer in Icarus than
+/// Verilator takes to compile it.
 const ICARUS_CLOCKS: u64 = 40_000;
 
-/// Every file of the core of `design` but its benches and its timing diagram, which come from the model. Names of
-/// modules begin with `prefix`.
+/// Returns every file of the core of `design`, except its benches and its timing diagram, which
+/// need the model. The names of modules begin with `prefix`.
 #[must_use]
 pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
     let (mut files, mut lists) = (Vec::<SourceFile>::new(), Vec::new());
@@ -64,7 +65,8 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
         let sources = prefix.apply(sources);
         let path = prefix.name(&format!("{module}.f"));
         lists.push(SourceFile { path, contents: file_list(&sources) });
-        // A serial array has no RPU inside.
+        // The array of a serial core does not contain the module `rpu`, so the tops have files in
+        // common and files of their own.
         let is_new = |file: &SourceFile| files.iter().all(|known| known.path != file.path);
         let new: Vec<_> = sources.into_iter().filter(is_new).collect();
         files.extend(new);
@@ -96,7 +98,7 @@ pub fn core(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
 fn replay(design: &Design, prefix: &Prefix) -> Replay {
     let unit = design.unit();
     let lanes = match unit.array {
-        // The bench simulates a few.
+        // The bench simulates only a few copies.
         Array::Copies => 1,
         Array::Whole => u64::from(unit.count),
     };
@@ -109,7 +111,7 @@ fn replay(design: &Design, prefix: &Prefix) -> Replay {
     }
 }
 
-/// The clocks of the core and of the array in it, where that has a clock of its own name.
+/// Returns the constraints of the core's clock, and of the array's clock where it has another name.
 fn constraints(design: &Design) -> Vec<SourceFile> {
     let of = |path: &str, clock: &str| SourceFile {
         path: format!("constraints/{path}"),
@@ -131,7 +133,7 @@ fn fusesoc<'a>(design: &Design, prefix: &Prefix, files: Vec<&'a str>) -> FuseSoc
     FuseSoc {
         banner: banner(design),
         version: env!("CARGO_PKG_VERSION"),
-        // No two designs have the same, and neither have two prefixes of one.
+        // The name differs between any two designs, and between any two prefixes of one design.
         name: prefix.name(&design.fingerprint()),
         before: prefix.name(""),
         whole: prefix.name(top::whole(design)),

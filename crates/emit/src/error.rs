@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with what is asked for.
+//! The errors of this crate.
 
-/// What can be wrong with what is asked for.
+/// An error in what the user requests from this crate.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum EmitError {
-    /// A prefix that names of modules cannot begin with.
+    /// No module name can begin with this prefix.
     #[error(
         "the prefix `{prefix}` {wrong}; use letters, digits and single `_` between them, a letter first, at most \
          {most} in all, such as `cam0`"
@@ -13,9 +13,9 @@ pub enum EmitError {
     Prefix {
         /// The prefix.
         prefix: String,
-        /// What is wrong with it, in words.
+        /// The fault of the prefix, as words that follow its text.
         wrong: String,
-        /// The most characters that one may have.
+        /// The largest number of characters of a prefix.
         most: usize,
     },
 }

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How `rcm` is put into somebody's own Verilog: every port with its width, thresholds with their values.
+//! An instance of `rcm` for a user's own Verilog: every port with its width, and thresholds with
+//! their values.
 
 use crate::thresholds::threshold_value;
 use crate::{Prefix, Top};
 use foveate_design::{Design, Direction, Port, PortRole};
 
-/// Declarations and an instance of `rcm`, as lines of Verilog-2005. Names are those of the ports without
-/// `_i` and `_o`; threshold inputs are the constants of the configuration.
+/// Returns declarations and an instance of `rcm`, as lines of Verilog-2005. The signals have the
+/// names of the ports without `_i` and `_o`; threshold inputs are the constants of the
+/// configuration.
 pub(crate) fn instance(design: &Design, prefix: &Prefix) -> Vec<String> {
     let ports = design.rcm_ports();
     let signals: Vec<&Port> =

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The hand-written leaf modules, which of them a design needs, and those around a core on a board.
+//! The hand-written leaf modules of cores and boards, and which of them a design needs.
 
 use foveate_design::{Design, FeatureKind, Filter, Neighborhood, Pipelining, Reference};
 
 /// A hand-written module of `rtl/`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Leaf {
-    /// Name of the module and, with `.v`, of its file.
+    /// The name of the module and, with `.v`, of its file.
     pub name: &'static str,
-    /// Its text.
+    /// The text of the module.
     pub contents: &'static str,
-    /// The leaves that it instantiates, in any branch.
+    /// The leaves that the module instantiates, in any branch of a `generate`.
     pub uses: &'static [&'static str],
 }
 
@@ -29,7 +29,8 @@ macro_rules! text {
     };
 }
 
-/// What stands around a core on a board, each after those that it instantiates; `packet_crc` is one of the core's.
+/// The leaves around a core on a board, each after those that it instantiates; `packet_crc` is in
+/// [`LEAVES`].
 pub const BOARD_LEAVES: &[Leaf] = leaves! {
     boards:
     "clock_crossing" => [],
@@ -48,7 +49,7 @@ pub const BOARD_LEAVES: &[Leaf] = leaves! {
     "uart_registers" => ["packet_crc"],
 };
 
-/// Every leaf of a core, each after those that it instantiates.
+/// All leaves of cores, each after those that it instantiates.
 pub const LEAVES: &[Leaf] = leaves! {
     cores:
     "frame_sync" => [],
@@ -156,13 +157,13 @@ pub const LEAVES: &[Leaf] = leaves! {
     ],
 };
 
-/// The leaves of these names and those that they elaborate, in compile order; `is_taken` says whether a leaf has a part
-/// inside.
+/// Returns the leaves of these names and those that they elaborate, in compile order. `is_taken`
+/// says whether a leaf contains a part.
 pub(crate) fn with_parts(
     mut names: Vec<&'static str>,
     is_taken: impl Fn(&str, &str) -> bool,
 ) -> impl Iterator<Item = &'static Leaf> {
-    // Every leaf stands after those that it instantiates.
+    // Every leaf comes after those that it instantiates, so one pass from the end finds them all.
     for leaf in LEAVES.iter().rev() {
         if names.contains(&leaf.name) {
             names.extend(leaf.uses.iter().filter(|part| is_taken(leaf.name, part)));
@@ -171,7 +172,7 @@ pub(crate) fn with_parts(
     LEAVES.iter().filter(move |leaf| names.contains(&leaf.name))
 }
 
-/// The leaves that a pipelined `rpu.v` instantiates itself.
+/// Returns the leaves that a pipelined `rpu.v` instantiates directly.
 pub(crate) fn pipelined(design: &Design) -> Vec<&'static str> {
     let mut names =
         vec!["frame_progress", "frame_store", "hit_counter", "vote", "decision", "forward_gate"];

@@ -1,25 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the Verilog of an organization is made of; the only place that lists them here.
+//! The trait that each organization implements to be emitted. No other place of this crate lists
+//! the organizations.
 
 use crate::branch::Values;
 use crate::{Prefix, SourceFile, Top, branch, leaf, raster, rcm, readme, serial};
 use foveate_design::{Design, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
 
-/// What a design on some hardware brings.
+/// The parts of a core that depend on the organization of its design.
 pub(crate) trait Emitter {
-    /// The leaves that its generated modules instantiate themselves.
+    /// Returns the leaves that the generated modules of the design instantiate directly.
     fn leaves(&self) -> Vec<&'static str>;
-    /// Whether `leaf` has `part` inside, with the parameters that it has in the design.
+    /// Returns whether `leaf` contains `part` with the parameters that the leaf has in the design.
     fn is_taken(&self, leaf: &str, part: &str) -> bool;
-    /// The parameters of a leaf on which it depends what it elaborates, with their values in the design.
+    /// Returns the parameters of a leaf that decide which modules it elaborates, with their values
+    /// in the design.
     fn values(&self, leaf: &str) -> Values;
-    /// The generated modules that `top` is made of, each after those it instantiates.
+    /// Returns the generated modules of `top`, each after those it instantiates.
     fn modules(&self, top: Top) -> Vec<SourceFile>;
-    /// The README of the core.
+    /// Returns the README of the core.
     fn readme(&self, prefix: &Prefix) -> String;
 }
 
-/// What `design` brings.
+/// Returns the emitter of a design.
 pub(crate) fn emitter(design: &Design) -> Box<dyn Emitter + '_> {
     match design.hardware() {
         Hardware::Pipelined(own) => Box::new(design.on(own)),
@@ -94,7 +96,8 @@ impl Emitter for RasterDesign<'_> {
     }
 }
 
-/// The leaves of a top that instantiates one, and what finds its frames.
+/// Returns the leaves of a top that instantiates `leaf`, including `frame_sync` if the design has
+/// it.
 fn with_sync(design: &Design, leaf: &'static str) -> Vec<&'static str> {
     let sync = design.syncs().then_some("frame_sync");
     [leaf].into_iter().chain(sync).collect()

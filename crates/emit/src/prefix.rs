@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the names of a core's modules begin with, so that several cores fit into one chip.
+//! The prefix of the names of a core's modules, with which several cores fit into one chip.
 //!
-//! Leaves and templates have the same names in every core. A prefix is put before them when all of the Verilog is
-//! there, so nothing else has to know of it.
+//! Leaves and templates have the same names in every core. The prefix is put before the names once
+//! all of the Verilog is generated, so no other code has to handle it.
 
 use std::collections::BTreeSet;
 
 use crate::{EmitError, LEAVES, SourceFile, Top};
 use foveate_design::Design;
 
-/// Most characters of a prefix.
+/// The largest number of characters of a prefix.
 const MOST: usize = 32;
-/// The word that asks for the prefix that is made from the fingerprint.
+/// The word that requests the prefix made from the fingerprint.
 const AUTO: &str = "auto";
-/// Digits of the fingerprint in the prefix that is made from it.
+/// The number of digits of the fingerprint in the prefix made from it.
 const DIGITS: usize = 8;
-/// Words of Verilog and SystemVerilog that somebody could take for a prefix.
+/// The keywords of Verilog and SystemVerilog that are likely to be tried as a prefix.
 const KEYWORDS: &[&str] = &[
     "always",
     "and",
@@ -108,17 +108,19 @@ const KEYWORDS: &[&str] = &[
     "xor",
 ];
 
-/// What the names of a core's modules begin with; nothing by default.
+/// The prefix of the names of a core's modules; empty by default.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Prefix(String);
 
 impl Prefix {
-    /// The prefix of that text, without the `_` behind it.
+    /// Makes a prefix from a text that does not include the `_` after the prefix.
     ///
     /// # Errors
-    /// When a name cannot begin with it, or could not be told from another core's.
+    /// Fails if no module name can begin with the text, or if a name with this prefix could be that
+    /// of a module in a core without a prefix.
     pub fn new(text: &str) -> Result<Self, EmitError> {
-        // As much of it as tells that it is too long, without control characters.
+        // The message shows only the characters needed to see that the text is too long, and no
+        // control characters.
         let shown = || text.chars().take(MOST + 1).flat_map(char::escape_debug).collect();
         let wrong = |wrong: &str| {
             Err(EmitError::Prefix { prefix: shown(), wrong: wrong.to_owned(), most: MOST })
@@ -146,10 +148,11 @@ impl Prefix {
         }
     }
 
-    /// The prefix that somebody asks for: a text, or `auto` for that of the design; without either none.
+    /// Makes the prefix that a user requests: a text, `auto` for the prefix made from the
+    /// fingerprint of the design, or no prefix without a text.
     ///
     /// # Errors
-    /// As [`Prefix::new`].
+    /// Fails like [`Prefix::new`].
     pub fn asked(text: Option<&str>, design: &Design) -> Result<Self, EmitError> {
         match text {
             None => Ok(Self::default()),
@@ -158,25 +161,26 @@ impl Prefix {
         }
     }
 
-    /// A prefix made from the fingerprint of a design, so that other designs have others.
+    /// Makes a prefix from the fingerprint of a design, so that different designs have different
+    /// prefixes.
     #[must_use]
     pub fn of(design: &Design) -> Self {
         Self(format!("fv{}", &design.fingerprint()[..DIGITS]))
     }
 
-    /// Its text; empty where there is none.
+    /// Returns the text of the prefix; empty without a prefix.
     #[must_use]
     pub fn text(&self) -> &str {
         &self.0
     }
 
-    /// The name of a module or file of the core.
+    /// Returns the name of a module or file of the core, with the prefix.
     #[must_use]
     pub fn name(&self, plain: &str) -> String {
         if self.0.is_empty() { plain.to_owned() } else { format!("{}_{plain}", self.0) }
     }
 
-    /// The prefix of a module that is `top` in some core; nothing for other modules.
+    /// Returns the prefix of a module that is `top` in some core; `None` for other modules.
     #[must_use]
     pub fn of_top(module: &str, top: Top) -> Option<Self> {
         match module.strip_suffix(top.module())? {
@@ -185,8 +189,7 @@ impl Prefix {
         }
     }
 
-    /// These modules under their names in the core: each in its file, where it is declared, and where one
-    /// instantiates it.
+    /// Renames the modules with the prefix: their files, their declarations and their instances.
     #[must_use]
     pub fn apply(&self, files: Vec<SourceFile>) -> Vec<SourceFile> {
         if self.0.is_empty() {
@@ -204,8 +207,8 @@ impl Prefix {
         files.into_iter().map(renamed).collect()
     }
 
-    /// The text with these modules renamed. A module is named at the beginning of a line: by `module name`, or by
-    /// `name #(` or `name u_...`, as all of ours are written.
+    /// Renames these modules in a text. A name of a module stands at the beginning of a line, as
+    /// `module name`, `name #(` or `name u_...`; all Verilog of this crate is written so.
     fn rename(&self, text: &str, names: &BTreeSet<String>) -> String {
         let renamed = |line: &str| {
             let code = line.trim_start();
@@ -227,12 +230,12 @@ impl Prefix {
     }
 }
 
-/// The file of a module.
+/// Returns the path of the file of a module.
 pub(crate) fn path_of(module: &str) -> String {
     format!("rtl/{module}.v")
 }
 
-/// The module of a file of Verilog.
+/// Returns the module of a Verilog file; `None` for other files.
 fn module_of(path: &str) -> Option<&str> {
     path.strip_prefix("rtl/")?.strip_suffix(".v")
 }
@@ -257,7 +260,8 @@ mod tests {
             ("cam__0", "two side by side"),
             ("module", "a word of Verilog"),
             ("Wire", "a word of Verilog"),
-            // The decision of a serial core, and the adder of its lanes.
+            // Cores have the modules `serial_decision` and `carry_adder`, which these prefixes
+            // would produce.
             ("serial", "`serial_decision`"),
             ("carry", "`carry_adder`"),
             (&"x".repeat(33), "has 33 characters"),

@@ -31,15 +31,16 @@ struct Raster {
     pad_rows: u32,
     ports: Vec<PortLine>,
     constants: Vec<Constant>,
-    /// Outputs of the core that the design does not have.
+    /// The outputs of the core that are no ports of the design.
     unused: Vec<Unused>,
     parameters: Vec<(&'static str, String)>,
-    /// The inputs of the core for the levels of pixels, and what is connected to them.
+    /// The inputs of the core for the levels of pixels, and the signals connected to them.
     levels: Vec<(String, String)>,
-    /// Minima and scores, those of the last feature first.
+    /// The minima and the scores, those of the last feature first.
     minima: Vec<String>,
     scores: Vec<String>,
-    /// The ports of the core to a frame store outside and for what leaves, and what they are connected to.
+    /// The ports of the core to an external frame store and for the pixels that leave, and the
+    /// signals connected to them.
     streams: Vec<(&'static str, String)>,
     sync: Option<Sync>,
     valid: &'static str,
@@ -48,11 +49,11 @@ struct Raster {
 
 struct Unused {
     name: String,
-    /// Empty where it is one bit.
+    /// The range of the signal; empty for one bit.
     range: String,
 }
 
-/// The core, or the one for the smallest frame.
+/// Returns the top: the core, or the core for the smallest frame.
 pub(crate) fn modules(design: RasterDesign<'_>, top: Top) -> Vec<SourceFile> {
     let lone = design.lone_unit();
     let view = match top {
@@ -62,7 +63,7 @@ pub(crate) fn modules(design: RasterDesign<'_>, top: Top) -> Vec<SourceFile> {
     vec![file(top.module(), text_of(&view))]
 }
 
-/// Parameters of a leaf that decide on its parts.
+/// Returns the parameters of a leaf that decide which parts it has.
 pub(crate) fn values(design: RasterDesign<'_>, leaf: &str) -> Values {
     match leaf {
         "raster_core" => {
@@ -81,7 +82,7 @@ pub(crate) fn values(design: RasterDesign<'_>, leaf: &str) -> Values {
     }
 }
 
-/// The range of a port whose width depends on the grid.
+/// Returns the range of a port whose width depends on the grid; `None` for other ports.
 fn range(port: &Port) -> Option<String> {
     use PortRole::{ForwardRegion, LostRegion, Region};
     let of_region = matches!(port.role, Region | ForwardRegion | LostRegion);
@@ -123,7 +124,8 @@ fn view(design: RasterDesign<'_>, named: &Design, top: Top) -> Raster {
     }
 }
 
-/// Beats of a frame in terms of the grid: words of a row that are taken, and rows.
+/// Returns the number of beats of a frame in terms of the grid: the taken words of a row times the
+/// rows.
 fn beats(design: RasterDesign<'_>) -> String {
     let (n, pixels) = (design.region_size(), design.pixels_per_clock());
     let length = |regions: &str, beyond: u32| match beyond {
@@ -138,12 +140,12 @@ fn beats(design: RasterDesign<'_>) -> String {
     }
 }
 
-/// The range of so many bits; nothing for one.
+/// Returns the range of a signal of this width; empty for one bit.
 fn bits(width: u32) -> String {
     if width == 1 { String::new() } else { format!("[{}:0]", width - 1) }
 }
 
-/// Connects the streams of the core to those ports that the design has.
+/// Connects the streams of the core to the ports that the design has.
 fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static str, String)> {
     let word = design.pixels_per_clock() * design.pixel_bits();
     let has: Vec<String> = design.rcm_ports().into_iter().map(|port| port.name).collect();
@@ -191,14 +193,16 @@ fn streams(design: RasterDesign<'_>, unused: &mut Vec<Unused>) -> Vec<(&'static 
     list
 }
 
-/// The features in the order in which the core has their scores: counts, sums, that of a second pass.
+/// Returns the features in the order in which the core has their scores: counts, sums, and the
+/// score of a second pass.
 fn features(design: RasterDesign<'_>) -> Vec<&SpatialFeature> {
     let mut list: Vec<_> = design.design().features().iter().collect();
     list.sort_by_key(|feature| turn(feature.kind()));
     list
 }
 
-/// Which scores of the core come before others: counts, then sums, then that of the second pass.
+/// Returns the rank of a feature's score in the core: counts come first, then sums, then the score
+/// of the second pass.
 fn turn(kind: FeatureKind) -> u32 {
     match kind {
         FeatureKind::Edge | FeatureKind::Corner => 0,
@@ -207,7 +211,7 @@ fn turn(kind: FeatureKind) -> u32 {
     }
 }
 
-/// Where each score ends in the bits of all.
+/// Returns the end of each score in the bits of all scores.
 fn ends(design: RasterDesign<'_>) -> Vec<u32> {
     let widths = features(design).into_iter().map(SpatialFeature::score_bits);
     let widths = [design.count_bits()].into_iter().chain(widths);
@@ -271,7 +275,7 @@ fn parameters(design: RasterDesign<'_>, timing: &RasterTiming) -> Vec<(&'static 
     list.chain(wide).collect()
 }
 
-/// Widths of the sums that a score is made of, where it is no count.
+/// Returns the widths of the sums that a score is computed from; none if the score is a count.
 fn sums(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'static str, u32)> {
     let sum = ("SUM_BITS", design.pixel_sum_bits());
     match feature.kind() {
@@ -298,7 +302,8 @@ fn sums(design: RasterDesign<'_>, feature: &SpatialFeature) -> Vec<(&'static str
     }
 }
 
-/// Bits of a level of the core, of a feature that the design does not have, too; none of one without a level.
+/// Returns the number of bits of the core's level input of a feature, also of one that the design
+/// does not have; `None` for a feature without a level.
 fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
     let most = match kind {
         FeatureKind::Edge => design.pixel_bits() + 3,
@@ -308,7 +313,7 @@ fn level_bits(design: RasterDesign<'_>, kind: FeatureKind) -> Option<u32> {
     Some(design.feature(kind).map_or(most, SpatialFeature::level_bits))
 }
 
-/// The number of its store in the core.
+/// Returns the number of the design's frame store in the core.
 fn store(design: RasterDesign<'_>) -> u32 {
     match design.store() {
         Store::Block => 0,
@@ -318,7 +323,7 @@ fn store(design: RasterDesign<'_>) -> u32 {
     }
 }
 
-/// What is connected to the inputs of the core for the levels of pixels.
+/// Returns the inputs of the core for the levels of pixels, and the signals connected to them.
 fn levels(design: RasterDesign<'_>) -> Vec<(String, String)> {
     let temporal = signal(&design, PortRole::TemporalLevel);
     let mut list = vec![
@@ -334,14 +339,14 @@ fn levels(design: RasterDesign<'_>) -> Vec<(String, String)> {
     list
 }
 
-/// The minima of all scores, that of the changed pixels last.
+/// Returns the minima of all scores, that of the changed pixels last.
 fn minima(design: RasterDesign<'_>) -> Vec<String> {
     let roles = features(design).into_iter().rev().map(|f| PortRole::MinScore(f.kind()));
     let roles = roles.chain([PortRole::TemporalMinCount]);
     roles.map(|role| signal(&design, role)).collect()
 }
 
-/// The ports of all scores, that of the changed pixels last.
+/// Returns the ports of all scores, that of the changed pixels last.
 fn scores(design: RasterDesign<'_>) -> Vec<String> {
     let features = features(design).into_iter().rev();
     let ports = features.map(|feature| format!("{}_score_o", feature.kind()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The modules of a pipelined design; fills `rcm.v`.
+//! Generates the modules of a pipelined design, and fills `rcm.v`.
 
 use crate::sync::{self, Sync};
 use crate::text::{PortLine, file, text_of};
@@ -13,7 +13,7 @@ struct Rcm {
     banner: String,
     columns: u32,
     rows: u32,
-    /// The most regions side by side, and one below the other.
+    /// The most columns and rows of regions that the ports allow.
     widest: u32,
     highest: u32,
     ports: Vec<PortLine>,
@@ -21,19 +21,20 @@ struct Rcm {
     sync: Option<Sync>,
 }
 
-/// A port of the RPU and what the array connects it to.
+/// A port of the RPU, and the signal that the array connects to it.
 struct Pin {
     name: String,
     connection: String,
 }
 
-/// The array is made of RPUs.
+/// Returns the modules of `top`; the array consists of RPUs.
 pub(crate) fn modules(design: PipelinedDesign<'_>, top: Top) -> Vec<SourceFile> {
     let rpu = file(Top::Rpu.module(), rpu::render(design));
     match top {
         Top::Rpu => vec![rpu],
         Top::Rcm => {
-            // A part of the array alone, so it is none of the leaves of the RPU.
+            // `frame_sync` is part of the array and not of the RPU, so it is not among the leaves
+            // of the RPU.
             let sync = design.syncs().then_some("frame_sync");
             let leaves = leaf::with_parts(sync.into_iter().collect(), |_, _| true);
             let leaves = leaves.map(|leaf| file(leaf.name, leaf.contents.to_owned()));
@@ -43,7 +44,7 @@ pub(crate) fn modules(design: PipelinedDesign<'_>, top: Top) -> Vec<SourceFile> 
     }
 }
 
-/// The range of a port that has a value per region.
+/// Returns the range of a port that has a value per region; `None` for other ports.
 fn range(port: &Port) -> Option<String> {
     match (port.per_lane, port.width) {
         (true, 1) => Some("[COLUMNS*ROWS-1:0]".to_owned()),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The README of a core, one for each organization.
+//! The README of a core, with one template for each organization.
 
 mod raster;
 mod sync;
@@ -20,7 +20,7 @@ use foveate_design::{
 #[template(path = "README.md")]
 struct Readme {
     banner: String,
-    /// What the names of modules begin with: the prefix and its `_`.
+    /// The beginning of the names of modules: the prefix and its `_`.
     before: String,
     width: u32,
     height: u32,
@@ -47,9 +47,10 @@ struct Readme {
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
-    /// The module whose clock is of interest.
+    /// The module whose clock frequency a user wants to know.
     synthesized: &'static str,
-    /// When the bench for `rpu` compares an output, beside "at every clock".
+    /// The condition under which the bench for `rpu` compares an output, as words after "at every
+    /// clock".
     compared: &'static str,
     has_rpu: bool,
     on_axi: bool,
@@ -59,7 +60,7 @@ struct Readme {
 #[template(path = "serial_README.md")]
 struct SerialReadme {
     banner: String,
-    /// What the names of modules begin with: the prefix and its `_`.
+    /// The beginning of the names of modules: the prefix and its `_`.
     before: String,
     width: u32,
     height: u32,
@@ -85,9 +86,9 @@ struct SerialReadme {
     load_clocks: u64,
     steps: u64,
     clocks: u64,
-    /// Clocks in which no pixel is taken: after the last of a frame, and in between at most.
+    /// The clocks after the last pixel of a frame in which no pixel is taken.
     stall: u64,
-    /// Clocks by which the last pixel leaves after `ready_o` is 1 again.
+    /// The clocks by which the last pixel leaves after `ready_o` is 1 again.
     behind: u32,
     pauses: u64,
     longest_pause: u32,
@@ -99,20 +100,21 @@ struct SerialReadme {
     rcm_ports: Vec<PortRow>,
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
-    /// The module whose clock is of interest.
+    /// The module whose clock frequency a user wants to know.
     synthesized: &'static str,
-    /// When the bench for `rpu` compares an output, beside "at every clock".
+    /// The condition under which the bench for `rpu` compares an output, as words after "at every
+    /// clock".
     compared: &'static str,
     has_rpu: bool,
     on_axi: bool,
 }
 
-/// A stream of the core.
+/// A stream of the core, as a row of a table.
 struct StreamRow {
     name: &'static str,
     direction: &'static str,
     beat: &'static str,
-    /// The ports that say that a beat is there, and that it is taken.
+    /// The ports that say that a beat is valid, and that it is taken.
     handshake: String,
     /// The ports that mark first and last beats.
     marks: String,
@@ -120,7 +122,7 @@ struct StreamRow {
 
 struct PortRow {
     name: String,
-    /// The stream, or what the port is for.
+    /// The stream that the port belongs to, or the purpose of the port.
     of: &'static str,
     direction: &'static str,
     bits: String,
@@ -196,7 +198,7 @@ fn serial_view(design: SerialDesign<'_>, prefix: &Prefix, timing: &SerialTiming)
     }
 }
 
-/// How often a pixel of the feed comes at an edge.
+/// Returns how many pixels of the feed come at an edge, as words after "pixel".
 fn fed(design: SerialDesign<'_>) -> &'static str {
     match design.feed() {
         Feed::Parallel => " of every lane",
@@ -204,7 +206,8 @@ fn fed(design: SerialDesign<'_>) -> &'static str {
     }
 }
 
-/// Most clocks for which a raster feed waits after one pixel, since several regions want it.
+/// Returns the most clocks for which a raster feed waits after one pixel, because several regions
+/// need this pixel.
 fn longest_pause(design: SerialDesign<'_>) -> u32 {
     let side = design.region_size();
     let most = |places: &dyn Fn(u32) -> u32, regions: u32| {

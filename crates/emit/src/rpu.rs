@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fills `rpu.v`: every number and name of the template is worked out here, from the design.
+//! Fills `rpu.v`: every number and name of the template is computed here, from the design.
 
 mod temporal;
 
@@ -34,7 +34,7 @@ struct Rpu {
     median_address_bits: u32,
     window_side: u32,
     window_side_bits: u32,
-    // What there is.
+    // Parts that the design has.
     shared: bool,
     border: bool,
     median: bool,
@@ -44,7 +44,8 @@ struct Rpu {
     tail_delay: bool,
     deep: bool,
     median_registers: u32,
-    /// Before the names of what is counted: `tail`, or `count` where that is a clock behind the store.
+    /// The prefix of the signals that are counted: `tail`, or `count` where they come a clock after
+    /// the store.
     count: &'static str,
     second_pass: bool,
     last_sent: bool,
@@ -67,21 +68,21 @@ struct Rpu {
     unused: Vec<&'static str>,
 }
 
-/// What the features of a design need.
+/// The parts that the features of a design need.
 #[derive(Default)]
 struct Spatial {
     windowed: Vec<Windowed>,
-    /// Whether the pixels of a region are added up.
+    /// Whether the pixels of a region are summed.
     sums: bool,
     mad: Option<Mad>,
     variance: Option<VarianceWidths>,
 }
 
-/// A feature that counts hits of a window.
+/// A feature whose score is the number of hits of a window.
 struct Windowed {
     name: &'static str,
     level: String,
-    /// Parameters of its detector beside the width of a pixel.
+    /// The parameters of the detector in addition to the width of a pixel.
     parameters: String,
 }
 
@@ -102,7 +103,7 @@ struct VarianceWidths {
     score_bits: u32,
 }
 
-/// How the means of blocks are formed, and when they are sent.
+/// The computation of the means of blocks, and the level above which they are sent.
 struct Summaries {
     blocks: u32,
     sum_bits: u32,
@@ -110,16 +111,16 @@ struct Summaries {
     factor_bits: u32,
     shift: u32,
     level: String,
-    /// The pixels that are averaged.
+    /// The signal with the pixels that are averaged.
     pixel: &'static str,
 }
 
-/// A score on its way to its port and its vote.
+/// A score between its computation and its port and vote.
 struct Score {
     name: String,
     width: u32,
     minimum: String,
-    /// Whether it waits for a feature with a second pass.
+    /// Whether the score waits for a feature with a second pass.
     held: bool,
 }
 
@@ -190,7 +191,8 @@ fn view(design: PipelinedDesign<'_>) -> Rpu {
     }
 }
 
-/// Whether the tail begins with registers: one in front of the store, and in a deep design one behind it.
+/// Returns whether the tail begins with registers: one in front of the store, and in a deep design
+/// one behind it.
 fn has_tail_registers(timing: &PipelinedTiming, deep: bool) -> bool {
     match (timing.tail_delay, deep) {
         (0, false) => false,
@@ -224,7 +226,7 @@ impl Spatial {
 
 fn windowed(design: PipelinedDesign<'_>, feature: &SpatialFeature) -> Windowed {
     let kind = feature.kind();
-    // A level that is no pixel has a width of its own.
+    // A level that is not compared with a pixel has a width of its own.
     let parameters = match feature.level_bits() {
         bits if bits == design.pixel_bits() => String::new(),
         bits => format!(", .LEVEL_BITS({bits})"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fills `serial.v`, the top of a serial design: the array, or the array of a grid of one lane.
+//! Fills `serial.v`, the top of a serial design: the array, or an array that has one lane.
 
 use crate::branch::Values;
 use crate::camera::{blanks, last_sent};
@@ -25,7 +25,7 @@ struct Serial {
     module: &'static str,
     columns: u32,
     rows: u32,
-    /// The most regions side by side, and one below the other.
+    /// The most columns and rows of regions that the ports allow.
     widest: u32,
     highest: u32,
     ports: Vec<PortLine>,
@@ -36,7 +36,8 @@ struct Serial {
     center_bits: u32,
     position_bits: u32,
     raster: bool,
-    /// Regions and numbers of regions in terms of the grid.
+    /// The number of lanes, the number of slots and the ranges of their numbers, in terms of the
+    /// grid.
     lanes: String,
     slots: String,
     slot_range: &'static str,
@@ -44,9 +45,10 @@ struct Serial {
     // Thresholds.
     half_level: bool,
     temporal_level: String,
-    /// The inputs of the array for the levels of features, and what is connected to them.
+    /// The inputs of the array for the levels of features, and the signals connected to them.
     levels: Vec<(&'static str, String)>,
-    /// The last feature first.
+    /// The minima of the scores, that of the last feature first and that of the changed pixels
+    /// last.
     minima: Vec<String>,
     summary_level: String,
     summarizes: bool,
@@ -58,7 +60,7 @@ struct Serial {
 /// The highest bit of the number of a region, in terms of the grid.
 const REGION_RANGE: &str = "(COLUMNS*ROWS > 1 ? $clog2(COLUMNS*ROWS) : 1)-1";
 
-/// The array, or that of a lone lane beside it.
+/// Returns the top: the array, or the array that has one lane.
 pub(crate) fn modules(design: SerialDesign<'_>, top: Top) -> Vec<SourceFile> {
     let lane = design.one_lane();
     let view = match top {
@@ -68,7 +70,7 @@ pub(crate) fn modules(design: SerialDesign<'_>, top: Top) -> Vec<SourceFile> {
     vec![file(top.module(), text_of(&view))]
 }
 
-/// Parameters of a leaf that decide on its parts.
+/// Returns the parameters of a leaf that decide which parts it has.
 pub(crate) fn values(design: SerialDesign<'_>, leaf: &str) -> Values {
     match leaf {
         "serial_array" => {
@@ -92,7 +94,7 @@ pub(crate) fn values(design: SerialDesign<'_>, leaf: &str) -> Values {
     }
 }
 
-/// The range of a port whose width depends on the grid.
+/// Returns the range of a port whose width depends on the grid; `None` for other ports.
 fn range(port: &Port, design: SerialDesign<'_>) -> Option<String> {
     match (port.role, port.per_lane, port.width) {
         (PortRole::Region | PortRole::ForwardRegion, _, _) => Some(format!("[{REGION_RANGE}:0]")),
@@ -102,7 +104,7 @@ fn range(port: &Port, design: SerialDesign<'_>) -> Option<String> {
     }
 }
 
-/// Lanes in terms of the grid.
+/// Returns the number of lanes in terms of the grid.
 fn lanes(design: SerialDesign<'_>) -> String {
     match design.fold() {
         1 => "COLUMNS*ROWS".to_owned(),
@@ -110,7 +112,7 @@ fn lanes(design: SerialDesign<'_>) -> String {
     }
 }
 
-/// Beats of a frame in terms of the grid.
+/// Returns the number of beats of a frame in terms of the grid.
 fn beats(design: SerialDesign<'_>) -> String {
     match design.feed() {
         Feed::Parallel => (design.fold() * design.stream_pixels()).to_string(),
@@ -134,7 +136,7 @@ fn view(design: SerialDesign<'_>, named: SerialDesign<'_>, top: Top) -> Serial {
         module: top.module(),
         columns: design.columns(),
         rows: design.rows(),
-        // A lone lane may have more.
+        // An array that has one lane may have more columns.
         widest: design.most_in_line().max(design.columns()),
         highest: design.most_in_line(),
         ports: PortLine::all(&top.ports(&named), |port| range(port, named)),
@@ -239,8 +241,9 @@ fn parameters(design: SerialDesign<'_>) -> Vec<(&'static str, String)> {
     list
 }
 
-/// The input of the array for the level of a feature, which it has also without the feature, and what is connected to it;
-/// none for a feature without a level.
+/// Returns the input of the array for the level of a feature, and the signal connected to it. The
+/// array has this input even if the design lacks the feature. Returns `None` for a feature that has
+/// no level.
 fn level(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, String)> {
     match kind {
         FeatureKind::Edge => Some(("edge_half_i", edge_half(design))),
@@ -253,7 +256,7 @@ fn level(design: SerialDesign<'_>, kind: FeatureKind) -> Option<(&'static str, S
     }
 }
 
-/// floor(level / 2) of `edge`, in two bits more than a pixel.
+/// Returns floor(level / 2) of `edge`, two bits wider than a pixel.
 fn edge_half(design: SerialDesign<'_>) -> String {
     let width = design.pixel_bits() + 2;
     let Some(edge) = design.feature(FeatureKind::Edge) else { return format!("{width}'d0") };
@@ -277,7 +280,7 @@ fn minima(design: SerialDesign<'_>) -> Vec<String> {
     list
 }
 
-/// A value of `bits` bits, extended to `width`.
+/// Returns a value of `bits` bits, extended with zeros to `width` bits.
 fn padded(value: &str, bits: u32, width: u32) -> String {
     match width - bits {
         0 => value.to_owned(),

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scripts that place and route a core with open tools, so that users get the clocks that we print.
+//! Scripts that place and route a core with open tools, so that users can reproduce the clock
+//! frequencies that Foveate prints.
 //!
-//! They do what `foveate estimate --place-and-route` does. A core has more ports than a device has pins, so a
-//! module around it has a register of the device for each bit.
+//! The scripts do the same as `foveate estimate --place-and-route`. A core has more ports than a
+//! device has pins, so a module around it connects each bit to a register of the device.
 
 use crate::text::text_of;
 use crate::top::{self, AXI_CLOCK, AXI_TOP, CLOCK};
@@ -11,21 +12,22 @@ use crate::{Prefix, SourceFile, Top, axi, banner};
 use askama::Template;
 use foveate_design::{Design, PortRole};
 
-/// What scripts of a family of devices differ in.
+/// The settings in which the scripts of different families of devices differ.
 pub(crate) struct Family {
     name: &'static str,
     script: &'static str,
     nextpnr: &'static str,
-    /// Commands of Yosys before the Verilog is read, each with its newline.
+    /// The commands of Yosys before the Verilog is read, each with its newline.
     before_reading: &'static str,
-    /// Commands of Yosys before the synthesis, each with its newline.
+    /// The commands of Yosys before the synthesis, each with its newline.
     before_synthesis: &'static str,
     /// An instance of a register with bit `i` of `d_i` and `q_o`.
     cell: &'static str,
     devices: &'static [Device],
 }
 
-/// A device, as Yosys and nextpnr are told. Names are those of `foveate estimate --place-and-route`.
+/// A device, with its options for Yosys and nextpnr. Its name is that of
+/// `foveate estimate --place-and-route`.
 struct Device {
     name: &'static str,
     synthesis: &'static str,
@@ -40,7 +42,8 @@ pub(crate) const ECP5: Family = Family {
     name: "ECP5",
     script: "ecp5",
     nextpnr: "nextpnr-ecp5",
-    // The block RAM's own output register, which synthesis does not use by itself.
+    // The macro selects the block RAM's own output register, which synthesis does not use by
+    // itself.
     before_reading: "verilog_defines -DFOVEATE_ECP5\n",
     before_synthesis: "",
     cell: "TRELLIS_FF #(\n                .CEMUX(\"1\"), .CLKMUX(\"CLK\"), .GSR(\"DISABLED\"), .LSRMUX(\"LSR\"), \
@@ -74,7 +77,7 @@ pub(crate) const ICE40: Family = Family {
     script: "ice40",
     nextpnr: "nextpnr-ice40",
     before_reading: "",
-    // Tables cannot be memory there.
+    // Read-only tables cannot be memories on this family.
     before_synthesis: "setattr -unset ram_style */m:*\n",
     cell: "SB_DFF u_bit (.C(clk_i), .D(d_i[i]), .Q(q_o[i]));",
     devices: &[
@@ -113,7 +116,7 @@ struct Script {
     before_synthesis: &'static str,
     devices: &'static [Device],
     names: String,
-    /// What is placed unless something else is asked for.
+    /// The module that is placed if the user names none.
     top: &'static str,
     has_rpu: bool,
     on_axi: bool,
@@ -146,18 +149,18 @@ struct Around {
     banner: String,
     before: String,
     module: String,
-    /// The port of its clock.
+    /// The clock port of the module.
     clock: &'static str,
     ports: Vec<WrappedPort>,
 }
 
-/// What nextpnr is told for the first device of a family, as a list of FuseSoC.
+/// Returns the options of nextpnr for the first device of a family, as a list for FuseSoC.
 pub(crate) fn options(family: &Family) -> String {
     let words = family.devices[0].part.split(' ').chain(["--timing-allow-fail"]);
     words.map(|word| format!("'{word}'")).collect::<Vec<_>>().join(", ")
 }
 
-/// The scripts of a core and what they read, in its folder `synth`.
+/// Returns the scripts of a core and the files that they read, in the folder `synth`.
 pub(crate) fn files(design: &Design, prefix: &Prefix) -> Vec<SourceFile> {
     let before = || prefix.name("");
     let file = |name: String, contents| SourceFile { path: format!("synth/{name}"), contents };

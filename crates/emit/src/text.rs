@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What all generated Verilog is made of: files, filled templates, the ports of a header.
+//! The parts of all generated Verilog: files, filled templates, and the ports of a header.
 
 use crate::SourceFile;
 use crate::prefix::path_of;
 use askama::Template;
 use foveate_design::{Direction, Port};
 
-/// The file of a module.
+/// Returns the file of a module.
 pub(crate) fn file(module: &str, contents: String) -> SourceFile {
     SourceFile { path: path_of(module), contents }
 }
 
-/// A filled template, ending in the newline that askama drops.
+/// Returns the text of a filled template, with the final newline that askama drops.
 pub(crate) fn text_of(view: &impl Template) -> String {
     let text = view.render();
     text.map_or_else(|e| unreachable!("a template only fails when writing does: {e}"), |t| t + "\n")
@@ -24,8 +24,8 @@ pub(crate) struct PortLine {
 }
 
 impl PortLine {
-    /// The lines for `ports`, aligned; every one but the last ends in a comma. `range` says that of a port
-    /// whose width depends on the grid.
+    /// Returns the lines for `ports`, aligned; every line but the last ends in a comma. `range`
+    /// returns the range of a port whose width depends on the grid, and `None` for other ports.
     pub(crate) fn all(ports: &[Port], range: impl Fn(&Port) -> Option<String>) -> Vec<Self> {
         let widest = |texts: &[String]| texts.iter().map(String::len).max().unwrap_or(0);
         let ranges: Vec<_> =
@@ -53,7 +53,7 @@ fn direction(port: &Port) -> &'static str {
     }
 }
 
-/// `[7:0]`, nothing for a single bit.
+/// Returns the range of a port, such as `[7:0]`; empty for a single bit.
 fn fixed(port: &Port) -> String {
     match port.width {
         1 => String::new(),

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds as inputs or constants, and scores in words: the same for every organization.
+//! Thresholds as inputs or constants, and the scores as words, for all organizations.
 
 use foveate_design::{Design, FeatureKind, Port, PortRole, Thresholds};
 
-/// A threshold that is built in.
+/// A threshold that is a constant in the Verilog.
 pub(crate) struct Constant {
     pub(crate) name: String,
     pub(crate) width: u32,
     pub(crate) value: u64,
 }
 
-/// Scores and how they are formed, in words.
+/// Returns the scores and how they are formed, as words.
 pub(crate) fn summary(design: &Design) -> String {
     let names: Vec<_> = design.features().iter().map(|f| f.kind().name()).collect();
     format!(
@@ -23,7 +23,7 @@ pub(crate) fn summary(design: &Design) -> String {
     )
 }
 
-/// The input port of a threshold, or the constant that takes its place.
+/// Returns the input port of a threshold, or the constant that takes its place.
 pub(crate) fn signal(design: &Design, role: PortRole) -> String {
     match design.thresholds() {
         Thresholds::Runtime => {
@@ -38,7 +38,8 @@ pub(crate) fn signal(design: &Design, role: PortRole) -> String {
     }
 }
 
-/// The same of the summary level, which the array and the core have whether irrelevant regions send summaries or not.
+/// Returns the input port or the constant of the summary level. The array and the core have this
+/// input whether irrelevant regions send summaries or not.
 pub(crate) fn summary_level(design: &Design) -> String {
     match design.periphery() {
         Some(_) => signal(design, PortRole::SummaryLevel),
@@ -58,7 +59,7 @@ fn constant_name(role: PortRole) -> String {
     }
 }
 
-/// The constants, where thresholds are none of the inputs.
+/// Returns the constants of the thresholds; none if thresholds are inputs.
 pub(crate) fn constants(design: &Design) -> Vec<Constant> {
     if design.thresholds() == Thresholds::Runtime {
         return Vec::new();
@@ -82,7 +83,7 @@ pub(crate) fn constants(design: &Design) -> Vec<Constant> {
     list
 }
 
-/// The configured value of a threshold input; `None` for other ports.
+/// Returns the configured value of a threshold input; `None` for other ports.
 pub(crate) fn threshold_value(design: &Design, port: &Port) -> Option<u64> {
     let feature = |kind| design.feature(kind);
     match port.role {

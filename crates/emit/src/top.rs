@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The modules that may be on top of a design: its unit, its array, and that on a bus.
+//! The modules that may be on top of a design: its RPU or lane, its array, and the core on AXI.
 
 use foveate_design::{Array, Bus, Design, Hardware, Interface, Port};
 
-/// The module on top of a core on a bus, with the array inside.
+/// The top module of a core on AXI, which contains the array.
 pub const AXI_TOP: &str = "rcm_axi";
-/// The port of its clock.
+/// The clock port of [`AXI_TOP`].
 pub const AXI_CLOCK: &str = "aclk";
-/// That of the other modules on top.
+/// The clock port of the tops without a bus.
 pub(crate) const CLOCK: &str = "clk_i";
 
 /// A parameter of a module and its value.
 pub type Parameter = (&'static str, u32);
 
-/// Which module is on top.
+/// The module on top of a design without a bus.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Top {
     /// One regional processing unit, module `rpu`.
@@ -23,8 +23,8 @@ pub enum Top {
 }
 
 impl Top {
-    /// The modules that a core of the design has on top, the smaller first: one RPU and the array. A raster core is
-    /// one for all regions, so it has no other.
+    /// Returns the tops of a core of the design, the smaller first: one RPU and the array. A raster
+    /// core serves all regions, so it has only one top.
     #[must_use]
     pub fn all_of(design: &Design) -> &'static [Self] {
         match design.hardware() {
@@ -33,7 +33,8 @@ impl Top {
         }
     }
 
-    /// The top that is an array with this one inside: this one, where its module is an array of its own.
+    /// Returns the top that contains this one as an array: this top itself, if its module is an
+    /// array of its own.
     #[must_use]
     pub fn array(self, design: &Design) -> Self {
         match (self, design.unit().array) {
@@ -42,12 +43,12 @@ impl Top {
         }
     }
 
-    /// Whether a core of the design has a module `rpu` beside `rcm`.
+    /// Returns whether a core of the design has a module `rpu` in addition to `rcm`.
     pub(crate) fn has_rpu(design: &Design) -> bool {
         Self::all_of(design).contains(&Self::Rpu)
     }
 
-    /// Name of the module.
+    /// Returns the name of the module.
     #[must_use]
     pub fn module(self) -> &'static str {
         match self {
@@ -56,8 +57,8 @@ impl Top {
         }
     }
 
-    /// Its parameters with the values of the design, which are their defaults in its Verilog. The
-    /// widths of the array's ports follow from them.
+    /// Returns the parameters with their values in the design, which are the defaults in its
+    /// Verilog. The widths of the array's ports depend on them.
     #[must_use]
     pub fn parameters(self, design: &Design) -> Vec<Parameter> {
         match self {
@@ -66,7 +67,7 @@ impl Top {
         }
     }
 
-    /// Its interface.
+    /// Returns the interface of the module.
     #[must_use]
     pub fn interface(self, design: &Design) -> Interface {
         match self {
@@ -75,14 +76,14 @@ impl Top {
         }
     }
 
-    /// Its ports.
+    /// Returns the ports of the module.
     #[must_use]
     pub fn ports(self, design: &Design) -> Vec<Port> {
         self.interface(design).ports()
     }
 }
 
-/// The module that somebody puts into a chip: the array, or that on a bus.
+/// Returns the module that a user integrates into a chip: the array, or the core on AXI.
 pub(crate) fn whole(design: &Design) -> &'static str {
     match design.bus() {
         Bus::Ports => Top::Rcm.module(),
@@ -90,7 +91,7 @@ pub(crate) fn whole(design: &Design) -> &'static str {
     }
 }
 
-/// The port of its clock.
+/// Returns the clock port of the module that a user integrates into a chip.
 pub(crate) fn clock(design: &Design) -> &'static str {
     match design.bus() {
         Bus::Ports => CLOCK,
@@ -98,8 +99,8 @@ pub(crate) fn clock(design: &Design) -> &'static str {
     }
 }
 
-/// The module that is placed unless something else is asked for: all of a core, but arrays of hundreds of RPUs fit no
-/// such device.
+/// Returns the module that is placed if the user names none. This is the whole core, except for
+/// arrays of RPUs: hundreds of RPUs fit into none of the devices.
 pub(crate) fn placed(design: &Design) -> &'static str {
     match design.unit().array {
         _ if design.is_on_axi() => AXI_TOP,

@@ -6,7 +6,8 @@ use crate::text::file;
 use crate::{SourceFile, Top, branch, leaf};
 use foveate_design::Design;
 
-/// The modules that `top` elaborates, each after those it instantiates. Smaller grids need no others.
+/// Returns the modules that `top` elaborates, each after those it instantiates. Smaller grids need
+/// no other modules.
 #[must_use]
 pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
     let own = emitter(design);
@@ -19,7 +20,8 @@ pub fn verilog(design: &Design, top: Top) -> Vec<SourceFile> {
     let of_whole = emitter(whole);
     let is_taken = |leaf: &str, part: &str| of_whole.is_taken(leaf, part);
     let leaves = leaf::with_parts(own.leaves(), is_taken).map(|leaf| {
-        // The same for both tops: what the smaller of them elaborates both have.
+        // Both tops get the same text of a leaf: the text fits the smaller top, whose parts both
+        // tops elaborate.
         let is_whole = leaf.uses.iter().all(|part| of_lone.is_taken(leaf.name, part));
         file(leaf.name, branch::text(leaf, &of_lone.values(leaf.name), is_whole))
     });

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A port of a core as the module around it has it in which the core is placed.
+//! A port of a core, in the form that the module around the core needs.
 
 use foveate_design::{Direction, Port};
 
-/// A port but the clock.
+/// A port other than the clock.
 pub(crate) struct WrappedPort {
     pub(crate) name: String,
     pub(crate) bits: u32,
-    /// Its range and a space; nothing for one bit.
+    /// The range of the port and a space; empty for one bit.
     pub(crate) range: String,
     pub(crate) input: bool,
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A core on a bus: the module `rcm_axi` around the array, and its registers.
+//! Generates a core on AXI: the module `rcm_axi` around the array, and its registers.
 
 mod pages;
 mod ports;
@@ -17,8 +17,8 @@ use crate::wrapped::WrappedPort;
 use crate::{Prefix, SourceFile, Top, banner, leaf, verilog as array};
 use foveate_design::{Bus, Design, Hardware, RasterDesign};
 
-/// What stands around the array of a core on a bus: what people call each part, and its modules. The top itself has
-/// nothing beside them but the time and three counters.
+/// The parts around the array in a core on AXI: the name of each part in reports, and its modules.
+/// Apart from these parts, the top itself has only the time and three counters.
 pub const AXI_PARTS: [(&str, &[&str]); 4] = [
     ("registers", &[REGISTERS]),
     ("repair of frames", &["axi_video"]),
@@ -26,10 +26,11 @@ pub const AXI_PARTS: [(&str, &[&str]); 4] = [
     ("queue of regions", &["packet_regions"]),
 ];
 
-/// The module that is made for each design, from the table of its registers.
+/// The register module, which is made for each design from the table of its registers.
 const REGISTERS: &str = "axi_registers";
 
-/// The modules of a core on a bus, the array included, each after those it instantiates; none without a bus.
+/// Returns the modules of a core on AXI, the array included, each after those it instantiates.
+/// Returns `None` for a design without a bus.
 #[must_use]
 pub fn on_bus(design: &Design) -> Option<Vec<SourceFile>> {
     let around = match (design.bus(), design.hardware()) {
@@ -43,8 +44,8 @@ pub fn on_bus(design: &Design) -> Option<Vec<SourceFile>> {
     Some(files)
 }
 
-/// What software needs of a core on a bus: its registers as a page, a C header and SystemRDL, and a driver in C; none without
-/// a bus.
+/// Returns the files that software needs for a core on AXI: its registers as a page, a C header and
+/// SystemRDL, and a driver in C. The list is empty for a design without a bus.
 #[must_use]
 pub fn software(design: &Design) -> Vec<SourceFile> {
     let Some(list) = register_table(design) else { return Vec::new() };
@@ -59,7 +60,8 @@ pub fn software(design: &Design) -> Vec<SourceFile> {
     files.map(|(path, contents)| SourceFile { path: path.to_owned(), contents }).into()
 }
 
-/// The ports of a core on a bus but its clock, for a module around it; none without a bus.
+/// Returns the ports of a core on AXI without its clock, for a module around it. Returns `None` for
+/// a design without a bus.
 pub(crate) fn wrapped_ports(design: &Design) -> Option<Vec<WrappedPort>> {
     match (design.bus(), design.hardware()) {
         (Bus::Ports, _) | (Bus::Axi, Hardware::Pipelined(_) | Hardware::Serial(_)) => None,
@@ -69,7 +71,8 @@ pub(crate) fn wrapped_ports(design: &Design) -> Option<Vec<WrappedPort>> {
     }
 }
 
-/// The script that makes IP for Vivado of a core on a bus; none without a bus.
+/// Returns the script that packages a core on AXI as IP for Vivado. Returns `None` for a design
+/// without a bus.
 pub(crate) fn package_ip(design: &Design, prefix: &Prefix) -> Option<SourceFile> {
     let sources = prefix.apply(on_bus(design)?);
     let contents = pages::package_ip(
@@ -81,7 +84,7 @@ pub(crate) fn package_ip(design: &Design, prefix: &Prefix) -> Option<SourceFile>
     Some(SourceFile { path: "package_ip.tcl".to_owned(), contents })
 }
 
-/// The registers of a core on a bus; none without a bus.
+/// Returns the registers of a core on AXI. Returns `None` for a design without a bus.
 #[must_use]
 pub fn register_table(design: &Design) -> Option<Vec<Register>> {
     match (design.bus(), design.hardware()) {
@@ -90,7 +93,7 @@ pub fn register_table(design: &Design) -> Option<Vec<Register>> {
     }
 }
 
-/// What stands around the array.
+/// Returns the modules around the array: the leaves, the registers and the top.
 fn around(design: RasterDesign<'_>) -> Vec<SourceFile> {
     let parts = AXI_PARTS.iter().flat_map(|(_, modules)| modules.iter().copied());
     let leaves = leaf::with_parts(parts.collect(), |_, _| true)

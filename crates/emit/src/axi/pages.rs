@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table of registers for those who read it and write it: Markdown, a C header, SystemRDL.
+//! Writes the table of registers as Markdown, as a C header and as SystemRDL, and the script that
+//! packages a core for Vivado.
 
 use std::fmt::Write;
 
@@ -22,7 +23,7 @@ fn high(field: &Field) -> u32 {
     field.low + field.width - 1
 }
 
-/// The page of a core's registers.
+/// Returns the page of a core's registers, as Markdown.
 pub(super) fn markdown(banner: &str, registers: &[Register]) -> String {
     let mut text = format!(
         "# Registers\n\n{banner}. Addresses are in bytes, values as after a reset.\n\n\
@@ -49,7 +50,7 @@ pub(super) fn markdown(banner: &str, registers: &[Register]) -> String {
     text
 }
 
-/// A header for C99 and C++.
+/// Returns the header of the registers, for C99 and C++.
 pub(super) fn header(banner: &str, registers: &[Register]) -> String {
     let mut text = format!(
         "/* SPDX-License-Identifier: MIT OR Apache-2.0 */\n/* {banner}. Registers, by their addresses in bytes. */\n\
@@ -84,7 +85,7 @@ pub(super) fn header(banner: &str, registers: &[Register]) -> String {
     text + "\n#endif\n"
 }
 
-/// SystemRDL 2.0.
+/// Returns the registers as SystemRDL 2.0.
 pub(super) fn rdl(banner: &str, registers: &[Register]) -> String {
     let mut text = format!(
         "// SPDX-License-Identifier: MIT OR Apache-2.0\n// {banner}.\n\naddrmap foveate {{\n    name = \"Foveate core\";\n    \
@@ -101,7 +102,7 @@ pub(super) fn rdl(banner: &str, registers: &[Register]) -> String {
                 Kind::Event => "sw = rw; hw = w; woclr; hwset;",
             };
             let reset = match &field.kind {
-                // A value that hardware says has none that software could rely on.
+                // A value driven by hardware has no reset value that software could rely on.
                 Kind::Status => String::new(),
                 kind => format!(" = {}'h{:X}", field.width, kind.reset().unwrap_or_default()),
             };
@@ -121,7 +122,8 @@ pub(super) fn rdl(banner: &str, registers: &[Register]) -> String {
     text + "};\n"
 }
 
-/// The script that makes IP for Vivado of a core: its modules, the top among them, and its registers.
+/// Returns the script that packages a core as IP for Vivado, with its modules, its top and its
+/// registers.
 pub(super) fn package_ip(
     banner: &str,
     top: &str,
@@ -137,7 +139,7 @@ pub(super) fn package_ip(
     })
 }
 
-/// A register as a list of Tcl.
+/// Returns a register as a list of Tcl.
 fn tcl_register(register: &Register) -> String {
     let field = |field: &Field| {
         let (access, written) = match field.kind {

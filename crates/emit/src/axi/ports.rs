@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The ports of a core on a bus, for what stands around it when it is placed. `axi.v` is where they are declared, so they
-//! are read off its header.
+//! Finds the ports of a core on AXI, for the module in which the core is placed. Only the filled
+//! template `axi.v` declares them, so they are read from its header.
 
 use crate::top::AXI_CLOCK;
 use crate::wrapped::WrappedPort;
 
-/// The ports in the header of a filled `axi.v`, but for its clock.
+/// Returns the ports in the header of a filled `axi.v`, without its clock.
 pub(super) fn wrapped(verilog: &str) -> Vec<WrappedPort> {
     let header = verilog.lines().take_while(|line| *line != ");");
     header.filter_map(port).filter(|port| port.name != AXI_CLOCK).collect()
 }
 
-/// The port that a line declares: `input  wire [11:0] s_axi_awaddr,  // what it is`.
+/// Parses the port that a line such as `input wire [11:0] s_axi_awaddr, // what it is` declares.
 fn port(line: &str) -> Option<WrappedPort> {
     let (direction, rest) = line.trim_start().split_once(" wire ")?;
     let input = match direction.trim_end() {

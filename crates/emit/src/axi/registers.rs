@@ -1,42 +1,43 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The registers of a core on AXI4-Lite: the one table from which Verilog, C, Markdown and SystemRDL are made.
+//! The registers of a core on AXI4-Lite: one table from which Verilog, C, Markdown and SystemRDL
+//! are made.
 
 use crate::thresholds::threshold_value;
 use foveate_camera::{Irrelevant, Payload};
 use foveate_design::{Design, Interface, Port, RasterDesign};
 
-/// Bits of a register.
+/// The number of bits of a register.
 pub(crate) const REGISTER_BITS: u32 = 32;
-/// The version of this map.
+/// The version of this register map.
 const MAP_VERSION: u32 = 1;
-/// Where the thresholds begin.
+/// The address of the first threshold, in bytes.
 const THRESHOLDS: u32 = 0x100;
 
-/// What a field does.
+/// The behaviour of a field.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// It always reads as this.
+    /// The field always reads as this value.
     Constant(u32),
-    /// It reads as the core says.
+    /// The field reads as the core drives it.
     Status,
-    /// What was written last, at first `reset`.
+    /// The field holds the value written last, and `reset` before the first write.
     Control {
-        /// Its value after a reset.
+        /// The value after a reset.
         reset: u32,
     },
-    /// As `Control`, but the core takes it over when a frame begins.
+    /// The field behaves as `Control`, but the core takes a new value over when a frame begins.
     Threshold {
-        /// Its value after a reset.
+        /// The value after a reset.
         reset: u32,
     },
-    /// Writing 1 does something once; it reads as 0.
+    /// Writing 1 triggers an action once; the field reads as 0.
     Command,
-    /// It becomes 1 by itself, and 0 when 1 is written.
+    /// The field becomes 1 when the event happens, and 0 when 1 is written to it.
     Event,
 }
 
 impl Kind {
-    /// What software may do with it, as documents have it.
+    /// Returns the access that software has, in the words of the register documents.
     #[must_use]
     pub fn access(&self) -> &'static str {
         match self {
@@ -47,7 +48,7 @@ impl Kind {
         }
     }
 
-    /// What it reads as after a reset; none where the core says.
+    /// Returns the value after a reset; `None` for a status, whose value comes from the core.
     #[must_use]
     pub fn reset(&self) -> Option<u32> {
         match *self {
@@ -60,35 +61,35 @@ impl Kind {
     }
 }
 
-/// Some bits of a register that say one thing.
+/// Adjacent bits of a register with one meaning.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
-    /// Its name.
+    /// The name of the field.
     pub name: String,
-    /// Its lowest bit.
+    /// The lowest bit of the field.
     pub low: u32,
-    /// How many bits it has.
+    /// The number of bits of the field.
     pub width: u32,
-    /// What it does.
+    /// The behaviour of the field.
     pub kind: Kind,
-    /// What it means.
+    /// The meaning of the field, as text for its documents.
     pub doc: String,
 }
 
-/// A word that a processor reads or writes.
+/// A 32-bit word that a processor reads or writes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// Its name.
+    /// The name of the register.
     pub name: String,
-    /// Its address in bytes, below the base of the core.
+    /// The address in bytes, relative to the base of the core.
     pub address: u32,
-    /// Its fields, from low bits to high ones.
+    /// The fields, from low bits to high ones.
     pub fields: Vec<Field>,
-    /// What it is.
+    /// The purpose of the register, as text for its documents.
     pub doc: String,
 }
 
-/// What may happen, in the order of the bits of `EVENTS`.
+/// The events and their descriptions, in the order of the bits of `EVENTS`.
 const EVENTS: [(&str, &str); 8] = [
     ("eol_early", "a line was too short, and went on with its last pixel"),
     ("eol_late", "a line was too long; what was too much is left out"),
@@ -100,7 +101,8 @@ const EVENTS: [(&str, &str); 8] = [
     ("frame_done", "the last packet of a frame has left"),
 ];
 
-/// What every map begins with: who this is, and what it computes. `version` has these fields beside that of the version.
+/// Returns the registers with which every map begins: the identity of the core, and what the core
+/// computes. The register `version` has the fields `beside` in addition to the version itself.
 pub(super) fn common(design: &Design, beside: Vec<Field>) -> Vec<Register> {
     let fingerprint = fingerprint(design);
     let low = u32::try_from(fingerprint & 0xFFFF_FFFF).expect("32 bits");
@@ -156,7 +158,7 @@ pub(super) fn common(design: &Design, beside: Vec<Field>) -> Vec<Register> {
     list
 }
 
-/// The registers of the core of a design, by address.
+/// Returns the registers of the core of a design, by address.
 #[must_use]
 pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
     let mut list = common(&design, Vec::new());
@@ -237,7 +239,8 @@ pub fn registers(design: RasterDesign<'_>) -> Vec<Register> {
     list
 }
 
-/// A register for each threshold, or as many as it needs.
+/// Returns the registers of the thresholds: one for each, or two for a threshold wider than a
+/// register.
 pub(super) fn threshold_registers(design: &Design) -> Vec<Register> {
     let parts = thresholds(design).into_iter().flat_map(|threshold| {
         let doc = threshold.port.doc.clone();
@@ -258,7 +261,7 @@ pub(crate) struct Threshold {
     value: u64,
 }
 
-/// As much of a threshold as fits into a register.
+/// The part of a threshold that fits into one register.
 pub(crate) struct Part {
     pub(crate) name: String,
     pub(crate) width: u32,
@@ -266,7 +269,7 @@ pub(crate) struct Part {
 }
 
 impl Threshold {
-    /// The registers that have it, the one with the lowest bits first.
+    /// Returns the registers that hold the threshold, the one with the lowest bits first.
     pub(crate) fn parts(&self) -> Vec<Part> {
         let name = self.port.name.trim_end_matches("_i");
         let width = self.port.width;
@@ -283,7 +286,7 @@ impl Threshold {
     }
 }
 
-/// The thresholds that are inputs of the array.
+/// Returns the thresholds that are inputs of the array.
 pub(crate) fn thresholds(design: &Design) -> Vec<Threshold> {
     let value =
         |port: &Port| threshold_value(design, port).expect("a control of an array is a threshold");
@@ -291,12 +294,12 @@ pub(crate) fn thresholds(design: &Design) -> Vec<Threshold> {
     controls.into_iter().map(|port| Threshold { value: value(&port), port }).collect()
 }
 
-/// The fingerprint as a number.
+/// Returns the fingerprint of a design as a number.
 pub(crate) fn fingerprint(design: &Design) -> u64 {
     u64::from_str_radix(&design.fingerprint(), 16).expect("a fingerprint is hexadecimal")
 }
 
-/// What irrelevant regions show, as packets and registers say it.
+/// Returns the number by which packets and registers name the content of irrelevant regions.
 pub(crate) fn irrelevant(design: &Design) -> u32 {
     match design.irrelevant() {
         Irrelevant::Zero => 0,
@@ -305,7 +308,8 @@ pub(crate) fn irrelevant(design: &Design) -> u32 {
     }
 }
 
-/// Whether raw pixels leave, as packets and registers say it; without a filter they are raw in either case.
+/// Returns 1 if raw pixels leave, else 0, as in packets and registers. Without a filter the pixels
+/// are raw in either case.
 pub(crate) fn raw(design: &Design) -> u32 {
     match design.payload() {
         Payload::Raw => 1,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The registers of an array of RPUs on a board (docs/boards.md): a table as that of a core on a bus, and what is made of it.
+//! The registers of an array of RPUs on a board (docs/boards.md): a table like that of a core on
+//! AXI, and the files made from it.
 
 use super::pages;
 use super::registers::{Field, Kind, Register, common, field, threshold_registers};
@@ -10,12 +11,12 @@ use foveate_design::{Design, PipelinedDesign, Port, PortRole, bits_for};
 
 /// The module with the registers of an array.
 pub const ARRAY_REGISTERS: &str = "array_registers";
-/// Frames behind which the pattern begins again.
+/// The bits of a frame's number within the pattern, which repeats every 128 frames.
 const PERIOD_BITS: u32 = 7;
-/// Bits of a register.
+/// The number of bits of a register.
 const WORD: u32 = 32;
 
-/// The registers of an array of RPUs behind a pattern, by address.
+/// Returns the registers of an array of RPUs behind a pattern, by address.
 #[must_use]
 pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
     let is_array = field("array", 16, 1, Kind::Constant(1), "1: the map of an array of RPUs");
@@ -71,7 +72,8 @@ pub fn array_table(design: PipelinedDesign<'_>) -> Vec<Register> {
     list
 }
 
-/// The ports with the count of changed pixels and with the scores, in this order.
+/// Returns the port with the count of changed pixels, and then the ports with the scores of the
+/// features.
 #[must_use]
 pub fn array_scores(design: &Design) -> Vec<Port> {
     let ports = design.rcm_ports();
@@ -80,14 +82,14 @@ pub fn array_scores(design: &Design) -> Vec<Port> {
     roles.filter_map(|role| ports.iter().find(|port| port.role == role).cloned()).collect()
 }
 
-/// The module with the registers.
+/// Returns the module with the registers of an array.
 #[must_use]
 pub fn array_registers(design: PipelinedDesign<'_>) -> SourceFile {
     let view = verilog::view(&design, (ARRAY_REGISTERS, true), &array_table(design));
     file(ARRAY_REGISTERS, text_of(&view))
 }
 
-/// What software needs of the registers: a page, a C header and SystemRDL.
+/// Returns the files that software needs for the registers: a page, a C header and SystemRDL.
 #[must_use]
 pub fn array_software(design: PipelinedDesign<'_>) -> Vec<SourceFile> {
     let (banner, list) = (banner(&design), array_table(design));

@@ -7,13 +7,13 @@ use crate::text::PortLine;
 use askama::Template;
 use foveate_design::{Port, PortRole, RasterDesign, StreamRole, index_bits};
 
-/// Bits of a word of a packet.
+/// The number of bits of a word of a packet.
 const WORD: u32 = 64;
-/// Words of a packet beside what it carries: its head and its tail.
+/// The number of words of a packet around its payload: its head and its tail.
 const ENDS: u32 = 2;
-/// What a FRAME carries.
+/// The number of payload words of a FRAME packet.
 const FRAME_WORDS: u32 = 5;
-/// What an END carries.
+/// The number of payload words of an END packet.
 const END_WORDS: u32 = 1;
 
 #[derive(Template)]
@@ -50,15 +50,15 @@ pub(super) struct Axi {
     fingerprint: String,
     syncs: bool,
     thresholds: Vec<Port>,
-    /// Outputs of the array that nothing here looks at.
+    /// The outputs of the array that the top does not use.
     unused: Vec<Port>,
-    /// Ports that no bus has.
+    /// The ports of the array that become ports of the core, too.
     outside: Vec<PortLine>,
-    /// The ports of the array, and what they are connected to.
+    /// The ports of the array, and the signals that they are connected to.
     connections: Vec<(String, String)>,
 }
 
-/// What the packets of a design carry, in words.
+/// The payload sizes of the packets of a design, in words.
 struct Packets {
     row: u32,
     pixels: u32,
@@ -80,7 +80,8 @@ impl Packets {
         }
     }
 
-    /// Bits of a packet that are made at a clock: 16 where all regions can leave at full rate with them, else 32.
+    /// Returns the number of packet bits made per clock: 16 if at that rate all regions can leave
+    /// in every frame, else 32.
     fn bits(&self, design: RasterDesign<'_>) -> u32 {
         let clocks = |words: u32| u64::from((words + ENDS) * (WORD / 16) + 1);
         let frame = u64::from(design.rows())
@@ -92,7 +93,7 @@ impl Packets {
     }
 }
 
-/// Bits of a pixel in a packet.
+/// Returns the number of bits of a pixel in a packet.
 fn lane_bits(design: RasterDesign<'_>) -> u32 {
     if design.pixel_bits() <= 8 { 8 } else { 16 }
 }
@@ -134,7 +135,7 @@ pub(super) fn view(design: RasterDesign<'_>) -> Axi {
         row_words: packets.row,
         pixel_words: packets.pixels,
         mean_words: packets.means,
-        // All regions in the buffer of three rows may wait.
+        // All regions in the buffer of three rows of regions may wait.
         pending_bits: index_bits(u64::from(3 * design.columns() + 1)) + 1,
         irrelevant: irrelevant(&design),
         raw: raw(&design),
@@ -151,13 +152,13 @@ pub(super) fn view(design: RasterDesign<'_>) -> Axi {
     }
 }
 
-/// A threshold without the ending of a port.
+/// Returns the port of a threshold under its name without the suffix `_i`.
 fn plain(threshold: super::registers::Threshold) -> Port {
     let name = threshold.port.name.trim_end_matches("_i").to_owned();
     Port { name, ..threshold.port }
 }
 
-/// Lines behind which more ports follow: the last one ends in a comma, too.
+/// Appends a comma to the last line, because more ports follow these lines.
 fn continued(mut lines: Vec<PortLine>) -> Vec<PortLine> {
     if let Some(last) = lines.last_mut() {
         let width = last.declaration.len();
@@ -167,14 +168,15 @@ fn continued(mut lines: Vec<PortLine>) -> Vec<PortLine> {
     lines
 }
 
-/// Whether a port of the array is one of the core on a bus, too: those of a frame store outside.
+/// Returns whether a port of the array is also a port of the core on AXI. These are the ports to a
+/// frame store outside.
 fn is_outside(design: RasterDesign<'_>, port: &Port) -> bool {
     let interface = design.rcm_interface();
     let stream = interface.stream_of(port.role).map(|stream| stream.role);
     matches!(stream, Some(StreamRole::References | StreamRole::Stored))
 }
 
-/// What a port of the array is connected to.
+/// Returns the signal that a port of the array is connected to.
 fn signal(design: RasterDesign<'_>, port: &Port) -> String {
     let own = match port.role {
         PortRole::Clock => "aclk",
@@ -199,7 +201,8 @@ fn signal(design: RasterDesign<'_>, port: &Port) -> String {
         PortRole::ForwardSummary => "forward_summary",
         PortRole::LostValid => "lost_valid",
         PortRole::LostFrame => "lost_frame",
-        // Decisions come in the order of the regions, and what else is said is counted here, or is not sent.
+        // Decisions come in the order of the regions, so their numbers are not needed. Losses are
+        // counted in this module. Scores and the other outputs are not sent.
         PortRole::Region
         | PortRole::SyncError
         | PortRole::Score(_)

@@ -11,13 +11,14 @@ use foveate_design::Design;
 pub(super) struct Registers {
     banner: String,
     module: &'static str,
-    /// The upper half of the addresses shows a memory outside, and nothing interrupts.
+    /// Whether the upper half of the addresses shows a memory outside; such a module has no
+    /// interrupt.
     has_window: bool,
     ports: Vec<Line>,
     state: Vec<State>,
-    /// What thresholds become when a frame begins.
+    /// The copies of thresholds that take effect when a frame begins, each with its source.
     taken: Vec<(String, String)>,
-    /// Commands, which last for a clock.
+    /// The commands, which last for one clock.
     commands: Vec<String>,
     writes: Vec<Write>,
     events: Vec<Event>,
@@ -36,7 +37,7 @@ struct State {
     reset: String,
 }
 
-/// A byte, or a part of one, that is written.
+/// A byte of a field, or a part of one, that is written with its own strobe.
 struct Write {
     word: u32,
     byte: u32,
@@ -51,7 +52,8 @@ struct Event {
     bit: u32,
 }
 
-/// The module of a core on a bus, or that of an array, which interrupts nobody and has a memory in its upper half.
+/// Returns the register module of a core on AXI, or that of an array on a board, which has no
+/// interrupt and a memory in the upper half of its addresses.
 pub(super) fn view(
     design: &Design,
     (module, has_window): (&'static str, bool),
@@ -77,7 +79,7 @@ pub(super) fn view(
         view.reads.push((register.address / 4, read(register)));
     }
     for threshold in thresholds(design) {
-        // Parts are listed from the lowest on, and put together from the highest on.
+        // Parts are listed from the lowest bits on, but a concatenation begins with the highest.
         let mut parts: Vec<_> =
             threshold.parts().iter().map(|part| format!("{}_taken_q", part.name)).collect();
         parts.reverse();
@@ -104,7 +106,7 @@ impl Registers {
             Kind::Control { reset } => {
                 self.state(name.clone(), field.width, reset);
                 self.write(register, field, &name);
-                // What enables an event stays inside.
+                // The enable bits of interrupts have no output port.
                 if register.name != "interrupt_enable" {
                     self.output(&name, field);
                 }
@@ -150,7 +152,7 @@ impl Registers {
         self.ports.push(Line { declaration, doc: doc.to_owned() });
     }
 
-    /// Each byte of a field has a strobe of its own.
+    /// Adds a write for each byte of a field, since each byte has a strobe of its own.
     fn write(&mut self, register: &Register, field: &Field, name: &str) {
         let end = field.low + field.width;
         let mut low = field.low;
@@ -172,7 +174,8 @@ impl Registers {
     }
 }
 
-/// A field as a signal: by the name of its register, too, unless it is all that the register has.
+/// Returns the signal name of a field: the names of register and field, or the name of the register
+/// alone if the field is named `value`.
 fn name(register: &Register, field: &Field) -> String {
     match field.name.as_str() {
         "value" => register.name.clone(),
@@ -180,7 +183,7 @@ fn name(register: &Register, field: &Field) -> String {
     }
 }
 
-/// The 32 bits that a register reads as, the highest first.
+/// Returns the 32 bits that a register reads as, the highest first.
 fn read(register: &Register) -> String {
     let mut parts = Vec::new();
     let mut end = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The README of a raster core: how long a source waits, and when a region is lost.
+//! The README of a raster core, which says how long a source waits and when a region is lost.
 
 use super::{
     PortRow, StreamRow, ThresholdRow, port_rows, score_names, stream_rows, sync, threshold,
@@ -16,7 +16,7 @@ use foveate_design::{
 #[template(path = "raster_README.md")]
 struct Readme {
     banner: String,
-    /// What the names of modules begin with: the prefix and its `_`.
+    /// The beginning of the names of modules: the prefix and its `_`.
     before: String,
     width: u32,
     height: u32,
@@ -33,12 +33,12 @@ struct Readme {
     word_pixels: u32,
     taken_words: u32,
     row_words: u32,
-    /// Pixels of the last word of a row that lie in the frame; 0 where all do.
+    /// The pixels of the last word of a row that are inside the frame; 0 if all are.
     tail_pixels: u32,
-    /// Clocks after a row in which no word is taken.
+    /// The clocks after a row in which no word is taken.
     row_pause: u32,
     clocks: u64,
-    /// Clocks after a frame in which no word is taken.
+    /// The clocks after a frame in which no word is taken.
     stall: u64,
     blank_rows: u64,
     /// Whether a frame waits until the one before has left.
@@ -49,26 +49,27 @@ struct Readme {
     first_word: u64,
     last_position: u32,
     frame_numbers: u32,
-    /// Whether regions have pixels beyond the frame.
+    /// Whether regions have pixels outside the frame.
     padded: bool,
     buffer_rows: u32,
     sink_stall: u32,
     memories: Vec<RasterMemory>,
     memory_bits: u64,
-    /// References of a frame.
+    /// The number of words of references of a frame.
     store_words: u64,
     store_bits: u64,
-    /// Whether they are outside of the core, or in a memory of one port.
+    /// Whether the references are outside the core.
     outside: bool,
     single_port: bool,
-    /// Whether pixels leave.
+    /// Whether pixels leave the core.
     forwards: bool,
-    /// Blocks of a region's side whose means leave, 0 where none do, and the side of a block.
+    /// The number of blocks along a region's side whose means leave (0 if none do), and the side of
+    /// a block in pixels.
     blocks: u32,
     block_side: u32,
-    /// More registers, which those of block RAM can be.
+    /// Whether the core has more pipeline registers, which may be those of block RAM.
     deep: bool,
-    /// Whether memories say which regions have a reference.
+    /// Whether memories record which regions have a reference.
     marks_regions: bool,
     store: &'static str,
     runtime: bool,
@@ -77,7 +78,7 @@ struct Readme {
     thresholds: Vec<ThresholdRow>,
     instance: Vec<String>,
     sync: String,
-    /// The module whose clock is of interest.
+    /// The module whose clock frequency a user wants to know.
     synthesized: &'static str,
     compared: &'static str,
     has_rpu: bool,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the README of a core says of lost pixels.
+//! The section of a core's README on lost pixels.
 
 use askama::Template;
 use foveate_design::{Design, PortRole};
@@ -10,16 +10,17 @@ use crate::text::text_of;
 #[template(path = "core_sync.md")]
 struct Sync {
     syncs: bool,
-    /// Beats of a frame, and what one is called.
+    /// The number of beats of a frame, and the name of a beat.
     beats: u64,
     beat: &'static str,
-    /// Of what there is one at each.
+    /// The unit that gets a beat at each edge, as words that follow `beat`; empty for the whole
+    /// core.
     of: &'static str,
     has_ready: bool,
 }
 
-/// The section on where frames start, and on what is lost; `beat` is what is taken at one edge, as
-/// often as `of` says.
+/// Returns the section on where frames start and on lost pixels. `beat` is the name of what is
+/// taken at one edge, and `of` says for which unit.
 pub(crate) fn section(design: &Design, beat: &'static str, of: &'static str) -> String {
     let view = Sync {
         syncs: design.syncs(),

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a pipelined RPU compares pixels with, and what it keeps for that: it follows from the reference.
+//! The values that a pipelined RPU compares pixels with, and those that it stores for that purpose.
+//! Both follow from the reference.
 
 use foveate_design::{PipelinedDesign, Reference, Written};
 
-/// Something that the temporal score may have to compare with.
+/// A stored frame that the temporal score may be computed against.
 pub(super) struct Candidate {
     pub(super) name: &'static str,
-    /// Whether a pixel counts as changed.
+    /// The Verilog condition under which a pixel counts as changed.
     pub(super) hit: &'static str,
 }
 
-/// Whether the frame decided last is kept when another has come since: with a second pass, if its scored pixels leave
-/// or become references.
+/// Returns whether the frame decided last is kept after the next frame has arrived. It is kept with
+/// a second pass, if its scored pixels leave or become references.
 pub(super) fn keeps_second(design: PipelinedDesign<'_>) -> bool {
     let become_references = match design.temporal().reference.written() {
         Written::WithEveryFrame => false,
@@ -20,8 +21,9 @@ pub(super) fn keeps_second(design: PipelinedDesign<'_>) -> bool {
     design.has_second_pass() && (become_references || !design.keeps_raw())
 }
 
-/// With a second pass the decision of the previous frame comes too late to choose between the
-/// previous frame and what was sent before, so both are counted.
+/// Returns the stored frames for which changed pixels are counted. With a second pass the decision
+/// of the previous frame comes too late to choose between the previous frame and the pixels sent
+/// before it, so changes against both are counted.
 pub(super) fn candidates(reference: Reference, second_pass: bool, deep: bool) -> Vec<Candidate> {
     let previous = |hit| Candidate { name: "previous", hit };
     let sent = |hit| Candidate { name: "sent", hit };
@@ -40,8 +42,8 @@ pub(super) fn candidates(reference: Reference, second_pass: bool, deep: bool) ->
     }
 }
 
-/// What a pixel is compared with. A deep RPU compares before it is decided whether the pixel sent last is that
-/// of the frame decided last, so it compares with both.
+/// Returns the values that a pixel is compared with. A deep RPU compares before it is decided
+/// whether the pixel sent last is that of the frame decided last, so it compares with both.
 pub(super) fn compared(reference: Reference, second_pass: bool, deep: bool) -> Vec<&'static str> {
     match (reference, second_pass, deep) {
         (Reference::Previous, _, _) => vec!["previous"],
@@ -53,7 +55,7 @@ pub(super) fn compared(reference: Reference, second_pass: bool, deep: bool) -> V
     }
 }
 
-/// Flags that this design has no use for.
+/// Returns the flags that this design does not use.
 pub(super) fn unused(reference: Reference, second_pass: bool) -> Vec<&'static str> {
     match (reference, second_pass) {
         (Reference::Previous | Reference::LastSent, true) => vec![],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cores on AXI: no tool warns of them, and their registers have places of their own.
+//! Cores on AXI: no tool warns of them, and their registers have distinct places and names.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -24,7 +24,7 @@ fn verilator_has_nothing_to_say_of_cores_on_a_bus() {
         let said = verilator::lint(&toolchain, &sources, AXI_TOP, None).err()?;
         Some(format!("{toml}{said}"))
     };
-    // `lint.rs` has the arrays: around them a third shows every choice.
+    // `lint.rs` covers all arrays; a third of the designs shows every choice around an array.
     let designs: Vec<String> =
         meeting(every_design_on_a_bus()).into_iter().step_by(every(3)).collect();
     let found: Vec<String> = designs.par_iter().filter_map(check).collect();
@@ -38,7 +38,8 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
         let Hardware::Raster(own) = design.hardware() else { panic!("{toml}") };
         (registers(design.on(own)), toml)
     });
-    // Those of arrays on a board leave their upper half to what was captured.
+    // The registers of arrays on a board leave the upper half of the addresses to the captured
+    // frame.
     let arrays = every_design().into_iter().filter_map(|toml| {
         let list = array_table(design(&toml).pipelined()?);
         assert!(list.iter().all(|register| register.address < 0x800), "{toml}");
@@ -67,7 +68,7 @@ fn registers_and_fields_have_places_and_names_of_their_own() {
     }
 }
 
-/// Runs `package_ip.tcl` of a core, with an edit, where stubs check what it asks Vivado for.
+/// Runs `package_ip.tcl` of a core, with an edit, where stubs check what it requests from Vivado.
 fn packaged(files: &[SourceFile], fault: Option<(&str, &str)>) -> Result<String, String> {
     let dir = tempfile::tempdir().unwrap();
     for file in files {
@@ -99,7 +100,7 @@ fn the_script_that_packages_a_core_for_vivado_asks_for_what_is_there() {
     }
     let files = core(&design(&every_design_on_a_bus()[0]), &Prefix::new("left").unwrap());
     packaged(&files, None).unwrap();
-    // What is wrong must be seen to be wrong.
+    // Each planted fault must be found.
     for fault in [
         ("    rtl/left_adder.v\n", "    rtl/adder.v\n"),
         ("set top left_rcm_axi", "set top rcm_axi"),

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! `raster_memory` in its form for the ECP5 shows what it shows elsewhere, and has the register of the block behind it.
+//! `raster_memory` in its form for the ECP5 reads the same words as in its portable form, and uses
+//! the output register of the block RAM.
 
 use std::path::Path;
 use std::time::Duration;
@@ -10,7 +11,8 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Source, Tool, Toolchain};
 
-/// Bits of a word, and words: each width of a block, several blocks, words that fill them and do not, several banks.
+/// The bits of a word and the number of words: each width of a block, several blocks, blocks that
+/// are full or not, and several banks.
 const SHAPES: &[(u32, u32)] = &[
     (1, 2),
     (12, 240),
@@ -28,7 +30,7 @@ fn memory() -> &'static str {
     LEAVES.iter().find(|leaf| leaf.name == "raster_memory").unwrap().contents
 }
 
-/// What the bench prints that compares both forms, the one for the ECP5 with this change.
+/// Returns what a bench prints that compares both forms, the one for the ECP5 with this edit.
 fn compared((width, words): (u32, u32), from: &str, to: &str) -> String {
     let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
     let own = memory().replacen("module raster_memory", "module ecp5_memory", 1);
@@ -78,7 +80,8 @@ fn blocks_of_the_ecp5_show_what_the_memory_shows() {
     }
 }
 
-/// What Yosys makes of a memory of a deep design, with the family defined or not: blocks, and flip-flops behind them.
+/// Returns what Yosys makes of the memory of a deep design: the number of blocks, of blocks with
+/// their output register, and of flip-flops. `define` defines the family, or is empty.
 fn synthesized(define: &str) -> (usize, usize, usize) {
     let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
     let script = format!(

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Only what a design elaborates is shipped: the modules that Icarus finds below the tops, without a warning, are the
-//! files.
+//! Only modules that a design elaborates are shipped: the modules that Icarus finds below the tops,
+//! without a warning, are exactly the files.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -13,7 +13,7 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, ToolError, Toolchain};
 use rayon::prelude::*;
 
-/// The names of the files.
+/// Returns the module names of the files.
 fn shipped(files: &[SourceFile]) -> BTreeSet<String> {
     let name = |file: &SourceFile| {
         let name = file.path.strip_prefix("rtl/").unwrap();
@@ -22,8 +22,8 @@ fn shipped(files: &[SourceFile]) -> BTreeSet<String> {
     files.iter().map(name).collect()
 }
 
-/// The modules at and below `top`, with the parameters of its own text: the scopes of what Icarus compiles, or the
-/// warning that it has.
+/// Returns the modules at and below `top`, with the parameters of its own text: the scopes in the
+/// program that Icarus compiles. Fails with the warning if Icarus has one.
 fn elaborated(files: &[SourceFile], top: &str) -> Result<BTreeSet<String>, ToolError> {
     let sources = files.iter().map(|file| (file.path.clone(), file.contents.clone())).collect();
     let job = IverilogJob { sources, top: top.to_owned(), strict: true, ..IverilogJob::default() };
@@ -31,16 +31,17 @@ fn elaborated(files: &[SourceFile], top: &str) -> Result<BTreeSet<String>, ToolE
     let compiled = iverilog::compile(&toolchain, &cache, &job)?;
     let text = fs::read_to_string(compiled).unwrap();
     let scopes = text.lines().filter_map(|line| line.split_once(".scope module, "));
-    // The name of the instance, then that of its module.
+    // A scope line has the name of the instance first, then that of its module.
     Ok(scopes.map(|(_, names)| names.split('"').nth(3).unwrap().to_owned()).collect())
 }
 
-/// A warning, or what is shipped for a top and not elaborated, or the other way round.
+/// Returns the problem of a top, if any: a warning, a module that is shipped but not elaborated, or
+/// one that is elaborated but not shipped.
 fn problem(design: &Design, top: Top) -> Option<String> {
     problem_of(&verilog(design, top), top.module())
 }
 
-/// The same of these files and the module on top of them.
+/// Returns the problem of these files and the module on top of them, if any.
 fn problem_of(files: &[SourceFile], top: &str) -> Option<String> {
     let shipped = shipped(files);
     match elaborated(files, top) {
@@ -85,7 +86,8 @@ fn every_shipped_module_around_an_array_is_elaborated_without_a_warning_of_icaru
     assert!(found.is_empty(), "{}", found.join("\n"));
 }
 
-/// A smaller grid of the same core, as benches and co-simulations use it, needs nothing that is not there.
+/// A smaller grid of the same core, as in benches and co-simulations, needs no module that is not
+/// shipped.
 #[test]
 fn smaller_grids_need_no_other_modules() {
     for toml in every_design() {
@@ -94,7 +96,7 @@ fn smaller_grids_need_no_other_modules() {
         let mut config = design.lone_unit().config();
         let is_small = design.organization() != Organization::Serial;
         if is_small {
-            // What is beyond the frame stays as it is.
+            // The numbers of padding columns and rows stay the same.
             let side = design.region_size();
             let beyond = |regions: u32, length: u32| regions * side - length;
             let part = &mut config.camera.frame;
@@ -107,7 +109,7 @@ fn smaller_grids_need_no_other_modules() {
     }
 }
 
-/// Every leaf is in some design, so that each is compared.
+/// Every leaf is in some design, so the comparison above covers each leaf.
 #[test]
 fn every_leaf_is_in_some_design() {
     let designs: Vec<Design> = every_design().iter().map(|toml| design(toml)).collect();

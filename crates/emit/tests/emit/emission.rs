@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is emitted for a design: always the same, the ports of the specification, and only the
-//! modules that the design asks for.
+//! The files emitted for a design: they are always the same, have the ports of the specification,
+//! and include only the modules that the design needs.
 
 use std::collections::BTreeSet;
 use std::fs;
@@ -14,15 +14,15 @@ fn core(design: &Design) -> Vec<SourceFile> {
     foveate_emit::core(design, &Prefix::default())
 }
 
-/// The block RAM of the ECP5, which `raster_memory` asks for by name.
+/// The block RAM of the ECP5, which `raster_memory` instantiates by name.
 const CELL: &str = "DP16KD";
 
 fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
     &files.iter().find(|file| file.path == path).unwrap().contents
 }
 
-/// Names of the modules that a file instantiates: `name #(` or `name u_...`. What refuses a parameter is
-/// a module that does not exist; a cell of a family is none of ours.
+/// Returns the names of the modules that a file instantiates, as `name #(` or `name u_...`. Missing
+/// modules that refuse a parameter and cells of a device family are left out.
 fn instantiated(text: &str) -> BTreeSet<&str> {
     let first_words = text.lines().map(str::trim_start).filter_map(|line| {
         let (name, rest) = line.split_once(' ')?;
@@ -144,7 +144,7 @@ fn a_serial_core_has_its_array_and_its_lone_lane() {
     assert!(contents(&files, "foveate_rcm.core").contains("toplevel: rcm_replay"));
 }
 
-/// Which region is where, and for how long a stream waits, by the numbers of the design.
+/// The README states the order of regions and the wait of a stream in the numbers of the design.
 #[test]
 fn the_readme_of_a_folded_core_says_where_regions_are_and_how_long_a_stream_waits() {
     let hardware = "[hardware]\norganization = 'serial'\nfold = 5\n";
@@ -171,7 +171,7 @@ fn a_raster_core_has_one_top() {
     let files = core(&design("[hardware]\norganization = 'raster'\n"));
     assert!(contents(&files, "rcm.f").lines().any(|line| line == "rtl/rcm.v"));
     for file in &files {
-        // No file of another module, and none is spoken of.
+        // No file belongs to a module `rpu`, and no text mentions one.
         assert!(!file.path.contains("rpu"), "{}", file.path);
         let is_own = |line: &str| line.split(|c: char| !c.is_alphanumeric()).any(|w| w == "rpu");
         let named = file.contents.lines().find(|line| is_own(line));
@@ -179,8 +179,9 @@ fn a_raster_core_has_one_top() {
     }
 }
 
-/// For how long a stream waits, when a region is lost, and what the memories hold: 50x20 pixels in words of two
-/// are 7x3 regions, rows of 28 words, 25 of them taken, and two windows.
+/// The README states for how long a stream waits, when a region is lost, and what the memories
+/// hold. A frame of 50x20 pixels in words of two pixels has 7x3 regions, rows of 28 words, of which
+/// 25 are taken, and two windows.
 #[test]
 fn the_readme_of_a_raster_core_says_how_long_a_source_waits_and_a_sink_may_stall() {
     let frame = "frame = { width = 50, height = 20 }\n[hardware]\norganization = 'raster'\n";
@@ -188,7 +189,8 @@ fn the_readme_of_a_raster_core_says_how_long_a_source_waits_and_a_sink_may_stall
     let readme = core(&design).pop().unwrap();
     assert_eq!(readme.path, "README.md");
     let readme = readme.contents;
-    // 3 words of the last row, 4 rows, 2 * 29 for the windows, and 11 clocks to the decision.
+    // The clocks are 3 words of the last row, 4 rows, 2 * 29 for the windows, and 11 to the
+    // decision.
     let stall = 3 + 4 * 28 + 2 * 29 + 11;
     assert_eq!(RasterTiming::of(design.raster().unwrap()).edges_to_ready(), stall);
     for part in [
@@ -215,7 +217,7 @@ fn the_readme_of_a_raster_core_says_how_long_a_source_waits_and_a_sink_may_stall
     }
 }
 
-/// Small frames whose references are what was sent wait for the sink, so nothing is lost.
+/// Small frames with the reference `last-sent` wait for the sink, so nothing is lost.
 #[test]
 fn the_readme_of_a_raster_core_that_waits_for_its_sink_says_so() {
     let toml = "frame = { width = 64, height = 16 }\ntemporal.reference = 'last-sent'\n\
@@ -264,7 +266,8 @@ fn file_lists_name_every_file_once_in_order() {
     assert!(expected.iter().all(|path| fusesoc.contains(&format!("- {path}\n"))));
 }
 
-/// Whoever feeds a core reads what a lost pixel does to it, and how to mark a frame where that is a port.
+/// The README tells a user what a lost pixel does to the core, and how to mark a frame where the
+/// core has a port for it.
 #[test]
 fn the_readme_of_every_core_says_where_frames_start() {
     for (organization, beats) in [

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What FuseSoC and Vivado synthesize of a generated core: the module that somebody puts into a chip, with its clock.
+//! The module that FuseSoC and Vivado synthesize from a generated core is the one that a user
+//! integrates into a chip, with its clock.
 
 use std::fs;
 use std::path::Path;
@@ -8,7 +9,8 @@ use std::process::Command;
 use crate::common::{design, every_design_on_a_bus, has_tclsh, meeting};
 use foveate_emit::{Prefix, SourceFile, core};
 
-/// A core of each organization, and those on a bus in which two values meet, with the module of it that goes into a chip, and its clock.
+/// Returns a core of each organization and the selected cores on AXI, each with the module that
+/// goes into a chip and its clock.
 fn cores() -> Vec<(String, &'static str, &'static str)> {
     let ports = ["pipelined", "serial", "raster"].map(|organization| {
         let frame = "frame = { width = 32, height = 24 }";
@@ -23,7 +25,7 @@ fn contents<'a>(files: &'a [SourceFile], path: &str) -> &'a str {
     &found.unwrap_or_else(|| panic!("there is no {path}")).contents
 }
 
-/// The lines below a key of a file of FuseSoC.
+/// Returns the lines below a key of a FuseSoC file.
 fn below<'a>(text: &'a str, key: &str) -> Vec<&'a str> {
     let depth = |line: &str| line.len() - line.trim_start().len();
     let mut lines = text.lines().skip_while(|line| *line != key);
@@ -31,10 +33,10 @@ fn below<'a>(text: &'a str, key: &str) -> Vec<&'a str> {
     lines.take_while(|line| depth(line) > own).map(str::trim).collect()
 }
 
-/// What a target of FuseSoC takes.
+/// The files and settings of a target of FuseSoC.
 struct Target {
     top: String,
-    /// Files of the core, and what they are called where tools run.
+    /// The files of the core, and their names where tools run.
     files: Vec<(String, String)>,
     lines: Vec<String>,
 }
@@ -62,7 +64,8 @@ impl Target {
     }
 }
 
-/// Runs a script where stubs check what it asks Vivado or Yosys for; says what is synthesized, with which clock.
+/// Runs a script where stubs check what it requests from Vivado or Yosys. Returns the synthesized
+/// module and its clock.
 fn synthesized(folder: &Path, words: &[&str]) -> Result<String, String> {
     let stub = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/emit/flow_stub.tcl");
     let output = Command::new("tclsh").arg(stub).args(words).current_dir(folder).output().unwrap();
@@ -76,7 +79,7 @@ fn write(folder: &Path, path: &str, text: &str) {
     fs::write(path, text).unwrap();
 }
 
-/// What a target of FuseSoC synthesizes with open tools, after an edit of one file.
+/// Returns what a target of FuseSoC synthesizes with open tools, after an edit of one file.
 fn by_fusesoc(core: &[SourceFile], name: &str, edit: Option<Edit<'_>>) -> Result<String, String> {
     let dir = tempfile::tempdir().unwrap();
     let core: Vec<SourceFile> = core.iter().map(|file| edited(file, edit)).collect();
@@ -89,7 +92,8 @@ fn by_fusesoc(core: &[SourceFile], name: &str, edit: Option<Edit<'_>>) -> Result
     synthesized(dir.path(), &[&script, &target.top])
 }
 
-/// What Vivado synthesizes if its script is called with these words, after an edit of one file.
+/// Returns what Vivado synthesizes if its script is called with these words, after an edit of one
+/// file.
 fn by_vivado(
     core: &[SourceFile],
     words: &[&str],
@@ -102,7 +106,7 @@ fn by_vivado(
     synthesized(dir.path(), &[&["vivado_ooc.tcl", ""], words].concat())
 }
 
-/// A file, and what becomes of a part of it.
+/// The path of a file, a part of its text, and the replacement.
 type Edit<'a> = (&'a str, &'a str, &'a str);
 
 fn edited(file: &SourceFile, edit: Option<Edit<'_>>) -> SourceFile {
@@ -121,7 +125,7 @@ fn fusesoc_takes_the_module_that_goes_into_a_chip() {
         for prefix in [Prefix::default(), Prefix::new("left").unwrap()] {
             let files = core(&design(&toml), &prefix);
             let top = prefix.name(module);
-            // Vivado, without its bitstream: its pins are in no file of a core.
+            // The target of Vivado makes no bitstream, because no file of a core has the pins.
             let target = Target::of(&files, "synth");
             assert_eq!(target.top, top, "{toml}");
             assert!(target.lines.iter().any(|line| line == "pnr: none"), "{:?}", target.lines);
@@ -155,7 +159,7 @@ fn the_scripts_of_a_core_synthesize_the_module_that_goes_into_a_chip() {
     }
 }
 
-/// What is wrong must be seen to be wrong.
+/// Each planted fault must be found.
 #[test]
 fn scripts_that_ask_for_what_is_not_there_are_seen() {
     if !has_tclsh() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Every parameter and port of the Verilog is documented, and a parameter out of range does not elaborate, in
-//! Verilator, Icarus and Yosys alike.
+//! Every parameter and port of the Verilog is documented, and a parameter out of range does not
+//! elaborate in Verilator, Icarus and Yosys.
 
 mod cases;
 
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 
 const TOOLS: &[Tool] = &[Tool::Verilator, Tool::Iverilog, Tool::Yosys];
 
-/// What a tool says, as far as it is an error.
+/// Returns the message of a tool if it reports an error.
 fn said<T>(result: Result<T, ToolError>) -> Option<String> {
     result.err().map(|error| match error {
         ToolError::Failed { full, .. } => full,
@@ -39,7 +39,7 @@ fn icarus_says(sources: &[Source], top: &str) -> Option<String> {
     said(iverilog::compile(&Toolchain::system(), &Cache::throw_away().unwrap(), &job))
 }
 
-/// `before` are commands between reading and elaboration.
+/// Returns the error of Yosys, if any; `before` holds commands between reading and elaboration.
 fn yosys_says(sources: &[Source], before: &str, top: &str) -> Option<String> {
     let names: Vec<&str> = sources.iter().map(|(name, _)| name.as_str()).collect();
     let script = format!("read_verilog {}\n{before}hierarchy -check -top {top}\n", names.join(" "));
@@ -47,7 +47,7 @@ fn yosys_says(sources: &[Source], before: &str, top: &str) -> Option<String> {
     said(yosys::run(&Toolchain::system(), &Cache::throw_away().unwrap(), &job))
 }
 
-/// What is wrong with the answer of a tool.
+/// Returns what is wrong with the answer of a tool, if anything.
 fn problem(tool: Tool, refused: Option<&str>, said: Option<String>) -> Option<String> {
     match (refused, said) {
         (None, None) => None,
@@ -59,7 +59,7 @@ fn problem(tool: Tool, refused: Option<&str>, said: Option<String>) -> Option<St
     }
 }
 
-/// What is wrong with the answers of all tools.
+/// Returns what is wrong with the answers of all tools.
 fn problems(sources: &[Source], top: &str, refused: Option<&str>) -> Vec<String> {
     let answers = [
         (Tool::Verilator, verilator_says(sources, top)),
@@ -69,8 +69,8 @@ fn problems(sources: &[Source], top: &str, refused: Option<&str>) -> Vec<String>
     answers.into_iter().filter_map(|(tool, said)| problem(tool, refused, said)).collect()
 }
 
-/// Verilator stops at the first module that does not exist: each case is a run of its own. Icarus names all of them
-/// in one run; see [`parameters_out_of_range_are_refused_together`].
+/// Verilator stops at the first module that does not exist, so each case is a run of its own.
+/// Icarus names all of them in one run; see [`parameters_out_of_range_are_refused_together`].
 #[test]
 fn parameters_out_of_range_are_refused_one_by_one() {
     if !require_tools(TOOLS) {
@@ -87,7 +87,8 @@ fn parameters_out_of_range_are_refused_one_by_one() {
         (!found.is_empty())
             .then(|| format!("{} {:?}: {}", case.module, case.parameters, found.join("; ")))
     };
-    // Of those out of range, which the other tools refuse together, Verilator sees a sixth, and each module's first.
+    // Verilator runs on a sixth of the cases out of range, and on the first of each module; the
+    // other tools refuse all of them together.
     let cases = cases();
     let mut modules = BTreeSet::new();
     let chosen: Vec<&Case> = cases
@@ -103,7 +104,7 @@ fn parameters_out_of_range_are_refused_one_by_one() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// All cases out of range in one elaboration, in Icarus and in Yosys.
+/// All cases out of range are in one elaboration, in Icarus and in Yosys.
 #[test]
 fn parameters_out_of_range_are_refused_together() {
     if !require_tools(TOOLS) {
@@ -126,8 +127,9 @@ fn parameters_out_of_range_are_refused_together() {
     let all: Vec<Source> = [copies.clone(), top].into_iter().chain(leaves).collect();
     let icarus = icarus_says(&all, "top").unwrap_or_default();
     let missing: BTreeSet<&str> = icarus.split_whitespace().collect();
-    // Yosys elaborates each module as it reads it, and then stops at the first module that does not exist: those
-    // that the copies instantiate are shown before, as `cell \MODULE \INSTANCE`.
+    // Yosys elaborates each module as it reads it, and later stops at the first module that does
+    // not exist. The missing modules that the copies instantiate are printed before, as
+    // `cell \MODULE \INSTANCE`.
     let yosys = yosys_says(&[copies], "dump t:*_must_*\n", "case_0").unwrap_or_default();
     let cells: BTreeSet<&str> = yosys.split_whitespace().collect();
     let of_first = format!("Module `\\{}_case_0' referenced in module `\\case_0'", named[0].2);
@@ -148,8 +150,9 @@ fn parameters_out_of_range_are_refused_together() {
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 
-/// The tops of all organizations: grids that are none, or that have fewer regions than a lane, or more than a frame
-/// has. In a serial one other limits are hurt, too, and messages are cut: it is enough that one of them is named.
+/// The tops of all organizations refuse grids without regions, with fewer regions than a lane has,
+/// or with more than a frame can have. Grids of a serial array break other limits, too, and
+/// messages are truncated, so it is enough that one limit is named.
 #[test]
 fn grids_out_of_range_are_refused() {
     if !require_tools(TOOLS) {
@@ -158,7 +161,8 @@ fn grids_out_of_range_are_refused() {
     let pipelined = "[frame]\nwidth = 16\nheight = 8\n";
     let serial = format!("{pipelined}[hardware]\norganization = 'serial'\nfold = 2\n");
     let any = Some("_must_be_");
-    // Frames of contract and raster core are limited; regions of 64 pixels make few of a wide one.
+    // The contract and the raster core limit the size of a frame. With regions of 64 pixels, a wide
+    // frame has few regions.
     let large = "denoise.filter = 'none'\nregion.size = 64\nframe = { width = 256, height = 64 }\n";
     let lanes = format!("{large}hardware.organization = 'serial'\n");
     let raster = format!("{large}hardware.organization = 'raster'\n");
@@ -207,7 +211,7 @@ fn every_limit_has_a_case_and_every_module_with_limits_a_control() {
     }
 }
 
-/// Lines of a module's header that declare something and say nothing about it.
+/// Returns the lines of a module's header that declare something without a comment.
 fn undocumented(text: &str) -> Vec<&str> {
     let header = text.split_once("\nmodule ").unwrap().1.split_once("\n);").unwrap().0;
     let declares = |line: &&str| {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Emitted Verilog has no warning in Verilator and Yosys, over the matrix of designs. Icarus is asked where it is
-//! elaborated, by `elaborated.rs`.
+//! Emitted Verilog has no warning in Verilator and Yosys, over the matrix of designs.
+//! `elaborated.rs` tests warnings of Icarus.
 
 use crate::common::{MORE, design, matrix, meeting, raster_matrix, serial_matrix};
 use foveate_design::RasterMemory;
@@ -37,7 +37,8 @@ fn verilator_has_nothing_to_say() {
     each_design(&designs, |sources| verilator::lint(&toolchain, sources, "rcm", None));
 }
 
-/// Fewer designs, and yet each feature meets each size of regions, and each organization the other choices.
+/// The selection of designs still has each feature with each size of regions, and each organization
+/// with the other choices.
 #[test]
 fn fewer_designs_have_every_two_values() {
     for (matrix, sizes) in [(serial_matrix(), 6), (raster_matrix(), 8)] {
@@ -66,8 +67,8 @@ fn yosys_has_nothing_to_say() {
         return;
     }
     let (toolchain, cache) = (Toolchain::system(), Cache::throw_away().unwrap());
-    // The other organizations take seconds, with all their memories: every fifth of them, which still meets
-    // every leaf; `scripts/lint.sh` has more.
+    // The other organizations, with all their memories, take seconds each. Every fifth of them
+    // still covers every leaf; `scripts/lint.sh` lints more.
     let others = [serial_matrix(), raster_matrix()].concat();
     let more = MORE.map(str::to_owned).to_vec();
     let designs = [meeting(matrix()), others.into_iter().step_by(5).collect(), more].concat();
@@ -86,7 +87,7 @@ fn yosys_has_nothing_to_say() {
     });
 }
 
-/// What a raster design says of its memories is what Yosys finds in its Verilog.
+/// The memories that a raster design lists are those that Yosys finds in its Verilog.
 #[test]
 fn the_memories_of_a_raster_core_are_those_that_it_says() {
     if !require_tools(&[Tool::Yosys]) {
@@ -125,7 +126,7 @@ fn the_memories_of_a_raster_core_are_those_that_it_says() {
     }
 }
 
-/// The check can fail: a width that does not fit is seen by all three.
+/// The check can fail: Verilator and Icarus both find a width that does not fit.
 #[test]
 fn a_planted_flaw_is_seen() {
     if !require_tools(&[Tool::Verilator, Tool::Iverilog]) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Emitted Verilog: its form, and that no tool warns of it.
+//! Tests of the form of emitted Verilog, and that no tool warns of it.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod axi;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cores with different prefixes fit into one top, and do there what each does alone.
+//! Cores with different prefixes fit into one top, and behave there as each does alone.
 
 use std::collections::BTreeSet;
 use std::fmt::Write;
@@ -13,10 +13,10 @@ use foveate_emit::{Prefix, SourceFile, Top, core};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Tool, Toolchain};
 
-/// Clocks of a simulation: a few frames of each core.
+/// The clocks of a simulation, enough for a few frames of each core.
 const CLOCKS: u32 = 10_000;
 
-/// A core of every organization, and a second one of each of two.
+/// Returns a core of every organization, and a second one of two of them.
 fn designs() -> Vec<(Prefix, Design)> {
     let raster = "frame = { width = 32, height = 24 }\nhardware.organization = 'raster'\n";
     let serial = "frame = { width = 16, height = 16 }\nhardware.organization = 'serial'\n";
@@ -39,8 +39,8 @@ fn designs() -> Vec<(Prefix, Design)> {
     named.collect()
 }
 
-/// A top in which pixels that change from clock to clock enter all cores; it says how often each decided, and a sum
-/// of its scores.
+/// Returns a top in which pixels that change at every clock enter all cores. It prints how often
+/// each core decided, and a checksum of its scores.
 fn top(cores: &[(&Prefix, &Design)]) -> String {
     let mut text =
         "module chip;\n    reg clk = 0, rst = 1;\n    reg [31:0] pixels = 1;\n".to_owned();
@@ -90,7 +90,8 @@ fn top(cores: &[(&Prefix, &Design)]) -> String {
     text
 }
 
-/// The Verilog of these cores, of each what its `rcm.f` lists, and of the top.
+/// Writes the Verilog of these cores, as their `rcm.f` lists it, and the top. Returns the names of
+/// the files.
 fn write(folder: &Path, cores: &[(&Prefix, &Design)]) -> Vec<String> {
     let mut names = Vec::new();
     for (number, (prefix, design)) in cores.iter().enumerate() {
@@ -108,7 +109,7 @@ fn write(folder: &Path, cores: &[(&Prefix, &Design)]) -> Vec<String> {
     names
 }
 
-/// What the simulation of a top says; nothing where it does not elaborate.
+/// Returns the lines that the simulation of a top prints; `None` if the top does not elaborate.
 fn simulate(tool: Tool, cores: &[(&Prefix, &Design)]) -> Option<BTreeSet<String>> {
     let dir = tempfile::tempdir().unwrap();
     let names = write(dir.path(), cores);
@@ -168,7 +169,7 @@ fn cores_of_different_designs_simulate_in_one_top() {
     }
 }
 
-/// Without prefixes two designs have modules of one name, and tools refuse them.
+/// Without prefixes two designs have modules of the same name, and tools refuse them.
 #[test]
 fn cores_without_prefixes_do_not_fit_into_one_top() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {
@@ -181,7 +182,7 @@ fn cores_without_prefixes_do_not_fit_into_one_top() {
     assert_eq!(simulate(Tool::Iverilog, &pair), None);
 }
 
-/// Every name of a module is another one, and so is the core's for FuseSoC, also without a prefix.
+/// Every module has a name of its own, and so has every core in FuseSoC, even without a prefix.
 #[test]
 fn no_names_of_two_cores_are_alike() {
     let designs = designs();

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Designs to emit: every choice of the configuration meets every other at least once.
+//! Designs to emit: every value of the configuration occurs with every other at least once.
 
 use foveate_design::{Config, Design};
 use foveate_toolchain::testing::takes_whole_lists;
 use std::collections::BTreeSet;
 use std::process::{Command, Stdio};
 
-/// Of a list that takes a tool long, those in which two values meet that have not met before: so that each value still meets every other that it meets in
-/// the whole list. All, where it is taken whole.
+/// Selects from a list the designs that have a pair of values that no earlier design has. Every
+/// pair of values of the whole list thus occurs in the selection, and a slow tool runs on fewer
+/// designs. Returns the whole list where tests take whole lists.
 pub(crate) fn meeting(list: Vec<String>) -> Vec<String> {
     if takes_whole_lists() {
         return list;
@@ -22,7 +23,8 @@ pub(crate) fn meeting(list: Vec<String>) -> Vec<String> {
     list.into_iter().filter(is_new).collect()
 }
 
-/// Each two values of a configuration that change what its Verilog says, and not only how wide it is.
+/// Returns each pair of values of a configuration that change what its Verilog contains, and not
+/// only its widths.
 fn pairs(toml: &str) -> BTreeSet<(String, String)> {
     const KEYS: [&str; 11] = [
         "spatial",
@@ -43,7 +45,8 @@ fn pairs(toml: &str) -> BTreeSet<(String, String)> {
     met.map(|(one, other)| (one.to_owned(), other.to_owned())).collect()
 }
 
-/// Whether there is a Tcl interpreter; says so if not, and panics where tools must be there.
+/// Returns whether there is a Tcl interpreter. Prints a message if there is none, and panics if
+/// tools are required.
 #[expect(clippy::print_stderr, reason = "a test that is skipped says so")]
 pub(crate) fn has_tclsh() -> bool {
     if Command::new("tclsh").stdin(Stdio::null()).output().is_ok() {
@@ -73,23 +76,24 @@ const SIZES: [u32; 7] = [2, 3, 5, 8, 16, 20, 64];
 const DEPTHS: [u32; 4] = [1, 8, 10, 16];
 const PIPELINING: [&str; 2] = ["plain", "deep"];
 
-/// The most blocks of a side that such a region can have.
+/// Returns the largest number of blocks along a side that such a region can have.
 fn most_blocks(size: u32) -> u32 {
     [4, 2].into_iter().find(|blocks| size.is_multiple_of(*blocks)).unwrap_or(1)
 }
 
-/// Configurations as TOML.
+/// Returns configurations of pipelined designs as TOML.
 pub(crate) fn matrix() -> Vec<String> {
     let mut list = Vec::new();
     for (index, features) in FEATURES.iter().enumerate() {
         for choice in 0..8 {
-            // Sizes and depths have no common period with the choices, so that all pairs occur.
+            // The indices of sizes and depths do not repeat in step with the choices, so all pairs
+            // occur.
             let size = SIZES[(index * 3 + choice) % SIZES.len()];
             let depth = DEPTHS[(index + choice * 3 + choice / 4) % DEPTHS.len()];
             let pick = |bit: usize, off: &'static str, on: &'static str| {
                 if (choice >> bit) & 1 == 0 { off } else { on }
             };
-            // Every third shows means, of the most blocks where these are many.
+            // Every third design shows means, and choice 5 shows the largest number of blocks.
             let irrelevant = match choice % 3 {
                 2 => "mean",
                 _ => pick(index % 3, "zero", "hold"),
@@ -121,13 +125,15 @@ pub(crate) fn matrix() -> Vec<String> {
     list
 }
 
-/// Sizes of regions of the serial organization, and pixel depths.
+/// The sizes of regions of the serial organization.
 const SERIAL_SIZES: [u32; 6] = [4, 5, 8, 6, 64, 16];
+/// The pixel depths of the serial and raster organizations, in bits.
 const SERIAL_DEPTHS: [u32; 5] = [8, 1, 16, 2, 10];
-/// Grids and folds: one lane, lanes with one slot, slots that are empty, everything in one lane.
+/// Columns, rows and folds: one lane, lanes with one slot, slots that are empty, and all regions in
+/// one lane.
 const SERIAL_GRIDS: [(u32, u32, u32); 5] = [(2, 1, 1), (3, 2, 4), (1, 1, 1), (3, 1, 3), (5, 2, 3)];
 
-/// Configurations of serial designs as TOML.
+/// Returns configurations of serial designs as TOML.
 pub(crate) fn serial_matrix() -> Vec<String> {
     let mut list = Vec::new();
     for (index, features) in FEATURES.iter().enumerate() {
@@ -138,7 +144,8 @@ pub(crate) fn serial_matrix() -> Vec<String> {
             let pick = |bit: usize, off: &'static str, on: &'static str| {
                 if (choice >> bit) & 1 == 0 { off } else { on }
             };
-            // Every third shows means: all numbers of blocks, of every feature, with each feed.
+            // Every third design shows means: all numbers of blocks, of every feature, with each
+            // feed.
             let irrelevant = match (index + choice) % 3 {
                 2 => "mean",
                 _ => pick(index % 4, "zero", "hold"),
@@ -172,13 +179,14 @@ pub(crate) fn serial_matrix() -> Vec<String> {
     list
 }
 
-/// Sizes of regions of the raster organization, each with pixels of a word that divide it.
+/// The sizes of regions of the raster organization, each with a number of pixels per word that
+/// divides it.
 const RASTER_SHAPES: [(u32, u32); 9] =
     [(8, 1), (4, 2), (2, 1), (8, 4), (3, 1), (16, 2), (5, 1), (64, 4), (6, 2)];
-/// Rows of regions, and pixels that the last column and row of regions lack.
+/// Rows of regions, and the pixels that the last column and row of regions lack.
 const RASTER_ENDS: [(u32, u32, u32); 5] = [(3, 0, 0), (1, 1, 0), (2, 0, 1), (4, 1, 1), (5, 1, 0)];
 
-/// Configurations of raster designs as TOML, as narrow as they may be.
+/// Returns configurations of raster designs as TOML, with the smallest width that is allowed.
 pub(crate) fn raster_matrix() -> Vec<String> {
     let mut list = Vec::new();
     for (index, features) in FEATURES.iter().enumerate() {
@@ -221,8 +229,8 @@ pub(crate) fn raster_matrix() -> Vec<String> {
     list
 }
 
-/// Raster designs with a large frame, or with choices that the matrix has not: each branch of a store, of rows
-/// that repeat, of a core that forwards nothing.
+/// Raster designs with a large frame, or with choices that the matrix lacks: each branch of a
+/// store, of rows that repeat, and of a core that forwards nothing.
 pub(crate) const MORE: [&str; 14] = [
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='deep'}",
     "frame={width=320,height=240}\nhardware={organization='raster',pipelining='plain'}",
@@ -242,13 +250,14 @@ pub(crate) const MORE: [&str; 14] = [
     "frame={width=64,height=21}\nrender.payload='raw'\nhardware={organization='raster',store='single-port'}",
 ];
 
-/// The matrices of all organizations, and more.
+/// Returns the designs of the matrices of all organizations, and [`MORE`].
 pub(crate) fn every_design() -> Vec<String> {
     let more = MORE.iter().map(|toml| (*toml).to_owned());
     [matrix(), serial_matrix(), raster_matrix(), more.collect()].concat()
 }
 
-/// Raster designs on AXI: those of the matrix whose pixels leave, and one whose frame store is outside.
+/// Returns raster designs on AXI: those of the matrix whose pixels leave, and one with an external
+/// frame store.
 pub(crate) fn every_design_on_a_bus() -> Vec<String> {
     let leaves = |toml: &String| design(toml).forwards();
     let on_axi = |toml: String| toml.replacen("[hardware]\n", "[hardware]\ninterface = 'axi'\n", 1);

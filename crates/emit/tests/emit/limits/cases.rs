@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Modules with other parameters than their defaults, from `limits.txt`.
+//! Modules with parameters that differ from their defaults, from `limits.txt`.
 
 use foveate_emit::{BOARD_LEAVES, LEAVES, Leaf};
 use foveate_toolchain::Source;
 use std::collections::BTreeSet;
 
-/// A module with other parameters than its defaults.
+/// A module with parameters that differ from their defaults.
 pub(super) struct Case {
     pub(super) module: String,
-    /// Names and values.
+    /// The names and values of the parameters.
     pub(super) parameters: Vec<(String, String)>,
-    /// The module that refuses them; none if they are in range.
+    /// The missing module at which elaboration stops; `None` if the parameters are in range.
     pub(super) refused: Option<String>,
 }
 
-/// The lines of `limits.txt`. Parameters of a line that must elaborate hold for those below it, too.
+/// Returns the cases of `limits.txt`. The parameters of a line that must elaborate also hold for
+/// the lines below it.
 pub(super) fn cases() -> Vec<Case> {
     let mut list: Vec<Case> = Vec::new();
     let mut common: Vec<(String, String)> = Vec::new();
@@ -41,7 +42,7 @@ pub(super) fn cases() -> Vec<Case> {
     list
 }
 
-/// The text of a module with another default of a parameter.
+/// Returns the text of a module with another default of a parameter.
 pub(super) fn with_default(text: &str, name: &str, value: &str) -> String {
     let start = format!(" {name} = ");
     let line = text.lines().find(|line| line.contains("parameter ") && line.contains(&start));
@@ -51,7 +52,7 @@ pub(super) fn with_default(text: &str, name: &str, value: &str) -> String {
     text.replacen(line, &format!("{before}{start}{value}{}", &after[end..]), 1)
 }
 
-/// Those of cores, and those of boards.
+/// Returns the leaves of cores and of boards.
 pub(super) fn all_leaves() -> impl Iterator<Item = &'static Leaf> {
     LEAVES.iter().chain(BOARD_LEAVES)
 }
@@ -61,14 +62,14 @@ fn leaf(name: &str) -> &'static Leaf {
 }
 
 impl Case {
-    /// The text of the module with the parameters of the case.
+    /// Returns the text of the module with the parameters of the case.
     fn text(&self) -> String {
         let text = leaf(&self.module).contents.to_owned();
         let parameters = self.parameters.iter();
         parameters.fold(text, |text, (name, value)| with_default(&text, name, value))
     }
 
-    /// The module, and all that it instantiates.
+    /// Returns the module and all modules that it instantiates.
     pub(super) fn sources(&self) -> Vec<Source> {
         let mut names: Vec<&str> = vec![leaf(&self.module).name];
         let mut at = 0;
@@ -84,8 +85,8 @@ impl Case {
         names.iter().map(|name| (format!("rtl/{name}.v"), text(name))).collect()
     }
 
-    /// The module under another name, by which its limits end, too: in one elaboration of many such modules,
-    /// what refuses one refuses no other.
+    /// Returns the module under another name, which is also appended to its limits. When many such
+    /// modules are elaborated together, each limit then refuses only its own module.
     pub(super) fn named(&self, name: &str) -> String {
         let text = self.text();
         let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
