@@ -1,41 +1,44 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Makes frames of packets. A frame ends with its END, or with the first packet of a later one.
+//! Assembles frames from packets. A frame ends with its END, or with the first packet of a later
+//! frame.
 //!
-//! A packet of a frame that is over is ignored. Two FRAMEs in a row whose numbers are over, and follow each other, say
-//! that the stream counts otherwise now: one wrong number must not make all frames after it late.
+//! A packet of a frame that has ended is ignored. Two FRAMEs in a row that name ended frames with
+//! consecutive numbers show that the sender has restarted its count. Without this rule, one wrong
+//! number would make all later frames late.
 
 use crate::{FrameInfo, Layout, Loss, Packet, PacketError, ReceivedFrame};
 
-/// The frame that is being received, and what was missing so far.
+/// Assembles frames from packets, and lists the losses.
 #[derive(Debug)]
 pub struct Assembler {
     layout: Layout,
     open: Option<ReceivedFrame>,
-    /// Number of the frame that came last.
+    /// The number of the frame that began last.
     last: Option<u32>,
-    /// Number of the last FRAME, if that came too late.
+    /// The number of the last FRAME, if that came too late.
     late: Option<u32>,
     losses: Vec<Loss>,
 }
 
 impl Assembler {
-    /// Nothing received yet.
+    /// Makes an assembler that has received nothing.
     #[must_use]
     pub fn new(layout: Layout) -> Self {
         Self { layout, open: None, last: None, late: None, losses: Vec::new() }
     }
 
-    /// The packets that are expected.
+    /// Returns the layout of the packets that are expected.
     #[must_use]
     pub fn layout(&self) -> &Layout {
         &self.layout
     }
 
-    /// Takes a packet of frame `number`. Returns a frame if it is known now that nothing more comes of it. A REGISTER
-    /// is of no frame and changes nothing.
+    /// Takes a packet of frame `number`. Returns the frames that are complete now: the frame
+    /// before, if this packet ended it, and the frame of this packet, if the packet is its END. A
+    /// REGISTER belongs to no frame and changes nothing.
     ///
     /// # Errors
-    /// When it is of another format or design.
+    /// Fails if a FRAME has another version of the format or belongs to another design.
     pub fn push(
         &mut self,
         number: u32,
@@ -51,7 +54,7 @@ impl Assembler {
         };
         let is_open = self.open.as_ref().is_some_and(|open| open.number == number);
         let is_first = info.as_ref().is_some_and(|info| info.first);
-        // Numbers wrap around.
+        // The comparison is modulo 2^32, because frame numbers wrap around.
         let is_late =
             self.last.is_some_and(|last| number.wrapping_sub(last).wrapping_sub(1) >= 1 << 31);
         let recounts = info.is_some()
@@ -62,7 +65,7 @@ impl Assembler {
             self.late = Some(number).filter(|_| is_late && !is_open && !is_first && !recounts);
         }
         let restarts = is_first || recounts;
-        // A frame begins with its FRAME; packets that came before are not of it.
+        // A frame begins with its FRAME; packets that came before it do not belong to it.
         let is_begun = self.open.as_ref().is_some_and(|open| open.info.is_some());
         if is_open && !is_begun && info.is_some() && !is_first {
             self.losses.push(Loss::Misplaced { frame: number, count: 1 });
@@ -99,19 +102,19 @@ impl Assembler {
         Ok([ended, last])
     }
 
-    /// Ends the frame that is open, as the end of the stream does.
+    /// Ends the frame that is open, as at the end of the stream.
     pub fn end(&mut self) -> Option<ReceivedFrame> {
         let mut open = self.open.take()?;
         self.losses.extend(open.conclude(&self.layout));
         Some(open)
     }
 
-    /// Notes something that is missing.
+    /// Records a loss that was found elsewhere.
     pub fn lose(&mut self, loss: Loss) {
         self.losses.push(loss);
     }
 
-    /// What was missing since this was asked last.
+    /// Returns the losses since the last call.
     pub fn losses(&mut self) -> Vec<Loss> {
         std::mem::take(&mut self.losses)
     }
@@ -130,10 +133,10 @@ impl Assembler {
         self.open = Some(ReceivedFrame::new(number, info, &self.layout));
     }
 
-    /// Checks that a FRAME is of this design and format.
+    /// Checks that a FRAME belongs to this design and format.
     ///
     /// # Errors
-    /// When it is not.
+    /// Fails if the version, the fingerprint or another field differs.
     pub fn check(&self, frame: u32, info: &FrameInfo) -> Result<(), PacketError> {
         let own = self.layout.info();
         if info.version != own.version {

@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Times of frames in microseconds since the first one, from times in ticks that may be wrong.
+//! Converts the times of frames from ticks, which may be wrong, to microseconds since the first
+//! frame.
 
 use crate::FrameInfo;
 
-/// Longest time from one frame to the next, in seconds. A time further away is taken for damage.
+/// The longest time from one frame to the next, in seconds. A longer step is treated as damage.
 pub const LONGEST_GAP_SECONDS: u64 = 86_400;
 const MICROSECONDS: u128 = 1_000_000;
 
-/// The times of a stream, which never go back. A frame whose time cannot be right has that of the frame before it, and times go on
-/// from there; so have the first frames of cameras that count anew.
+/// Computes the times of a stream, which never go back. A frame with an impossible time gets the
+/// time of the frame before it, and later times are counted from there. The same holds for the
+/// first frame after a camera has restarted its count.
 #[derive(Clone, Debug, Default)]
 pub struct FrameClock {
     last: Option<ClockReference>,
@@ -17,23 +19,23 @@ pub struct FrameClock {
 /// The time of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct FrameTime {
-    /// Microseconds since the first frame.
+    /// The time since the first frame, in microseconds.
     pub time_us: u64,
-    /// Whether what the frame says cannot be right.
+    /// Whether the time in the FRAME is impossible.
     pub is_wrong: bool,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct ClockReference {
-    /// Ticks and microseconds from which times are counted.
+    /// The ticks and the microseconds from which times are counted.
     start: (u64, u64),
-    /// The frame before.
+    /// The ticks of the previous frame.
     ticks: u64,
     time_us: u64,
 }
 
 impl FrameClock {
-    /// The time of the next frame.
+    /// Returns the time of the next frame.
     pub fn take(&mut self, info: &FrameInfo) -> FrameTime {
         let per_second = u64::from(info.ticks_per_second.max(1));
         let ticks = info.time;

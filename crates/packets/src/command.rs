@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Commands to a core on a serial line, which are REGISTER packets as its answers are.
+//! Commands to a core on a serial line. A command is a REGISTER packet, and so is its answer.
 
 use crate::{Register, write};
 
-/// Asks a board to read or write a register.
+/// A command to a board to read or write a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Command(Register);
 
 impl Command {
-    /// Reads a register.
+    /// Makes a command that reads a register.
     #[must_use]
     pub fn read(address: u16) -> Self {
         Self(Register { address, written: false, value: 0 })
     }
 
-    /// Writes a register.
+    /// Makes a command that writes a register.
     #[must_use]
     pub fn write(address: u16, value: u32) -> Self {
         Self(Register { address, written: true, value })
     }
 
-    /// What is sent over the line.
+    /// Returns the bytes that are sent over the line.
     #[must_use]
     pub fn bytes(self) -> Vec<u8> {
         let mut bytes = Vec::new();
@@ -28,7 +28,7 @@ impl Command {
         bytes
     }
 
-    /// Whether this answers it.
+    /// Returns whether `answer` answers this command.
     #[must_use]
     pub fn is_answered_by(self, answer: Register) -> bool {
         let Self(asked) = self;

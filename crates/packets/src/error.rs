@@ -1,90 +1,91 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a stream cannot be read at all, or a packet not be written. Damage is no error: it is reported as losses.
+//! The errors of this crate: a stream cannot be read at all, or a packet cannot be written. Damage
+//! is no error: it is reported as losses.
 
 use thiserror::Error;
 
-/// A stream of something else, or a packet that its format has no room for.
+/// An error in the format of a stream or of a packet to be written.
 #[derive(Clone, Debug, PartialEq, Eq, Error)]
 #[non_exhaustive]
 pub enum PacketError {
-    /// There is no FRAME.
+    /// The stream has no FRAME packet.
     #[error(
         "`{stream}` has no FRAME packet in its {bytes} bytes; it must be a stream of region packets, such as `foveate \
          simulate --packets` writes"
     )]
     NoFrame {
-        /// What was read.
+        /// The name of the stream.
         stream: String,
-        /// Its length.
+        /// The length of the stream in bytes.
         bytes: u64,
     },
-    /// A format of another time.
+    /// The stream has another version of the format.
     #[error(
         "frame {frame} of the stream has version {version} of the packet format; this program reads version 1"
     )]
     Version {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
-        /// Its version.
+        /// The version in its FRAME.
         version: u16,
     },
-    /// A stream of another design.
+    /// The stream belongs to another design.
     #[error(
         "frame {frame} of the stream was sent by design {stream:016x}, but the configuration makes design {given:016x} of \
          its {width}x{height} pixels; give the configuration of the camera that sent it"
     )]
     Design {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
-        /// Fingerprint in the stream.
+        /// The fingerprint in the stream.
         stream: u64,
-        /// Fingerprint of the design that was given.
+        /// The fingerprint of the given design.
         given: u64,
-        /// Frame width in the stream.
+        /// The width of a frame in the stream, in pixels.
         width: u16,
-        /// Frame height in the stream.
+        /// The height of a frame in the stream, in pixels.
         height: u16,
     },
-    /// The right fingerprint, and yet other packets.
+    /// The fingerprint is that of the design, but another field of the FRAME differs.
     #[error(
         "frame {frame} of the stream has design {stream:016x}, but not its {what}; the sender breaks the format"
     )]
     Fields {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
-        /// Fingerprint in the stream.
+        /// The fingerprint in the stream.
         stream: u64,
-        /// What differs.
+        /// The name of the field that differs.
         what: &'static str,
     },
-    /// A number that is out of the range of its field, or of the design.
+    /// A number is outside the range of its field, or of the design.
     #[error("the {field} of a packet cannot be {value}: it is {least} to {most}")]
     Field {
-        /// Which.
+        /// The name of the field.
         field: &'static str,
         /// The number.
         value: u64,
-        /// The smallest that the field takes.
+        /// The smallest allowed number.
         least: u64,
-        /// The largest that it takes.
+        /// The largest allowed number.
         most: u64,
     },
-    /// More or less than a packet of the design carries.
+    /// The number of values differs from that in such a packet of the design.
     #[error("a {packet} of this design carries {right} {what}, not {found}")]
     Count {
         /// The type of the packet.
         packet: &'static str,
-        /// The quantity in the field.
+        /// The name of the values.
         what: &'static str,
-        /// The value that was given.
+        /// The number of values that were given.
         found: usize,
-        /// The largest value of the field.
+        /// The number of values in such a packet of the design.
         right: usize,
     },
 }
 
 impl PacketError {
-    /// Number of the frame that is refused, if there is one.
+    /// Returns the number of the frame that is refused, if there is one.
     #[must_use]
     pub fn frame(&self) -> Option<u32> {
         match *self {

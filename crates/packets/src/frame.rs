@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as it was received: what came of it, and what is missing.
+//! A received frame: its decisions, its regions and its losses.
 
 use foveate_design::{Action, Irrelevant};
 
 use crate::word::index;
 use crate::{Decision, End, FrameInfo, Layout, Loss, Region, Row, Scores};
 
-/// What came of a region.
+/// The pixels or means that were received for a region.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Content {
-    /// Its N x N pixels.
+    /// The N x N pixels of the region.
     Pixels(Vec<u16>),
-    /// The q x q means of its blocks.
+    /// The q x q means of the blocks of the region.
     Means(Vec<u16>),
 }
 
-/// A frame that has ended. Regions are numbered row by row.
+/// A received frame that has ended. Regions are numbered row by row.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct ReceivedFrame {
-    /// Its number in the stream.
+    /// The number of the frame in the stream.
     pub number: u32,
-    /// What its FRAME says; none where that is missing.
+    /// The content of its FRAME; `None` if the FRAME is missing.
     pub info: Option<FrameInfo>,
-    /// Decisions; neither relevant where they are not known.
+    /// The decision of each region; without SRS and TRS if it is not known.
     pub decisions: Vec<Decision>,
-    /// Changed pixels; 0 where they are not known.
+    /// The number of changed pixels of each region; 0 if it is not known.
     pub temporal_count: Vec<u32>,
-    /// Scores, by feature and then by region; 0 where they are not known.
+    /// The scores, by feature and then by region; 0 if they are not known.
     pub scores: Vec<Vec<u64>>,
-    /// What came of each region.
+    /// The received pixels or means of each region; `None` if nothing was received.
     pub contents: Vec<Option<Content>>,
     rows: Vec<Known>,
     end: Option<End>,
     misplaced: u32,
 }
 
-/// What is known of a row of regions.
+/// Which packets of a row of regions were received.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 struct Known {
     decisions: bool,
@@ -59,7 +59,8 @@ impl ReceivedFrame {
         }
     }
 
-    /// What becomes of every region on the screen. A region of which nothing came stays as it is.
+    /// Returns the effect of the frame on every region of the screen. A region for which nothing
+    /// was received stays as it is.
     #[must_use]
     pub fn actions(&self, irrelevant: Irrelevant) -> Vec<Action> {
         let all = self.decisions.iter().zip(&self.contents).enumerate();
@@ -113,7 +114,8 @@ impl ReceivedFrame {
         }
     }
 
-    /// Counts a packet that is ignored; a stream may repeat one without end.
+    /// Counts a packet that is ignored. The count saturates, because a stream may repeat a packet
+    /// without end.
     fn misplace(&mut self) {
         self.misplaced = self.misplaced.saturating_add(1);
     }
@@ -122,7 +124,7 @@ impl ReceivedFrame {
         self.end = Some(end);
     }
 
-    /// Settles what was decided against what came, and lists what is missing.
+    /// Compares the decisions with the received regions, and returns the losses.
     pub(crate) fn conclude(&mut self, layout: &Layout) -> Vec<Loss> {
         let (frame, mut losses) = (self.number, Vec::new());
         if self.info.is_none() {
@@ -144,7 +146,8 @@ impl ReceivedFrame {
         for (region, ((decision, content), is_decided)) in regions.enumerate() {
             let came = content.as_ref().map(|content| matches!(content, Content::Means(_)));
             if !is_decided {
-                // What came says what was decided; of TRS nothing with a summary.
+                // The decision is derived from the received packet; a summary tells nothing about
+                // TRS.
                 let active = came == Some(false);
                 *decision = Decision { srs: active, trs: active, summary: came == Some(true) };
                 continue;
@@ -174,7 +177,7 @@ impl ReceivedFrame {
     }
 }
 
-/// Replaces values from a place on.
+/// Replaces the values from index `at` on.
 fn put<T>(values: &mut [T], at: usize, with: Vec<T>) {
     values.iter_mut().skip(at).zip(with).for_each(|(value, with)| *value = with);
 }

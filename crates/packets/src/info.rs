@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What every frame says of itself and of its camera.
+//! The description of a frame and its camera in every FRAME packet.
 
-/// What a FRAME says.
+/// The content of a FRAME packet.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FrameInfo {
-    /// Version of the format.
+    /// The version of the format.
     pub version: u16,
-    /// Fingerprint of the design.
+    /// The fingerprint of the design.
     pub fingerprint: u64,
-    /// Ticks of `time` in a second.
+    /// The number of ticks per second of `time`.
     pub ticks_per_second: u32,
-    /// Frame width W in pixels.
+    /// The frame width W in pixels.
     pub width: u16,
-    /// Frame height H in pixels.
+    /// The frame height H in pixels.
     pub height: u16,
-    /// Regions side by side.
+    /// The number of columns of regions.
     pub columns: u16,
-    /// Regions one below the other.
+    /// The number of rows of regions.
     pub rows: u16,
-    /// Side of a region N.
+    /// The side N of a region in pixels.
     pub side: u8,
-    /// Bits of a pixel P.
+    /// The number P of bits of a pixel.
     pub pixel_bits: u8,
-    /// Blocks per side of a summary q; 0 where none are sent.
+    /// The number q of blocks along a side of a region; 0 without summaries.
     pub blocks: u8,
-    /// What is shown of irrelevant regions: 0 zero, 1 hold, 2 mean.
+    /// The content of irrelevant regions: 0 zero, 1 hold, 2 mean.
     pub irrelevant: u8,
     /// Whether pixels are raw.
     pub raw: bool,
     /// Whether scores are sent.
     pub has_scores: bool,
-    /// Whether it is the first frame since reset.
+    /// Whether this is the first frame since reset.
     pub first: bool,
-    /// When the frame began, in ticks.
+    /// The time at which the frame began, in ticks.
     pub time: u64,
 }

@@ -1,40 +1,44 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How long the packets of a design are, and what their fields may be.
+//! The lengths of the packets of a design, and the ranges of their fields.
 
 use foveate_design::{Camera, Design, Irrelevant, Payload};
 
 use crate::word::{field, index, narrow, small};
 use crate::{FrameInfo, PacketError};
 
-/// Version of the format, in every FRAME.
+/// The version of the format, in every FRAME.
 pub const VERSION: u16 = 1;
 /// The second word of a FRAME, as bytes.
 pub const MAGIC: [u8; 8] = *b"FOVEATE\n";
 /// The first byte of every packet.
 pub(crate) const MARK: u8 = 0xFA;
-/// Bytes of a word.
+/// The number of bytes of a word.
 pub(crate) const WORD: usize = 8;
-/// Words of a FRAME, of an END and of a REGISTER.
+/// The number of words of a FRAME.
 pub(crate) const FRAME_WORDS: usize = 7;
+/// The number of words of an END.
 pub(crate) const END_WORDS: usize = 3;
+/// The number of words of a REGISTER.
 pub(crate) const REGISTER_WORDS: usize = 3;
-/// Words around what a packet carries: head and tail.
+/// The number of words around the payload of a packet: its head and its tail.
 pub(crate) const AROUND: usize = 2;
 
-/// What follows from a design for its packets.
+/// The properties of a design that determine its packets.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layout {
     info: FrameInfo,
-    /// Largest score of each feature.
+    /// The largest score of each feature.
     score_max: Vec<u64>,
 }
 
 impl Layout {
-    /// The packets of a design, with or without scores, whose times count `ticks_per_second`.
+    /// Makes the layout of a design's packets, with or without scores. Times count
+    /// `ticks_per_second`.
     ///
     /// # Errors
-    /// When a size of the design or the length of one of its packets does not fit into its field, and when there is no tick in
-    /// a second. The packets of every design for frames of a configuration fit.
+    /// Fails if a size of the design or the length of one of its packets does not fit into its
+    /// field, or if `ticks_per_second` is 0. The packets of every design that a configuration can
+    /// describe fit.
     pub fn new(
         design: &Design,
         has_scores: bool,
@@ -49,7 +53,7 @@ impl Layout {
         Ok(layout)
     }
 
-    /// The same without a look at lengths.
+    /// Makes the layout without a check of lengths and of the unit of time.
     fn of(design: &Design, has_scores: bool, ticks_per_second: u32) -> Result<Self, PacketError> {
         let camera: &Camera = design;
         let info = FrameInfo {
@@ -80,88 +84,89 @@ impl Layout {
         Ok(Self { info, score_max: score_max.collect() })
     }
 
-    /// What every FRAME of the design says, time and first left open.
+    /// Returns the content of every FRAME of the design, in which `time` is 0 and `first` is false.
     #[must_use]
     pub fn info(&self) -> &FrameInfo {
         &self.info
     }
 
-    /// Regions side by side.
+    /// Returns the number of columns of regions.
     #[must_use]
     pub fn columns(&self) -> u32 {
         self.info.columns.into()
     }
 
-    /// Regions one below the other.
+    /// Returns the number of rows of regions.
     #[must_use]
     pub fn rows(&self) -> u32 {
         self.info.rows.into()
     }
 
-    /// Regions of a frame.
+    /// Returns the number of regions of a frame.
     pub(crate) fn regions(&self) -> usize {
         index(self.columns()) * index(self.rows())
     }
 
-    /// Whether irrelevant regions send summaries.
+    /// Returns whether irrelevant regions send summaries.
     #[must_use]
     pub fn has_periphery(&self) -> bool {
         self.info.blocks > 0
     }
 
-    /// Bytes of a pixel or mean.
+    /// Returns the number of bytes of a pixel or mean.
     pub(crate) fn lane(&self) -> usize {
         if self.info.pixel_bits <= 8 { 1 } else { 2 }
     }
 
-    /// Largest pixel.
+    /// Returns the largest pixel value.
     pub(crate) fn pixel_max(&self) -> u16 {
         u16::MAX >> 16u8.saturating_sub(self.info.pixel_bits)
     }
 
-    /// Bits that a ROW has for each region.
+    /// Returns the number of bits that a ROW has for each region.
     pub(crate) fn decision_bits(&self) -> usize {
         if self.has_periphery() { 4 } else { 2 }
     }
 
-    /// Pixels of a region, or means of a summary.
+    /// Returns the number of pixels of a region, or of means of a summary.
     #[must_use]
     pub fn values(&self, summary: bool) -> usize {
         let side = usize::from(if summary { self.info.blocks } else { self.info.side });
         side * side
     }
 
-    /// Bytes of a ROW.
+    /// Returns the number of bytes of a ROW.
     #[must_use]
     pub fn row_bytes(&self) -> usize {
         packet(index(self.columns()) * self.decision_bits(), 8 * WORD)
     }
 
-    /// Bytes of a SCORES.
+    /// Returns the number of bytes of a SCORES.
     #[must_use]
     pub fn scores_bytes(&self) -> usize {
         packet(index(self.columns()) * self.record(), WORD)
     }
 
-    /// Bytes of a REGION with pixels or with means.
+    /// Returns the number of bytes of a REGION with pixels or with means.
     #[must_use]
     pub fn region_bytes(&self, summary: bool) -> usize {
         packet(self.values(summary) * self.lane(), WORD)
     }
 
-    /// Bytes of a FRAME.
+    /// Returns the number of bytes of a FRAME.
     #[must_use]
     pub fn frame_bytes(&self) -> usize {
         FRAME_WORDS * WORD
     }
 
-    /// Bytes of an END.
+    /// Returns the number of bytes of an END.
     #[must_use]
     pub fn end_bytes(&self) -> usize {
         END_WORDS * WORD
     }
 
-    /// The scores of a region: largest value and bytes of each, changed pixels first.
+    /// Returns the largest value and the number of bytes of each score of a region, changed pixels
+    /// first.
     pub(crate) fn scores(&self) -> impl Iterator<Item = (u64, usize)> + '_ {
         let pixels = u64::try_from(self.values(false)).unwrap_or(u64::MAX);
         let lane = |max: u64| match max {
@@ -173,19 +178,21 @@ impl Layout {
         all.map(move |max| (max, lane(max)))
     }
 
-    /// Bytes of the scores of a region: each lies at a multiple of its own size, all end with a word.
+    /// Returns the number of bytes of the scores of a region. Each score is aligned to its own
+    /// size, and the record ends at a word.
     pub(crate) fn record(&self) -> usize {
         let end = self.scores().fold(0usize, |at, (_, bytes)| at.next_multiple_of(bytes) + bytes);
         end.next_multiple_of(WORD)
     }
 }
 
-/// Bytes of a packet that carries `amount` units, of which so many fill a word.
+/// Returns the number of bytes of a packet that carries `amount` units, of which `in_word` fill a
+/// word.
 fn packet(amount: usize, in_word: usize) -> usize {
     (amount.div_ceil(in_word) + AROUND) * WORD
 }
 
-/// The fingerprint of a design as a number: its hexadecimal digits.
+/// Returns the fingerprint of a design as a number, whose hexadecimal digits it is.
 fn fingerprint(design: &Design) -> u64 {
     let digits = design.fingerprint();
     u64::from_str_radix(&digits, 16).unwrap_or_else(|_| unreachable!("16 digits, not {digits}"))

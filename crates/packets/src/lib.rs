@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a camera sends, as packets: the format of `docs/packets.md`.
+//! The packets that a camera sends, in the format of `docs/packets.md`.
 //!
-//! A [`Layout`] says how long every packet of a design is. [`write`](mod@write) makes packets, [`Splitter`] finds them in
-//! bytes that may be damaged, and [`Assembler`] makes frames of them, with a list of what is missing.
-//! Knows neither files nor what computes a frame.
+//! A [`Layout`] gives the length of every packet of a design. [`write`](mod@write) makes packets,
+//! [`Splitter`] finds them in bytes that may be damaged, and [`Assembler`] makes frames from them,
+//! with a list of losses. The crate accesses no files and does not depend on the code that computes
+//! a frame.
 
 mod assemble;
 mod clock;

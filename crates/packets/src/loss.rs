@@ -1,88 +1,89 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is missing from a stream.
+//! The losses of a stream.
 
 use std::fmt;
 
-/// Something that is not there, or cannot be used.
+/// A part of a stream that is missing or cannot be used.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Loss {
-    /// Bytes that are no packet.
+    /// Bytes that belong to no packet.
     Bytes {
-        /// Where they begin.
+        /// The offset of the first byte in the stream.
         offset: u64,
-        /// How many.
+        /// The number of bytes.
         bytes: u64,
     },
-    /// The stream begins in the middle of a run: nothing is known of the screen before.
+    /// The stream begins in the middle of a run, so the screen before it is unknown.
     Start {
-        /// The first frame.
+        /// The number of the first frame.
         frame: u32,
     },
-    /// Frames of which nothing came.
+    /// Frames without any packet.
     Frames {
-        /// The first of them.
+        /// The number of the first missing frame.
         frame: u32,
-        /// How many.
+        /// The number of missing frames.
         count: u32,
     },
-    /// The FRAME of a frame, and with it its time: the frame is not written.
+    /// The FRAME of a frame is missing, and with it the time: the frame is not written.
     Frame {
-        /// Its number.
+        /// The number of the frame.
         frame: u32,
     },
-    /// The decisions of a row.
+    /// The decisions of a row of regions are missing.
     Row {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
-        /// Row of regions.
+        /// The row of regions.
         row: u32,
         /// Whether the camera may have dropped them.
         dropped: bool,
     },
-    /// The scores of a row.
+    /// The scores of a row of regions are missing.
     Scores {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
-        /// Row of regions.
+        /// The row of regions.
         row: u32,
     },
-    /// The pixels or means of a region.
+    /// The pixels or means of a region are missing.
     Region {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
-        /// Row of regions.
+        /// The row of regions.
         row: u32,
-        /// Column of regions.
+        /// The column of regions.
         column: u32,
-        /// Whether the camera may have dropped it.
+        /// Whether the camera may have dropped the region.
         dropped: bool,
     },
-    /// The END of a frame.
+    /// The END of a frame is missing.
     End {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
     },
-    /// Packets that contradict others, or come too late.
+    /// Packets contradict others or come too late.
     Misplaced {
-        /// The frame that they name.
+        /// The number of the frame in these packets.
         frame: u32,
-        /// How many.
+        /// The number of packets.
         count: u32,
     },
-    /// The time of a frame that lies before the frame before, or too far behind it.
+    /// The time of a frame is before that of the previous frame, or too far after it.
     Time {
-        /// Number of the frame.
+        /// The number of the frame.
         frame: u32,
     },
-    /// A FRAME of another camera or format, with all packets up to the next FRAME of this camera.
+    /// A FRAME comes from another camera or has another format. It is ignored with all packets up
+    /// to the next FRAME of this camera.
     Foreign {
-        /// The frame that it names.
+        /// The number of the frame in the ignored FRAME.
         frame: u32,
     },
 }
 
 impl Loss {
-    /// What it is, in a word.
+    /// Returns the kind of the loss as one word.
     #[must_use]
     pub fn kind(&self) -> &'static str {
         match self {
@@ -102,7 +103,8 @@ impl Loss {
         }
     }
 
-    /// Frame, row, column, how many, and offset in the stream, as far as they are known.
+    /// Returns the frame, the row, the column, the count, and the offset in the stream, as far as
+    /// they are known.
     #[must_use]
     pub fn fields(&self) -> [Option<u64>; 5] {
         let some = |value: u32| Some(u64::from(value));

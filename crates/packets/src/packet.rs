@@ -1,103 +1,103 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Packets as values, and their checks: bytes that are not exactly a packet of the layout are none.
+//! Packets as values, and their checks: only bytes that exactly match the layout are a packet.
 
 use crate::FrameInfo;
 use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, REGISTER_WORDS, WORD};
 use crate::word::{byte, half, index, short, word};
 
-/// What was decided of a region.
+/// The decision of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Decision {
-    /// Spatial relevance.
+    /// The spatial relevance of the region.
     pub srs: bool,
-    /// Temporal relevance.
+    /// The temporal relevance of the region.
     pub trs: bool,
-    /// Whether its summary is sent.
+    /// Whether the summary of the region is sent.
     pub summary: bool,
 }
 
-/// The decisions of a row of regions.
+/// The content of a ROW packet: the decisions of a row of regions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Row {
-    /// Number of the row.
+    /// The number of the row.
     pub row: u32,
-    /// One per region.
+    /// The decision of each region.
     pub decisions: Vec<Decision>,
 }
 
-/// The scores of a row of regions.
+/// The content of a SCORES packet: the scores of a row of regions.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Scores {
-    /// Number of the row.
+    /// The number of the row.
     pub row: u32,
-    /// Changed pixels of each region.
+    /// The number of changed pixels of each region.
     pub temporal_count: Vec<u32>,
-    /// Scores, by feature and then by region.
+    /// The scores, by feature and then by region.
     pub scores: Vec<Vec<u64>>,
 }
 
-/// What is special about a REGION.
+/// The flags of a REGION packet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RegionFlags {
-    /// Pixels, or those of the means, are raw.
+    /// Whether the pixels, or the pixels that were averaged, are raw.
     pub raw: bool,
-    /// Means in place of pixels.
+    /// Whether the packet has means in place of pixels.
     pub summary: bool,
 }
 
-/// The pixels or means of a region.
+/// The content of a REGION packet: the pixels or means of a region.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Region {
-    /// Row of regions.
+    /// The row of the region.
     pub row: u32,
-    /// Column of regions.
+    /// The column of the region.
     pub column: u32,
-    /// What is special about it.
+    /// The flags of the packet.
     pub flags: RegionFlags,
-    /// N x N pixels, or q x q means, row by row.
+    /// The N x N pixels, or the q x q means, in row-major order.
     pub values: Vec<u16>,
 }
 
-/// What an END says of its frame.
+/// The content of an END packet.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct End {
-    /// REGION packets that were sent.
+    /// The number of REGION packets of the frame.
     pub regions_sent: u32,
-    /// Regions that were dropped by the camera.
+    /// The number of regions of the frame that the camera dropped.
     pub regions_dropped: u32,
-    /// ROW packets that were dropped by the camera.
+    /// The number of ROW packets of the frame that the camera dropped.
     pub rows_dropped: u32,
 }
 
-/// What a REGISTER says.
+/// The content of a REGISTER packet.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Register {
-    /// Address in bytes.
+    /// The address of the register in bytes.
     pub address: u16,
-    /// Whether it is or was written, not read.
+    /// Whether the register is or was written, as opposed to read.
     pub written: bool,
-    /// What is or was written, or was read; 0 in a command to read.
+    /// The value that is written, was written or was read; 0 in a command to read.
     pub value: u32,
 }
 
-/// A packet.
+/// A packet of a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Packet {
     /// The beginning of a frame.
     Frame(FrameInfo),
-    /// Decisions.
+    /// The decisions of a row of regions.
     Row(Row),
-    /// Scores.
+    /// The scores of a row of regions.
     Scores(Scores),
-    /// Pixels or means.
+    /// The pixels or means of a region.
     Region(Region),
     /// The end of a frame.
     End(End),
-    /// An answer of a board, or a command to it. It belongs to no frame.
+    /// A command to a board, or the answer to one. It belongs to no frame.
     Register(Register),
 }
 
-/// Numbers of the types.
+/// The type number of a FRAME in the head of a packet. The other types follow.
 pub(crate) const FRAME: u8 = 1;
 pub(crate) const ROW: u8 = 2;
 pub(crate) const SCORES: u8 = 3;
@@ -116,8 +116,8 @@ pub(crate) struct Head {
 }
 
 impl Head {
-    /// The head that these bytes begin with, if it can be that of a packet. Without a layout only that of a
-    /// FRAME or of a REGISTER can.
+    /// Parses the head at the beginning of these bytes; `None` if no packet can have it. Without a
+    /// layout, only the head of a FRAME or of a REGISTER is accepted.
     pub(crate) fn of(bytes: &[u8], layout: Option<&Layout>) -> Option<Self> {
         let word = word(bytes)?;
         let kind_and_flags = byte(word, 8);
@@ -131,7 +131,7 @@ impl Head {
         (byte(word, 0) == MARK && head.fits(layout)).then_some(head)
     }
 
-    /// Whether length, place and flags can be those of a packet.
+    /// Returns whether the length, the row, the column and the flags are possible for the type.
     fn fits(self, layout: Option<&Layout>) -> bool {
         match self.kind {
             FRAME => return self.flags <= 1 && self.words == FRAME_WORDS && self.column == 0,
@@ -177,7 +177,8 @@ impl RegionFlags {
 }
 
 impl Packet {
-    /// The packet that these bytes are, and the number of its frame; none if they are not exactly one. `head` is theirs.
+    /// Parses these bytes, which begin with `head`, to a packet and the number of its frame; `None`
+    /// if they are not exactly one packet.
     pub(crate) fn of(bytes: &[u8], head: Head, layout: Option<&Layout>) -> Option<(u32, Self)> {
         let (before, tail) = bytes.split_last_chunk::<WORD>()?;
         let tail = u64::from_le_bytes(*tail);
@@ -200,7 +201,8 @@ impl Packet {
     }
 }
 
-/// What a FRAME says. One of another version is a FRAME, too: whoever reads it must know that it cannot be read.
+/// Parses the payload of a FRAME. A FRAME of another version is accepted, too, so that the reader
+/// can report the version.
 fn frame(head: Head, carried: &[u8]) -> Option<FrameInfo> {
     if !carried.starts_with(&MAGIC) {
         return None;
@@ -236,7 +238,7 @@ fn row(head: Head, carried: &[u8], layout: &Layout) -> Option<Row> {
     };
     let decisions = (0..index(layout.columns())).map(|region| {
         let code = code(region)?;
-        // A summary is sent of an irrelevant region only.
+        // Only an irrelevant region sends a summary.
         let possible = code & 0b1000 == 0 && code & 0b101 != 0b101;
         possible.then_some(Decision {
             srs: code & 1 != 0,

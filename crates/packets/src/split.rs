@@ -1,44 +1,44 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds packets in bytes. What is no packet is passed over byte by byte, so that the next whole packet is found
-//! wherever it begins.
+//! Finds packets in bytes. Bytes that belong to no packet are skipped one by one, so the next whole
+//! packet is found wherever it begins.
 
 use crate::layout::{MARK, WORD};
 use crate::packet::Head;
 use crate::{Layout, Packet};
 
-/// So many bytes that are no packet are reported, even if more of them follow: noise without end is noticed.
+/// The number of skipped bytes that are reported at the latest, so that endless noise is noticed.
 const REPORTED: u64 = 1 << 20;
 
-/// What comes next in a stream.
+/// The next item of a stream.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Found {
     /// A packet.
     Packet {
-        /// Number of its frame.
+        /// The number of its frame.
         frame: u32,
         /// The packet.
         packet: Packet,
     },
-    /// Bytes that are no packet.
+    /// Bytes that belong to no packet.
     Skipped {
-        /// Where they begin.
+        /// The offset of the first byte in the stream.
         offset: u64,
-        /// How many there are.
+        /// The number of bytes.
         bytes: u64,
     },
-    /// More bytes are needed to say, or there are no more.
+    /// The splitter needs more bytes, or the stream has ended.
     Nothing,
 }
 
-/// Bytes on their way to packets.
+/// Splits the bytes of a stream into packets.
 #[derive(Debug, Default)]
 pub struct Splitter {
     bytes: Vec<u8>,
-    /// Bytes of them that are done with.
+    /// The number of bytes at the front of `bytes` that are consumed.
     at: usize,
-    /// Where `bytes` begin in the stream.
+    /// The offset of `bytes` in the stream.
     offset: u64,
-    /// Bytes before `at` that are not reported yet.
+    /// The number of bytes before `at` that were skipped and are not reported yet.
     skipped: u64,
     is_complete: bool,
 }
@@ -52,19 +52,19 @@ impl Splitter {
         self.bytes.extend_from_slice(bytes);
     }
 
-    /// Bytes of the stream that are done with.
+    /// Returns the number of bytes of the stream that are consumed.
     #[must_use]
     pub fn position(&self) -> u64 {
         self.offset + length(self.at)
     }
 
-    /// There are no more bytes.
+    /// Marks the end of the stream: no bytes follow.
     pub fn complete(&mut self) {
         self.is_complete = true;
     }
 
-    /// What comes next. Without a layout, which the first FRAME gives, only a
-    /// FRAME or a REGISTER is found.
+    /// Returns the next item. Without a layout, which the first FRAME determines, only a FRAME or a
+    /// REGISTER is found.
     pub fn next(&mut self, layout: Option<&Layout>) -> Found {
         while let Some(ahead) = self.bytes.get(self.at..) {
             if self.skipped >= REPORTED {
@@ -97,13 +97,13 @@ impl Splitter {
         if self.is_complete && self.skipped > 0 { self.skipped() } else { Found::Nothing }
     }
 
-    /// Passes over so many bytes.
+    /// Skips this number of bytes.
     fn pass(&mut self, bytes: usize) {
         self.at += bytes;
         self.skipped += length(bytes);
     }
 
-    /// Reports what was passed over.
+    /// Reports the skipped bytes.
     fn skipped(&mut self) -> Found {
         let bytes = std::mem::take(&mut self.skipped);
         Found::Skipped { offset: self.position() - bytes, bytes }

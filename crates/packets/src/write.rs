@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Makes packets: each function appends one to a vector, or nothing where it says that the format has no room for it.
+//! Makes packets. Each function appends one packet to a vector, or appends nothing and fails if the
+//! packet does not fit the format.
 
 use crate::layout::{AROUND, END_WORDS, FRAME_WORDS, Layout, MAGIC, MARK, REGISTER_WORDS, WORD};
 use crate::packet::{END, FRAME, REGION, REGISTER, ROW, SCORES};
 use crate::word::{field, narrow};
 use crate::{Decision, End, PacketError, RegionFlags, Register};
 
-/// Appends the FRAME of frame `number`.
+/// Appends the FRAME of frame `number`. The time is in ticks.
 pub fn frame(out: &mut Vec<u8>, layout: &Layout, number: u32, (time, first): (u64, bool)) {
     let info = layout.info();
     let size = u64::from(info.ticks_per_second)
@@ -30,7 +31,7 @@ pub fn frame(out: &mut Vec<u8>, layout: &Layout, number: u32, (time, first): (u6
 /// Appends the ROW of a row of regions.
 ///
 /// # Errors
-/// When there is no such row, or it has another number of regions.
+/// Fails if there is no such row, or if the number of decisions is not that of its regions.
 pub fn row(
     out: &mut Vec<u8>,
     layout: &Layout,
@@ -51,10 +52,12 @@ pub fn row(
     Ok(())
 }
 
-/// Appends the SCORES of a row of regions; `scores` gives changed pixels and then each score of a region.
+/// Appends the SCORES of a row of regions. `regions` yields, for each region, the number of changed
+/// pixels and then each score.
 ///
 /// # Errors
-/// When there is no such row, or it has another number of regions or of scores, or one that no region of the design reaches.
+/// Fails if there is no such row, if the number of regions or of scores is wrong, or if a score is
+/// larger than a region of the design can have.
 pub fn scores<S: IntoIterator<Item = u64>>(
     out: &mut Vec<u8>,
     layout: &Layout,
@@ -94,10 +97,11 @@ fn record(
     Ok(())
 }
 
-/// Appends a REGION; `place` is its row and column.
+/// Appends a REGION at a row and a column of regions.
 ///
 /// # Errors
-/// When there is no such region, or it has other flags, another number of values, or one that no pixel of the design reaches.
+/// Fails if there is no such region, if the design does not send these flags, if the number of
+/// values is wrong, or if a value is larger than a pixel of the design can be.
 pub fn region(
     out: &mut Vec<u8>,
     layout: &Layout,
@@ -127,7 +131,7 @@ pub fn region(
 /// Appends the END of a frame.
 ///
 /// # Errors
-/// When more rows were dropped than the field holds.
+/// Fails if the number of dropped rows does not fit into its field.
 pub fn end(out: &mut Vec<u8>, number: u32, end: End) -> Result<(), PacketError> {
     let dropped = end.regions_dropped > 0 || end.rows_dropped > 0;
     let row = narrow("dropped rows", end.rows_dropped.into())?;
@@ -146,7 +150,7 @@ pub fn register(out: &mut Vec<u8>, register: Register) {
     packet(out, head, REGISTER_WORDS, 0, |out| out.extend(u64::from(register.value).to_le_bytes()));
 }
 
-/// The fields of a packet's first word beside its length.
+/// The fields of a packet's first word, except for its length.
 #[derive(Clone, Copy)]
 struct PacketFields {
     kind: u8,
@@ -156,19 +160,19 @@ struct PacketFields {
 }
 
 impl PacketFields {
-    /// The fields of a packet about a row of regions.
+    /// Makes the fields of a packet about a row of regions.
     fn of_row(kind: u8, layout: &Layout, row: u32) -> Result<Self, PacketError> {
         let row = below("row", row, layout.rows())?;
         Ok(Self { kind, flags: 0, row, column: layout.info().columns })
     }
 }
 
-/// A number of a row or a column, of which there are so many.
+/// Returns the number of a row or column if it is less than `all`.
 fn below(name: &'static str, number: u32, all: u32) -> Result<u16, PacketError> {
     narrow(name, field(name, number.into(), 0..=u64::from(all).saturating_sub(1))?)
 }
 
-/// Refuses another number of values than a packet carries.
+/// Fails if the number of values differs from the number in such a packet.
 fn count(
     packet: &'static str,
     what: &'static str,
@@ -179,7 +183,8 @@ fn count(
     fits.then_some(()).ok_or(PacketError::Count { packet, what, found, right })
 }
 
-/// Appends a packet of so many words around what `carry` writes: head before, padding to whole words and tail behind.
+/// Appends a packet of `words` words: the head, the payload that `carry` appends, padding to whole
+/// words, and the tail.
 fn packet(
     out: &mut Vec<u8>,
     head: PacketFields,
@@ -187,7 +192,7 @@ fn packet(
     number: u32,
     carry: impl FnOnce(&mut Vec<u8>),
 ) {
-    // A layout has no longer packets.
+    // No packet of a layout is longer.
     let length = u16::try_from(words).unwrap_or_else(|_| unreachable!("{words} words fit"));
     let first = u64::from(MARK)
         | u64::from(head.kind | head.flags << 4) << 8
@@ -205,7 +210,7 @@ fn packet(
 }
 
 impl Decision {
-    /// Its bits in a ROW.
+    /// Returns the bits of the decision in a ROW.
     fn code(self) -> u8 {
         u8::from(self.srs) | u8::from(self.trs) << 1 | u8::from(self.summary) << 2
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Packets whose checks are right and whose numbers are not: a stream from somebody who means no good ends nothing, and costs no more
-//! memory than its bytes.
+//! Packets with correct checksums and wrong numbers. A malicious stream stops nothing, and costs no
+//! more memory than its bytes.
 
 use std::ops::Range;
 
@@ -10,7 +10,7 @@ use foveate_packets::{Assembler, Found, Layout, Loss, ReceivedFrame, Splitter, w
 use crate::damage::cases;
 use crate::stream::{Stream, random, read};
 
-/// Where the packets of a stream lie.
+/// Returns the byte ranges of the packets of a stream.
 fn packets(bytes: &[u8]) -> Vec<Range<usize>> {
     let mut at = 0;
     let next = || {
@@ -22,7 +22,7 @@ fn packets(bytes: &[u8]) -> Vec<Range<usize>> {
     std::iter::from_fn(next).collect()
 }
 
-/// A number that programs get wrong.
+/// Returns a number that programs often handle wrongly.
 fn odd(rng: &mut Rng) -> u64 {
     match rng.u8(0..5) {
         0 => 0,
@@ -33,7 +33,7 @@ fn odd(rng: &mut Rng) -> u64 {
     }
 }
 
-/// Puts another number into a packet, and makes its check right.
+/// Replaces a number in a packet, and corrects its checksum.
 fn forge(rng: &mut Rng, packet: &mut [u8]) {
     let length = [1, 2, 4, 8][rng.usize(0..4)];
     let at = rng.usize(0..(packet.len() - 4 - length) / length + 1) * length;
@@ -43,7 +43,7 @@ fn forge(rng: &mut Rng, packet: &mut [u8]) {
     packet[end..].copy_from_slice(&check.to_le_bytes());
 }
 
-/// The frames and losses that are received from bytes, whether or not a FRAME is refused.
+/// Returns the frames and losses received from bytes, and ignores a FRAME that is refused.
 fn receive(layout: &Layout, bytes: &[u8]) -> (Vec<ReceivedFrame>, Vec<Loss>) {
     let (mut splitter, mut assembler) = (Splitter::default(), Assembler::new(layout.clone()));
     let mut frames = Vec::new();
@@ -80,7 +80,8 @@ fn fuzz_a_stream_goes_on_behind_packets_with_any_numbers() {
         let is_first = forged.clone();
         forged.extend(&bytes[frames[3].start..]);
         let (received, losses) = receive(&layout, &forged);
-        // Two frames at most are lost before it is known how frames are numbered now, and the last is there.
+        // At most two frames are lost before the new numbering is recognized, and the last frame is
+        // received.
         assert!(received.last() == whole.last(), "seed {seed}: {losses:?}");
         let regions = u64::from(layout.columns() * layout.rows());
         let most = (is_first.len() as u64 / 24 + 4) * (4 + 2 * u64::from(layout.rows()) + regions);
@@ -108,7 +109,7 @@ fn a_packet_of_a_later_frame_does_not_become_a_part_of_it() {
     let mut rng = Rng::with_seed(5);
     let Stream { layout, bytes, frames } = random(&mut rng, 4);
     let whole = read(&mut rng, &layout, &bytes).0;
-    // A ROW that says of the last frame what nobody decided.
+    // The forged ROW belongs to the last frame, and its decisions are not those of that frame.
     let at = frames[2].start + layout.frame_bytes();
     let mut forged = bytes[..at].to_vec();
     let decisions = vec![Default::default(); layout.columns().try_into().unwrap()];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Times of frames: exact where they can be right, never going back, and going on behind one that cannot be right.
+//! Times of frames are exact if they are possible. They never go back, and continue after an
+//! impossible one.
 
 use fastrand::Rng;
 use foveate_packets::{FrameClock, FrameInfo, FrameTime, LONGEST_GAP_SECONDS, Layout};
@@ -62,7 +63,7 @@ fn a_time_that_cannot_be_right_is_that_of_the_frame_before() {
             (1_000_000, true),
             (1_002_000, false),
         ];
-        // A time shortly before is no reason to doubt the next.
+        // A time slightly before the last one does not make the next time doubtful.
         let expected = expected.map(|(time_us, is_wrong)| FrameTime { time_us, is_wrong });
         if wrong == 4999 {
             assert_eq!(times[2..4].iter().filter(|time| time.is_wrong).count(), 1);

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Streams that lose, gain and change bytes. Whatever is left whole comes back as it was.
+//! Streams that lose, gain and change bytes. The frames that remain whole are received unchanged.
 
 use fastrand::Rng;
 use foveate_packets::{Loss, ReceivedFrame};
 
 use crate::stream::{Stream, random, read};
 
-/// How often; more with `FOVEATE_FUZZ_CASES`.
+/// Returns the number of random cases; `FOVEATE_FUZZ_CASES` may set more.
 pub(crate) fn cases() -> u64 {
     std::env::var("FOVEATE_FUZZ_CASES").ok().and_then(|text| text.parse().ok()).unwrap_or(400)
 }
 
-/// A few bytes from `at` on, changed in one of many ways; returns the range of the old bytes that is concerned.
+/// Damages a few bytes from `at` on in one of several ways. Returns the range of the affected
+/// original bytes.
 pub(crate) fn damage(rng: &mut Rng, bytes: &mut Vec<u8>, at: usize) -> std::ops::Range<usize> {
     let length = rng.usize(1..200).min(bytes.len() - at);
     match rng.u8(0..4) {
@@ -29,7 +30,7 @@ pub(crate) fn damage(rng: &mut Rng, bytes: &mut Vec<u8>, at: usize) -> std::ops:
             at..at
         }
         _ => {
-            // What looks like the beginning of a packet, again and again.
+            // The noise looks like the beginning of a packet, again and again.
             let copy: Vec<u8> = bytes.iter().copied().cycle().take(8).collect();
             let noise: Vec<u8> = copy.iter().copied().cycle().take(length).collect();
             bytes.splice(at..at + length, noise);
@@ -47,11 +48,11 @@ fn fuzz_what_is_whole_comes_back() {
         let (whole, losses) = read(&mut rng, &layout, &bytes);
         assert_eq!((whole.len(), losses), (6, Vec::new()), "seed {seed}");
         let mut damaged = bytes.clone();
-        // From behind, so that places before stay.
+        // Damage is applied from the end, so that earlier offsets stay valid.
         let mut places: Vec<usize> =
             (0..rng.usize(1..4)).map(|_| rng.usize(0..bytes.len())).collect();
         places.sort_unstable();
-        // So far apart that none changes what another did.
+        // The places are so far apart that no damage overlaps another.
         places.dedup_by(|next, last| *next - *last < 200);
         let touched: Vec<_> =
             places.iter().rev().map(|&at| damage(&mut rng, &mut damaged, at)).collect();
@@ -76,7 +77,7 @@ fn fuzz_what_is_whole_comes_back() {
                 _ => damaged_frames += 1,
             }
         }
-        // No frame comes twice, and none from nowhere.
+        // No frame is received twice, and no frame is invented.
         assert!(received.windows(2).all(|pair| pair[0].number < pair[1].number), "seed {seed}");
         assert!(received.iter().all(|frame| frame.number < 6), "seed {seed}");
     }
@@ -102,7 +103,7 @@ fn a_lost_region_is_named() {
     let mut rng = Rng::with_seed(7);
     let Stream { layout, bytes, .. } = random(&mut rng, 3);
     let region = layout.region_bytes(false);
-    // A head of a REGION with pixels: mark, type 4, summary not set.
+    // A head of a REGION with pixels has the mark, type 4, and no summary flag.
     let is_region = |at: &usize| bytes[*at] == 0xFA && bytes[at + 1] & 0x4F == 4;
     let at = (layout.frame_bytes()..bytes.len() - region).step_by(8).find(is_region).unwrap();
     let damaged = [&bytes[..at], &bytes[at + region..]].concat();

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A value that has no room in its field is refused with the value and the limit; no bit of it is cut, and nothing is appended.
+//! A value that does not fit into its field is refused, and the message has the value and the
+//! limit. No bit is truncated, and nothing is appended.
 
 use foveate_design::Config;
 use foveate_packets::{Decision, End, Layout, PacketError, RegionFlags, write};
 
 use crate::stream::design;
 
-/// 6 x 4 pixels of 4 bits, in 3 x 2 regions of 2 x 2, one mean of each, with scores.
+/// Returns the layout for 6 x 4 pixels of 4 bits, in 3 x 2 regions of 2 x 2, with one mean per
+/// region and with scores.
 fn layout() -> Layout {
     let design = design(
         "frame={width=6,height=4,pixel_bits=4}\nregion.size=2\ntemporal={level=1,min_count=1}\nrender.irrelevant='mean'\n\
@@ -15,7 +17,7 @@ fn layout() -> Layout {
     Layout::new(&design, true, 1000).unwrap()
 }
 
-/// The refusal of a packet, which leaves the output as it was.
+/// Returns the message that refuses a packet, and checks that the output stays unchanged.
 fn refusal(attempt: impl FnOnce(&mut Vec<u8>) -> Result<(), PacketError>) -> String {
     let mut bytes = vec![7; 3];
     let error = attempt(&mut bytes).unwrap_err();
@@ -28,7 +30,8 @@ const PIXELS: RegionFlags = RegionFlags { raw: false, summary: false };
 #[test]
 fn a_packet_that_would_be_longer_than_its_length_says_is_refused() {
     let layout = layout();
-    // 65,536 words of pixels and two around them: the field of 16 bits would say 2.
+    // There are 65,536 words of pixels and two around them, so a length field of 16 bits would hold
+    // 2.
     let pixels = vec![0; 8 * 65_536];
     assert_eq!(
         refusal(|out| write::region(out, &layout, 0, (0, 0), (PIXELS, &pixels))),
@@ -77,7 +80,7 @@ fn a_number_that_does_not_fit_is_refused() {
     let layout = layout();
     let region =
         |value| refusal(|out| write::region(out, &layout, 0, (0, 0), (PIXELS, &[0, value, 0, 0])));
-    // The lane of 8 bits would have 0 of the last.
+    // A lane of 8 bits would hold 0 for the last value.
     for wrong in [16, 255, 256] {
         assert_eq!(
             region(wrong),
@@ -120,14 +123,15 @@ fn flags_that_a_design_does_not_send_are_refused() {
 
 #[test]
 fn a_design_whose_sizes_do_not_fit_has_no_packets() {
-    // A lane serves 1,048,576 regions of 8 x 8 pixels: as an array of its own it is wider than any frame.
+    // A lane serves 1,048,576 regions of 8 x 8 pixels. As an array of its own, it is wider than any
+    // frame.
     let serial = "frame={width=8192,height=8192}\nhardware={organization='serial',fold=1048576}\n";
     let lane = design(serial).lone_unit();
     let error = Layout::new(&lane, false, 1).unwrap_err().to_string();
     assert_eq!(error, "the width of a packet cannot be 8388608: it is 0 to 65535");
     let error = Layout::new(&design(""), false, 0).unwrap_err().to_string();
     assert_eq!(error, "the ticks per second of a packet cannot be 0: it is 1 to 4294967295");
-    // Scores of the most regions side by side that a frame has.
+    // This is the largest number of columns of regions that a frame with scores can have.
     let wide = "frame={width=16384,height=2,pixel_bits=16}\nregion.size=2\ntemporal.min_count=1\n\
                 spatial=[{feature='edge',min_score=1},{feature='mad',mean_fraction_bits=2},{feature='corner',min_score=1},{feature='variance'}]\n";
     let layout =

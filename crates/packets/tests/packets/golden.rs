@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A small frame, its packets written by hand from the page, word by word.
+//! The packets of a small frame, written by hand from `docs/packets.md`, word by word.
 
 use foveate_packets::{
     Assembler, Content, Decision, End, Found, Layout, Loss, Packet, RegionFlags, Splitter, write,
@@ -7,13 +7,13 @@ use foveate_packets::{
 
 use crate::stream::design;
 
-/// CRC-32 as the page defines it, bit by bit.
+/// Computes the CRC-32 as `docs/packets.md` defines it, bit by bit.
 pub(crate) fn crc(bytes: &[u8]) -> u32 {
     let step = |crc: u32| (crc >> 1) ^ (0xEDB8_8320 & (crc & 1).wrapping_neg());
     !bytes.iter().fold(!0u32, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), |crc, _| step(crc)))
 }
 
-/// The bytes of words, with a tail for frame `number` behind them.
+/// Returns the bytes of the words, followed by a tail for frame `number`.
 pub(crate) fn packet(words: &[u64], number: u32) -> Vec<u8> {
     let mut bytes: Vec<u8> = words.iter().flat_map(|word| word.to_le_bytes()).collect();
     bytes.extend(number.to_le_bytes());
@@ -24,7 +24,8 @@ pub(crate) fn packet(words: &[u64], number: u32) -> Vec<u8> {
 
 #[test]
 fn a_frame_is_what_the_page_says() {
-    // 6 x 3 pixels in 3 x 2 regions of 2 x 2, 10 bits, one mean per region; edge and variance.
+    // The frame has 6 x 3 pixels of 10 bits in 3 x 2 regions of 2 x 2, with one mean per region.
+    // The features are edge and variance.
     let design = design(
         "frame={width=6,height=3,pixel_bits=10}\nregion.size=2\ntemporal.min_count=1\nrender.irrelevant='mean'\n\
          periphery.blocks=1\nspatial=[{feature='edge',min_score=0},{feature='variance',min_score=0}]\n",
@@ -60,7 +61,8 @@ fn a_frame_is_what_the_page_says() {
             number,
         ),
         packet(&[0x0003_0001_0003_02FA, 0x0163], number),
-        // The largest score of variance needs 32 bits, so changed pixels and edge lie before it.
+        // The largest score of variance needs 32 bits, so the changed pixels and the edge score lie
+        // before it.
         packet(
             &[
                 0x0003_0001_0005_03FA,
@@ -80,7 +82,7 @@ fn a_frame_is_what_the_page_says() {
     let all: Vec<usize> = lengths.into_iter().chain(regions).collect();
     assert_eq!(all, by_hand.iter().map(Vec::len).collect::<Vec<_>>());
 
-    // And back.
+    // The packets are then read back.
     let (mut splitter, mut assembler) = (Splitter::default(), Assembler::new(layout.clone()));
     splitter.feed(&bytes);
     splitter.complete();
@@ -98,7 +100,7 @@ fn a_frame_is_what_the_page_says() {
     assert_eq!(frame.scores, [[0, 0, 0, 3, 0, 4], [0, 0, 0, 0x1234, 0, 5]]);
     let pixels = Some(Content::Pixels(vec![1, 2, 0x3FF, 4]));
     assert_eq!(frame.contents[3..], [pixels, Some(Content::Means(vec![0x155])), None]);
-    // Row 0 was never written; the END says that the camera dropped one.
+    // Row 0 was never written; the END says that the camera dropped a row.
     let dropped = Loss::Row { frame: number, row: 0, dropped: true };
     assert_eq!(assembler.losses(), [dropped, Loss::Scores { frame: number, row: 0 }]);
 }

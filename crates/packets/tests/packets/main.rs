@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Packets: bytes written by hand from `docs/packets.md`, and streams that were damaged.
+//! Tests of packets: bytes written by hand from `docs/packets.md`, and damaged streams.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod claims;

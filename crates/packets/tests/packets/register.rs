@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! REGISTER packets: bytes written by hand, and answers between the packets of frames, also where the stream is damaged.
+//! REGISTER packets: bytes written by hand, and answers between the packets of frames, also in
+//! damaged streams.
 
 use std::ops::Range;
 
@@ -10,7 +11,7 @@ use crate::damage::{cases, damage};
 use crate::golden::packet;
 use crate::stream::{Stream, random, read};
 
-/// All REGISTER packets of a stream, and its bytes that are no packet.
+/// Returns all REGISTER packets of a stream, and the number of bytes that belong to no packet.
 fn registers(bytes: &[u8], layout: Option<&Layout>) -> (Vec<Register>, u64) {
     let mut splitter = Splitter::default();
     splitter.feed(bytes);
@@ -28,7 +29,7 @@ fn registers(bytes: &[u8], layout: Option<&Layout>) -> (Vec<Register>, u64) {
     (found, skipped)
 }
 
-/// A stream with answers between its packets, and where they lie.
+/// Returns a stream with answers between its packets, and the byte ranges of the answers.
 fn with_answers(rng: &mut Rng, stream: &Stream) -> (Vec<u8>, Vec<(Range<usize>, Register)>) {
     let (mut bytes, mut answers, mut at) = (Vec::new(), Vec::new(), 0);
     while at < stream.bytes.len() {
@@ -70,9 +71,9 @@ fn what_is_not_exactly_one_is_none() {
     assert_eq!(registers(&packet(&[good, 5], 0), None).1, 0);
     let bad_heads = [
         good ^ 0xFF,      // another mark
-        good | 0x2 << 12, // a flag that is none
+        good | 0x2 << 12, // an undefined flag
         0x0000_0104_0004_16FA,
-        good | 1 << 48,  // a column
+        good | 1 << 48,  // a column other than 0
         good | 0x8 << 8, // type 14
     ];
     for head in bad_heads {
@@ -95,7 +96,7 @@ fn fuzz_answers_between_packets_change_no_frame() {
         assert!(read(&mut rng, &stream.layout, &bytes) == plain, "seed {seed}");
         let expected: Vec<Register> = answers.iter().map(|(_, answer)| *answer).collect();
         assert_eq!(registers(&bytes, Some(&stream.layout)), (expected.clone(), 0), "seed {seed}");
-        // They are found before the layout is known, too.
+        // REGISTER packets are found before the layout is known, too.
         assert_eq!(registers(&bytes, None).0, expected, "seed {seed}");
     }
 }
@@ -114,7 +115,8 @@ fn fuzz_answers_beside_damage_come_back() {
         };
         let expected: Vec<Register> = answers.iter().filter(whole).map(|(_, own)| *own).collect();
         let mut found = registers(&bytes, Some(&stream.layout)).0;
-        // Noise before one leaves it whole; it is one more then.
+        // Noise that is inserted before an answer leaves it whole, so `found` may have more answers
+        // than `expected`.
         let same = |register: &Register| answers.iter().any(|(_, own)| own == register);
         assert!(found.iter().all(same), "seed {seed}: one from nowhere");
         lost += answers.len() - found.len();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random streams, and what is read of them.
+//! Random streams, and the frames that are read from them.
 
 use std::ops::Range;
 
@@ -13,14 +13,15 @@ pub(crate) fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()
 }
 
-/// A stream, and where each of its frames lies.
+/// A stream, and the byte range of each of its frames.
 pub(crate) struct Stream {
     pub(crate) layout: Layout,
     pub(crate) bytes: Vec<u8>,
     pub(crate) frames: Vec<Range<usize>>,
 }
 
-/// Random decisions and pixels of so many frames. REGION packets come before or behind their ROW.
+/// Makes a stream of `count` frames with random decisions and pixels. REGION packets come before or
+/// after their ROW.
 pub(crate) fn random(rng: &mut Rng, count: u32) -> Stream {
     let (width, height, size) = (rng.u32(4..40), rng.u32(4..30), rng.u32(2..9));
     let (bits, mean) = (rng.u32(1..=16), rng.bool());
@@ -70,7 +71,7 @@ pub(crate) fn random(rng: &mut Rng, count: u32) -> Stream {
     Stream { layout, bytes, frames }
 }
 
-/// All frames of a stream, in pieces of random length, and what was missing.
+/// Reads all frames of a stream, in pieces of random length, and the losses.
 pub(crate) fn read(
     rng: &mut Rng,
     layout: &Layout,
