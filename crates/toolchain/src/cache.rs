@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A folder of finished builds, each under the hash of all that went into it.
+//! A folder of finished builds, each under the hash of all its inputs.
 //!
-//! * An entry is built in a temporary folder beside its place and renamed when complete, so that it is
-//!   whole or absent: two processes may build the same entry at once, and the first to finish wins.
-//! * Programs are run from it, so that it must be out of reach for other users.
-//! * The folder has a limit. What was used least recently goes first; what a process holds does not go.
+//! * An entry is built in a temporary folder next to its final place and renamed when complete, so
+//!   an entry is either complete or absent. Two processes may build the same entry at once; the
+//!   first to finish wins.
+//! * Programs are run from the folder, so other users must not be able to write to it.
+//! * The folder has a size limit. The entry that was used least recently is removed first; an entry
+//!   that a process holds is not removed.
 
 mod entry;
 mod evict;
@@ -31,7 +33,8 @@ use crate::error::ToolError;
 use crate::host::{Host, SystemHost};
 use crate::key::Key;
 
-/// How often a build is moved to its place while others come and go there.
+/// The number of attempts to move a build to its place while other processes add and remove
+/// entries.
 const ATTEMPTS: u32 = 3;
 
 /// A build cache. Clones share the folder.
@@ -43,21 +46,24 @@ pub struct Cache {
     scratch: Option<Arc<ScratchFolder>>,
 }
 
-/// What the clones of a cache share.
+/// The state that the clones of a cache share.
 #[derive(Debug, Default)]
 struct State {
     swept: OnceLock<()>,
-    /// Bytes built since the folder was looked through for the last time; none yet where it never was.
+    /// The number of bytes built since the folder was last checked against its limit; unset before
+    /// the first check.
     built: OnceLock<AtomicU64>,
     kept: Mutex<HashMap<PathBuf, Entry>>,
 }
 
 impl Cache {
-    /// The cache of the user: `FOVEATE_CACHE`, else `foveate` in `XDG_CACHE_HOME` or `~/.cache`, of the
-    /// size that `FOVEATE_CACHE_SIZE` says. `FOVEATE_CACHE=off` gives a throw-away cache.
+    /// Returns the cache of the user: `FOVEATE_CACHE`, else `foveate` in `XDG_CACHE_HOME` or
+    /// `~/.cache`, with the size of `FOVEATE_CACHE_SIZE`. `FOVEATE_CACHE=off` gives a throw-away
+    /// cache.
     ///
     /// # Errors
-    /// When none of the variables is set, the size is none, or a throw-away folder cannot be created.
+    /// Fails if none of the variables is set, if the size is invalid, or if a throw-away folder
+    /// cannot be created.
     pub fn from_env() -> Result<Self, ToolError> {
         Self::from_host(&SystemHost)
     }
@@ -78,19 +84,19 @@ impl Cache {
         Ok(Self { limit, ..Self::at(&root)? })
     }
 
-    /// A cache of the usual size in this folder, which is created when something is built.
+    /// Makes a cache of the default size in this folder, which is created when something is built.
     ///
     /// # Errors
-    /// When the path cannot be made absolute.
+    /// Fails if the path cannot be made absolute.
     pub fn at(root: &Path) -> Result<Self, ToolError> {
         let root = std::path::absolute(root).map_err(ToolError::io("use", root))?;
         Ok(Self { root, limit: Limit::default(), state: Arc::default(), scratch: None })
     }
 
-    /// A cache that is deleted with its last clone, and all that was built in it.
+    /// Makes a cache that is deleted together with its last clone, with all entries.
     ///
     /// # Errors
-    /// When the temporary folder cannot be created.
+    /// Fails if the temporary folder cannot be created.
     pub fn throw_away() -> Result<Self, ToolError> {
         let parent = std::env::temp_dir();
         let dir =
@@ -100,24 +106,25 @@ impl Cache {
         Ok(Self { root, limit: Limit::NONE, state: Arc::default(), scratch })
     }
 
-    /// The folder of the cache.
+    /// Returns the folder of the cache.
     #[must_use]
     pub fn root(&self) -> &Path {
         &self.root
     }
 
-    /// Whether `artifact` is in the entry of `key`.
+    /// Returns whether `artifact` is in the entry of `key`.
     #[must_use]
     pub fn holds(&self, key: &Key, artifact: &str) -> bool {
         self.root.join(key.as_str()).join(artifact).exists()
     }
 
-    /// `artifact` in the entry of `key`, after building it if need be; it stays as long as the result
-    /// lives. `build` fills an empty folder; what it leaves there becomes the entry. If it fails, nothing
-    /// remains but the log of the failure, in a cache that lasts.
+    /// Returns `artifact` in the entry of `key`, and builds the entry first if it is not there. The
+    /// entry stays as long as the result lives. `build` fills an empty folder, whose content
+    /// becomes the entry. If `build` fails, only the log of the failure remains, in a cache that is
+    /// not thrown away.
     ///
     /// # Errors
-    /// The errors of `build`; when the folder cannot be written, or somebody else can write to it.
+    /// Fails if `build` fails, if the folder cannot be written, or if another user can write to it.
     pub fn get_or_build(
         &self,
         key: &Key,
@@ -145,10 +152,11 @@ impl Cache {
         Ok(entry)
     }
 
-    /// As [`Cache::get_or_build`]; it stays as long as the cache and its clones live.
+    /// Returns an artifact like [`Cache::get_or_build`], and keeps its entry as long as the cache
+    /// and its clones live.
     ///
     /// # Errors
-    /// The same.
+    /// Fails like [`Cache::get_or_build`].
     pub fn keep_or_build(
         &self,
         key: &Key,
@@ -162,7 +170,7 @@ impl Cache {
         Ok(path)
     }
 
-    /// Writes the log of a failed build beside the entries and names it in the error.
+    /// Writes the log of a failed build next to the entries, and adds its path to the error.
     fn keep_log(&self, key: &Key, error: ToolError) -> ToolError {
         let ToolError::Failed { command, status, tail, log: None, full } = error else {
             return error;
@@ -176,12 +184,13 @@ impl Cache {
     }
 }
 
-/// Moves a finished build to its place, unless another has got there first.
+/// Moves a finished build to its place, unless another process has already built the entry.
 fn publish(dir: TempDir, hold: Hold, place: &Path, artifact: &str) -> Result<Entry, ToolError> {
     let mut attempts = ATTEMPTS;
     loop {
         if place.exists() && !(place.join(artifact).exists() && trust::is_entry(place, artifact)) {
-            // A damaged entry: half of it was deleted by hand or by a cleaner of old files. Or somebody else could change it.
+            // The entry is damaged because a part of it was deleted, by hand or by a cleaner of old
+            // files, or another user could change it.
             fs::remove_dir_all(place).map_err(ToolError::io("remove the damaged", place))?;
         }
         let error = match fs::rename(dir.path(), place) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong with an external tool, and what to do about it.
+//! The errors of external tools and of the build cache, with remedies.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -8,7 +8,7 @@ use thiserror::Error;
 
 use crate::tool::{Tool, Version};
 
-/// An external tool is missing, too old, or did not do its work.
+/// An external tool is missing, is too old, or failed.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum ToolError {
@@ -20,18 +20,18 @@ pub enum ToolError {
         tool.variable()
     )]
     Missing {
-        /// The tool that was looked for.
+        /// The tool that was searched for.
         tool: Tool,
     },
 
-    /// The environment variable names something that cannot be run.
+    /// The environment variable does not name an executable file.
     #[error(
         "{} is set to `{}`, which is not an executable file; correct it, or unset it to use {tool} from PATH",
         tool.variable(),
         path.display()
     )]
     NotExecutable {
-        /// The tool that was looked for.
+        /// The tool that was searched for.
         tool: Tool,
         /// The value of the variable.
         path: PathBuf,
@@ -48,15 +48,15 @@ pub enum ToolError {
     TooOld {
         /// The tool.
         tool: Tool,
-        /// Where it was found.
+        /// The path of the tool.
         path: PathBuf,
-        /// The version it reports.
+        /// The version that the tool reports.
         found: Version,
         /// The oldest version that works.
         needed: Version,
     },
 
-    /// The tool ran, but its version could not be told.
+    /// The tool ran, but did not report its version.
     #[error(
         "`{}` does not report a version of {tool}; it prints: {said}. Set {} to a working {tool}",
         path.display(),
@@ -65,9 +65,9 @@ pub enum ToolError {
     UnknownVersion {
         /// The tool.
         tool: Tool,
-        /// Where it was found.
+        /// The path of the tool.
         path: PathBuf,
-        /// The start of what it printed.
+        /// The beginning of its output.
         said: String,
     },
 
@@ -76,13 +76,13 @@ pub enum ToolError {
     Failed {
         /// The command line.
         command: String,
-        /// Exit code or signal.
+        /// The exit code or signal.
         status: String,
         /// The end of the log.
         tail: String,
         /// The complete log.
         full: String,
-        /// Where the complete log was kept, if it was.
+        /// The file with the complete log, if the log was kept.
         log: Option<PathBuf>,
     },
 
@@ -103,11 +103,11 @@ pub enum ToolError {
     TimedOut {
         /// The command line.
         command: String,
-        /// The time it was given.
+        /// The time limit.
         limit: Duration,
     },
 
-    /// The command succeeded, but a file that it should have written is not there.
+    /// The command succeeded, but a file that it should have written is missing.
     #[error("`{command}` succeeded but did not write `{file}`\n{tail}")]
     NoOutput {
         /// The command line.
@@ -118,45 +118,45 @@ pub enum ToolError {
         tail: String,
     },
 
-    /// A port of the simulated module is not as wide as it must be.
+    /// A port of the simulated module does not have the required width.
     #[error(
         "port `{port}` of module `{top}` has {found} bits, but the design has {wanted}; \
          the Verilog may belong to another design"
     )]
     PortWidth {
-        /// The module.
+        /// The name of the module.
         top: String,
-        /// The port.
+        /// The name of the port.
         port: String,
-        /// Its bits in the Verilog.
+        /// The width in the Verilog, in bits.
         found: u32,
-        /// The bits that it must have.
+        /// The required width, in bits.
         wanted: u32,
     },
 
     /// The simulated module lacks a port.
     #[error("module `{top}` has no port `{port}`; the Verilog may belong to another design")]
     NoPort {
-        /// The module.
+        /// The name of the module.
         top: String,
-        /// The port.
+        /// The name of the missing port.
         port: String,
     },
 
-    /// A source has a name that would leave the folder it is written to, or mean something in a script.
+    /// The name of a source would leave its folder, or has a special meaning in a script.
     #[error(
         "source name `{name}` is not valid; use letters, digits, `.`, `_`, `+` and `-`, a first letter that is no `-` or `+`, and no `..`"
     )]
     BadName {
-        /// The name.
+        /// The name of the source.
         name: String,
     },
 
-    /// The user has asked to stop.
+    /// The user has requested a stop.
     #[error("interrupted")]
     Interrupted,
 
-    /// What a tool wrote, or the cache has kept, is not what it should be.
+    /// A file that a tool wrote or the cache has kept is not valid.
     #[error(
         "`{}` is not usable: {reason}; delete the folder `{}` if it exists, \
          or set FOVEATE_CACHE=off to work without the cache",
@@ -164,45 +164,46 @@ pub enum ToolError {
         folder.display()
     )]
     Unusable {
-        /// The file.
+        /// The path of the file.
         path: PathBuf,
-        /// The entry of the cache.
+        /// The folder of its cache entry.
         folder: PathBuf,
-        /// What is wrong with it.
+        /// The fault of the file.
         reason: String,
     },
 
-    /// A folder that the user chooses, the cache's or the temporary one, cannot be written.
+    /// A folder that the user chooses cannot be written: the build cache or the folder of temporary
+    /// files.
     #[error("cannot {action} `{}`: {source}; {advice}", path.display())]
     Place {
-        /// What was tried, such as "create".
+        /// The action that failed, such as "create".
         action: &'static str,
-        /// The file or folder.
+        /// The path of the file or folder.
         path: PathBuf,
-        /// The reason.
+        /// The error of the system.
         source: std::io::Error,
         /// The remedy.
         advice: &'static str,
     },
 
-    /// Programs would be run from a folder into which somebody else can put others.
+    /// The build cache is not used, because another user could put programs into it.
     #[error("the build cache `{}` is not used, because {reason}; {advice}", path.display())]
     Untrusted {
         /// The folder of the cache.
         path: PathBuf,
-        /// The user or group that can write, and the folder.
+        /// The user or group that can write, and the folder, as words that follow "because".
         reason: String,
         /// The remedy.
         advice: String,
     },
 
-    /// No folder for the cache can be derived from the environment.
+    /// The environment determines no folder for the cache.
     #[error(
         "there is no folder for the build cache, because HOME is not set; set FOVEATE_CACHE to a folder, or to `off`"
     )]
     NoCache,
 
-    /// The limit of the cache is no size.
+    /// The size limit of the cache is invalid.
     #[error(
         "FOVEATE_CACHE_SIZE is `{value}`; expected a size of at least 1M, such as 500M or 5G, or `none`"
     )]
@@ -214,11 +215,11 @@ pub enum ToolError {
     /// A file or process could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {
-        /// What was tried, such as "write".
+        /// The action that failed, such as "write".
         action: &'static str,
-        /// The file, folder or program.
+        /// The path of the file, folder or program.
         path: PathBuf,
-        /// The reason.
+        /// The error of the system.
         source: std::io::Error,
     },
 }
@@ -227,13 +228,13 @@ const CACHE_ADVICE: &str = "set FOVEATE_CACHE to a writable folder, or to `off`"
 const TEMPORARY_ADVICE: &str = "set TMPDIR to a writable folder with free space";
 
 impl ToolError {
-    /// Whether the user has asked to stop.
+    /// Returns whether the user has requested a stop.
     #[must_use]
     pub fn is_interrupted(&self) -> bool {
         matches!(self, Self::Interrupted)
     }
 
-    /// Whether a place is at fault that the user chooses, and no tool.
+    /// Returns whether the fault is a folder or a variable that the user chooses, and not a tool.
     #[must_use]
     pub fn is_environment(&self) -> bool {
         use std::io::ErrorKind::{PermissionDenied, ReadOnlyFilesystem, StorageFull};
@@ -252,12 +253,12 @@ impl ToolError {
         }
     }
 
-    /// For `map_err`: the folder of the cache is at fault.
+    /// Returns a function for `map_err` that names the folder of the cache as the fault.
     pub(crate) fn cache(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Place { action, path: path.to_owned(), source, advice: CACHE_ADVICE }
     }
 
-    /// For `map_err`: the folder of temporary files is at fault.
+    /// Returns a function for `map_err` that names the folder of temporary files as the fault.
     pub fn temporary(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Place {
             action,
@@ -267,7 +268,7 @@ impl ToolError {
         }
     }
 
-    /// For `map_err`: names the file and what was tried with it.
+    /// Returns a function for `map_err` that names the file and the action that failed.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Io { action, path: path.to_owned(), source }
     }

@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A child process and all that it starts: verilator, yosys and iverilog are drivers of other programs.
+//! A child process and all processes that it starts; verilator, yosys and iverilog run other
+//! programs.
 //!
-//! Each family is a process group of its own. An interrupt from the terminal goes to this program alone,
-//! which decides how to end, and what ends the group ends every member, whatever started it. Families that
-//! have not ended are listed, so that a process that exits at once leaves none behind.
+//! Each family is a process group of its own. An interrupt from the terminal therefore reaches only
+//! this program, which decides how to end. A signal that ends the group ends every member. Families
+//! that have not ended are registered, so that a process that exits at once leaves none of them
+//! running.
 
 use std::collections::BTreeSet;
 use std::io;
 use std::process::{Child, Command, ExitStatus};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// The heads of families that nobody has waited for, by their process numbers.
+/// The registered families: the first processes of families that have not been waited for, by
+/// process number.
 struct FamilyRegistry {
     heads: BTreeSet<u32>,
-    /// Whether this process is about to exit, so that no family may start any more.
+    /// Whether this process is about to exit, so that no new family may start.
     is_closed: bool,
 }
 
@@ -24,21 +27,21 @@ fn living() -> MutexGuard<'static, FamilyRegistry> {
     LIVING.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Ends every family of this process, and lets no other start: for a process that exits at once.
+/// Ends every family of this process and lets no other start, for a process that exits at once.
 pub fn end_all_families() {
     let mut living = living();
     living.is_closed = true;
     living.heads.iter().copied().for_each(kill);
 }
 
-/// A running child that is the head of a family; the family ends with it.
+/// A running child that is the first process of a family. Dropping this value ends the family.
 #[derive(Debug)]
 pub(crate) struct Family {
     pub(crate) head: Child,
 }
 
 impl Family {
-    /// Starts a program as the head of a family.
+    /// Starts a program as the first process of a family.
     pub(crate) fn start(command: &mut Command) -> io::Result<Self> {
         set_apart(command);
         let mut living = living();
@@ -50,9 +53,10 @@ impl Family {
         Ok(Self { head })
     }
 
-    /// The status with which the head has ended, if it has.
+    /// Returns the status of the first process if it has ended.
     pub(crate) fn try_wait(&mut self) -> io::Result<Option<ExitStatus>> {
-        // Once it was waited for, its number may be another's: nobody may read the list in between.
+        // Once a process has been waited for, the system may reuse its number, so the registry
+        // stays locked until the number is removed from it.
         let mut living = living();
         let ended = self.head.try_wait()?;
         if ended.is_some() {
@@ -61,7 +65,8 @@ impl Family {
         Ok(ended)
     }
 
-    /// Ends the whole family if its head has not ended by itself, and waits for the head.
+    /// Ends the whole family if its first process has not ended by itself, and waits for that
+    /// process.
     pub(crate) fn end(&mut self) {
         if matches!(self.try_wait(), Ok(None)) {
             self.kill();
@@ -75,10 +80,10 @@ impl Family {
         kill(self.head.id());
     }
 
-    /// Elsewhere there are no process groups, and only the head ends.
+    /// Other systems have no process groups, so only the first process is ended.
     #[cfg(not(unix))]
     fn kill(&mut self) {
-        // It can only fail because the process has ended already.
+        // An error can only mean that the process has already ended.
         let _ = self.head.kill();
     }
 }
@@ -95,12 +100,12 @@ fn set_apart(command: &mut Command) {
     command.process_group(0);
 }
 
-/// Ends a process group by the number of its head.
+/// Ends a process group by the number of its first process.
 #[cfg(unix)]
 fn kill(head: u32) {
     use rustix::process::{Pid, Signal, kill_process_group};
     if let Some(group) = i32::try_from(head).ok().and_then(Pid::from_raw) {
-        // It can only fail because all have ended already.
+        // An error can only mean that all processes have already ended.
         let _ = kill_process_group(group, Signal::KILL);
     }
 }
@@ -108,6 +113,6 @@ fn kill(head: u32) {
 #[cfg(not(unix))]
 fn set_apart(_: &mut Command) {}
 
-/// Elsewhere a process cannot be ended by its number alone.
+/// Other systems cannot end a process by its number alone.
 #[cfg(not(unix))]
 fn kill(_: u32) {}

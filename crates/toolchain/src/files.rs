@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sources on their way to a tool's folder, and the part of a log worth showing.
+//! The files that are written into a tool's folder, and excerpts of logs.
 
 use std::fs;
 use std::path::{Component, Path};
@@ -7,15 +7,17 @@ use std::path::{Component, Path};
 use crate::error::ToolError;
 use crate::text::visible;
 
-/// A source file as name (relative to the folder of the tool) and contents.
+/// A source file as its name, relative to the folder of the tool, and its contents.
 pub type Source = (String, String);
 
 const EXCERPT_LINES: usize = 20;
 
-/// Checks the name of a source. It stands in scripts of tools, and Yosys runs what follows a `;`.
+/// Checks the name of a source. The name appears in scripts of tools, and Yosys would run a command
+/// after a `;`.
 ///
 /// # Errors
-/// When it would leave its folder, is an option, or is no plain word.
+/// Fails if the name would leave its folder, is an option, or has characters with a special
+/// meaning.
 pub fn check_source_name(name: &str) -> Result<(), ToolError> {
     let is_plain = |letter: char| letter.is_ascii_alphanumeric() || "._+-/".contains(letter);
     let is_inside = |part| matches!(part, Component::Normal(_));
@@ -37,12 +39,12 @@ pub(crate) fn write(dir: &Path, name: &str, contents: &[u8]) -> Result<(), ToolE
     fs::write(&path, contents).map_err(ToolError::io("write", &path))
 }
 
-/// Writes all sources under `dir`.
+/// Writes all sources below `dir`.
 pub(crate) fn write_sources(dir: &Path, sources: &[Source]) -> Result<(), ToolError> {
     sources.iter().try_for_each(|(name, contents)| write(dir, name, contents.as_bytes()))
 }
 
-/// The last lines of a log, after the first error when that lies further up.
+/// Returns the last lines of a log, preceded by the first error if that is further up.
 pub(crate) fn log_excerpt(log: &str) -> String {
     let lines: Vec<&str> = log.lines().collect();
     let start = lines.len().saturating_sub(EXCERPT_LINES);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The machine as the toolchain sees it: a trait, so that logic is tested without any tool.
+//! The machine that the toolchain runs on, as a trait, so that tests need no tools.
 
 use std::ffi::OsString;
 use std::path::Path;
@@ -9,24 +9,26 @@ use crate::error::ToolError;
 use crate::invocation::{Invocation, Output};
 use crate::process;
 
-/// Environment, files and processes of a machine.
+/// The environment, the files and the processes of a machine.
 pub trait Host: Send + Sync {
-    /// The value of an environment variable.
+    /// Returns the value of an environment variable.
     fn variable(&self, name: &str) -> Option<OsString>;
 
-    /// Whether the path is a file that can be run.
+    /// Returns whether the path is an executable file.
     fn is_executable(&self, path: &Path) -> bool;
 
     /// Runs a program to its end, whatever its exit code.
     ///
     /// # Errors
-    /// When the program cannot be started, its files cannot be used, or time is over.
+    /// Fails if the program cannot be started, its files cannot be used, or the time limit is
+    /// reached.
     fn run(&self, invocation: &Invocation) -> Result<Output, ToolError>;
 
-    /// As [`Host::run`], but stops when `cancel` is set; a host that cannot stop looks before it starts.
+    /// Runs a program like [`Host::run`], but stops it when `cancel` is set. A host that cannot
+    /// stop a program checks the flag before the start.
     ///
     /// # Errors
-    /// As [`Host::run`], and [`ToolError::Interrupted`].
+    /// Fails like [`Host::run`], and with [`ToolError::Interrupted`].
     fn run_until(&self, invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
         if cancel.load(Ordering::Relaxed) {
             return Err(ToolError::Interrupted);
@@ -35,7 +37,7 @@ pub trait Host: Send + Sync {
     }
 }
 
-/// The machine this program runs on.
+/// The machine that this program runs on.
 #[derive(Debug, Clone, Copy, Default)]
 pub struct SystemHost;
 

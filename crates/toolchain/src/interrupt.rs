@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A request to stop, which everything that waits looks at: reads of pipes, runs of tools, FIFOs without a
-//! writer. Waiting is done in short steps, so that a request is seen within [`STEP`].
+//! A request to stop, which is checked during every wait: in reads of pipes, runs of tools, and
+//! FIFOs without a writer. Each wait consists of short steps, so that a request is noticed within
+//! [`STEP`].
 
 use std::fmt;
 use std::fs::File;
@@ -11,7 +12,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::mpsc::{self, RecvTimeoutError};
 use std::time::{Duration, Instant};
 
-/// The longest wait without a look at the request.
+/// The longest time between two checks of the request.
 pub(crate) const STEP: Duration = Duration::from_millis(50);
 
 /// A request to stop. Clones share it.
@@ -19,32 +20,32 @@ pub(crate) const STEP: Duration = Duration::from_millis(50);
 pub struct Interrupt(Arc<AtomicBool>);
 
 impl Interrupt {
-    /// A request that this flag makes.
+    /// Makes an interrupt from this flag.
     #[must_use]
     pub fn of(flag: Arc<AtomicBool>) -> Self {
         Self(flag)
     }
 
-    /// Whether the work is to stop.
+    /// Returns whether the work must stop.
     #[must_use]
     pub fn is_set(&self) -> bool {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// The flag itself.
+    /// Returns the flag itself.
     #[must_use]
     pub fn flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.0)
     }
 
-    /// Whether it is set now or within some milliseconds.
+    /// Returns whether the interrupt is set now or within some milliseconds.
     pub(crate) fn is_set_soon(&self) -> bool {
         soon(&self.0)
     }
 }
 
-/// Whether a flag is set within some milliseconds: whoever stops a job may tell every process of it, and a tool may
-/// have ended before this process has heard.
+/// Returns whether a flag is set within some milliseconds. A signal that stops a job may go to all
+/// of its processes, so a tool may end before the flag of this process is set.
 pub(crate) fn soon(flag: &AtomicBool) -> bool {
     let start = Instant::now();
     while !flag.load(Ordering::Relaxed) && start.elapsed() < Duration::from_millis(20) {
@@ -53,28 +54,31 @@ pub(crate) fn soon(flag: &AtomicBool) -> bool {
     flag.load(Ordering::Relaxed)
 }
 
-/// The same whether it is set or not: options that hold it are compared by their text.
+/// The text is the same whether the interrupt is set or not, because options that contain it are
+/// compared by their text.
 impl fmt::Debug for Interrupt {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str("Interrupt")
     }
 }
 
-/// The error of a read or write that an interrupt has ended. Its kind is not [`io::ErrorKind::Interrupted`], after
-/// which the standard library tries again.
+/// Returns the error of a read or write that an interrupt has ended. Its kind is not
+/// [`io::ErrorKind::Interrupted`], after which the standard library tries again.
 pub(crate) fn interrupted() -> io::Error {
     io::Error::other("interrupted")
 }
 
-/// Opens a file to read. A FIFO that nobody writes to yet is waited for until the interrupt.
+/// Opens a file for reading. On a FIFO without a writer this waits until there is one, or until the
+/// interrupt.
 ///
 /// # Errors
-/// When the file cannot be opened, and on an interrupt.
+/// Fails if the file cannot be opened, and on an interrupt.
 pub fn open_interruptibly(path: &Path, interrupt: &Interrupt) -> io::Result<File> {
     if std::fs::metadata(path)?.is_file() {
         return File::open(path);
     }
-    // Only a thread can wait in `open` while another looks at the interrupt; it ends with the process.
+    // A thread waits in `open` while this one checks the interrupt; the thread ends with the
+    // process.
     let (sender, opened) = mpsc::channel();
     let owned = path.to_owned();
     let opener = std::thread::Builder::new().name("opener".to_owned());
@@ -88,20 +92,20 @@ pub fn open_interruptibly(path: &Path, interrupt: &Interrupt) -> io::Result<File
     }
 }
 
-/// The standard input, as a file without a buffer of its own.
+/// Returns the standard input as a file without a buffer of its own.
 ///
 /// # Errors
-/// When the system has no further file descriptor.
+/// Fails if the system has no free file descriptor.
 #[cfg(unix)]
 pub fn standard_input() -> io::Result<File> {
     use std::os::fd::AsFd as _;
     Ok(File::from(io::stdin().as_fd().try_clone_to_owned()?))
 }
 
-/// The standard input.
+/// Returns the standard input.
 ///
 /// # Errors
-/// None.
+/// Never fails.
 #[cfg(not(unix))]
 pub fn standard_input() -> io::Result<io::Stdin> {
     Ok(io::stdin())
@@ -115,7 +119,7 @@ pub struct InterruptibleReader<T> {
 }
 
 impl<T> InterruptibleReader<T> {
-    /// Reads from `inner` until the interrupt.
+    /// Makes a reader that reads from `inner` until the interrupt.
     pub fn new(inner: T, interrupt: &Interrupt) -> Self {
         Self { inner, interrupt: interrupt.clone() }
     }
@@ -130,7 +134,7 @@ impl<T: Read + std::os::fd::AsFd> Read for InterruptibleReader<T> {
     }
 }
 
-/// Elsewhere a read that has begun goes on.
+/// On other systems a read in progress is not interrupted.
 #[cfg(not(unix))]
 impl<T: Read> Read for InterruptibleReader<T> {
     fn read(&mut self, bytes: &mut [u8]) -> io::Result<usize> {
@@ -138,7 +142,7 @@ impl<T: Read> Read for InterruptibleReader<T> {
     }
 }
 
-/// Waits until a descriptor is ready, or an interrupt is older than `grace`.
+/// Waits until a descriptor is ready. Fails once an interrupt is older than `grace`.
 #[cfg(unix)]
 pub(crate) fn wait_until(
     ready: rustix::event::PollFlags,
@@ -161,7 +165,7 @@ pub(crate) fn wait_until(
     }
 }
 
-/// How long something is waited for once an interrupt has come.
+/// The time for which a wait continues after an interrupt.
 pub(crate) struct GracePeriod<'a> {
     interrupt: &'a Interrupt,
     grace: Duration,

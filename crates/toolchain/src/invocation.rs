@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One run of a program: what goes in, and what came out.
+//! One run of a program: its inputs and its outputs.
 
 use std::ffi::{OsStr, OsString};
 use std::fmt::Write as _;
@@ -10,20 +10,20 @@ use crate::error::ToolError;
 use crate::files::log_excerpt;
 use crate::text::shell_word;
 
-/// What a program reads from its standard input.
+/// The content of a program's standard input.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub enum Input {
-    /// Nothing.
+    /// The standard input is empty.
     #[default]
     Empty,
-    /// These bytes.
+    /// The standard input has these bytes.
     Bytes(Vec<u8>),
-    /// The contents of a file.
+    /// The standard input is the content of a file.
     File(PathBuf),
 }
 
-/// A program with everything it needs to run. Nothing happens until a
-/// [`Host`](crate::Host) or a [`Toolchain`](crate::Toolchain) runs it.
+/// A program with all settings of its run. It runs when it is given to a [`Host`](crate::Host) or a
+/// [`Toolchain`](crate::Toolchain).
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Invocation {
     pub(crate) program: PathBuf,
@@ -37,7 +37,8 @@ pub struct Invocation {
 }
 
 impl Invocation {
-    /// A program without arguments, input or time limit, in the current folder.
+    /// Makes an invocation of a program in the current folder, without arguments, input or time
+    /// limit.
     #[must_use]
     pub fn new(program: impl Into<PathBuf>) -> Self {
         Self {
@@ -77,7 +78,7 @@ impl Invocation {
         self
     }
 
-    /// Runs in this folder.
+    /// Sets the folder in which the program runs.
     #[must_use]
     pub fn dir(mut self, dir: impl Into<PathBuf>) -> Self {
         self.dir = Some(dir.into());
@@ -105,45 +106,46 @@ impl Invocation {
         self
     }
 
-    /// Puts errors into the standard output, in the order in which they are written.
+    /// Writes the standard error into the standard output, in the order in which the program
+    /// writes.
     #[must_use]
     pub fn merge_stderr(mut self) -> Self {
         self.merge = true;
         self
     }
 
-    /// Stops the program, and all that it started, after this time.
+    /// Sets a time limit, after which the program and all processes that it started are stopped.
     #[must_use]
     pub fn timeout(mut self, limit: Duration) -> Self {
         self.timeout = Some(limit);
         self
     }
 
-    /// The program that will run.
+    /// Returns the program.
     #[must_use]
     pub fn program(&self) -> &Path {
         &self.program
     }
 
-    /// The arguments, for mocks that decide by them.
+    /// Returns the arguments, on which mocks base their answer.
     #[must_use]
     pub fn arguments(&self) -> Vec<String> {
         self.args.iter().map(|arg| arg.to_string_lossy().into_owned()).collect()
     }
 
-    /// The folder in which the program will run, if one was set.
+    /// Returns the folder in which the program will run, if one was set.
     #[must_use]
     pub fn directory(&self) -> Option<&Path> {
         self.dir.as_deref()
     }
 
-    /// What the program will read.
+    /// Returns the content of the standard input.
     #[must_use]
     pub fn input(&self) -> &Input {
         &self.input
     }
 
-    /// The command line as a shell would take it.
+    /// Returns the command line in the syntax of a shell.
     #[must_use]
     pub fn command_line(&self) -> String {
         let mut line = quoted(self.program.as_os_str());
@@ -155,12 +157,12 @@ impl Invocation {
     }
 }
 
-/// What a finished program left behind.
+/// The result of a finished program.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub struct Output {
-    /// The exit code; `None` when a signal ended the program.
+    /// The exit code; `None` if a signal ended the program.
     pub code: Option<i32>,
-    /// Exit code or signal in words.
+    /// The exit code or signal as words.
     pub status: String,
     /// The standard output, unless it went to a file.
     pub stdout: Vec<u8>,
@@ -169,7 +171,7 @@ pub struct Output {
 }
 
 impl Output {
-    /// A successful end with this standard output, for mocks.
+    /// Makes a success with this standard output, for mocks.
     #[must_use]
     pub fn success(stdout: impl Into<Vec<u8>>) -> Self {
         Self {
@@ -180,20 +182,20 @@ impl Output {
         }
     }
 
-    /// A failure with this exit code and standard error, for mocks.
+    /// Makes a failure with this exit code and standard error, for mocks.
     #[must_use]
     pub fn failure(code: i32, stderr: impl Into<Vec<u8>>) -> Self {
         let status = format!("exit status: {code}");
         Self { code: Some(code), status, stdout: vec![], stderr: stderr.into() }
     }
 
-    /// Whether the exit code is zero.
+    /// Returns whether the exit code is zero.
     #[must_use]
     pub fn is_success(&self) -> bool {
         self.code == Some(0)
     }
 
-    /// Standard output and standard error as text.
+    /// Returns the standard output and the standard error as text.
     #[must_use]
     pub fn log(&self) -> String {
         let mut log = String::from_utf8_lossy(&self.stdout).into_owned();
@@ -201,10 +203,10 @@ impl Output {
         log
     }
 
-    /// Makes an exit code other than zero an error with the end of the log.
+    /// Turns an exit code other than zero into an error with the end of the log.
     ///
     /// # Errors
-    /// [`ToolError::Failed`] that names the command of `invocation`.
+    /// Fails with [`ToolError::Failed`], which names the command of `invocation`.
     pub fn checked(self, invocation: &Invocation) -> Result<Self, ToolError> {
         if self.is_success() {
             return Ok(self);
@@ -221,7 +223,8 @@ impl Output {
     }
 }
 
-/// What to look at where a program has failed without a word: it writes its messages to a disk, too.
+/// Returns advice for a program that failed without a message. A full disk is a likely cause,
+/// because messages are written to a disk, too.
 fn without_a_word(invocation: &Invocation) -> String {
     let temporary = std::env::temp_dir();
     let places = invocation.dir.iter().chain([&temporary]);

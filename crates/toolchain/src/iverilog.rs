@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Compiles and runs Verilog with Icarus: four-state, so that an X which reset leaves shows.
+//! Compiles and runs Verilog with Icarus. Its four-state logic shows an X that a reset leaves
+//! behind.
 
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -25,10 +26,10 @@ pub struct IverilogJob {
     pub top: String,
     /// Whether any warning of `-Wall` is an error.
     pub strict: bool,
-    /// A module, and the file of the bench that instantiates it: its ports must be as wide as what
-    /// the bench joins to them.
+    /// A module, and the file of the bench that instantiates it. The ports of the module must have
+    /// the widths of the signals that the bench connects.
     pub exact_ports: Option<(String, String)>,
-    /// Macros as `NAME` or `NAME=VALUE`.
+    /// The macros, as `NAME` or `NAME=VALUE`.
     pub defines: Vec<String>,
 }
 
@@ -44,11 +45,11 @@ impl IverilogJob {
     }
 }
 
-/// Compiles the simulation, or finds it in the cache, and returns the program for [`run`], which stays as
-/// long as the cache.
+/// Compiles the simulation, or finds it in the cache. Returns the program for [`run`], which stays
+/// as long as the cache.
 ///
 /// # Errors
-/// When Icarus is missing or refuses the sources.
+/// Fails if Icarus is missing or rejects the sources.
 pub fn compile(
     toolchain: &Toolchain,
     cache: &Cache,
@@ -81,8 +82,8 @@ pub fn compile(
     })
 }
 
-/// Any warning where that is asked for; always that a module lacks a parameter that is set, because
-/// the value would have no effect.
+/// Fails on any warning if `strict` is set. Always fails if a parameter is set that its module
+/// lacks, because its value would have no effect.
 fn refuse_warnings(
     strict: bool,
     invocation: &Invocation,
@@ -109,11 +110,12 @@ fn refuse_warnings(
     })
 }
 
-/// Prepares a run of a compiled simulation in a folder; `args` are plusargs such as `+vectors=FILE`.
-/// Add input or a time limit, then give it to [`Toolchain::run`].
+/// Prepares a run of a compiled simulation in a folder; `args` are plusargs such as
+/// `+vectors=FILE`. The caller may add input or a time limit, and then passes the invocation to
+/// [`Toolchain::run`].
 ///
 /// # Errors
-/// When Icarus is missing.
+/// Fails if Icarus is missing.
 pub fn invocation(
     toolchain: &Toolchain,
     program: &Path,
@@ -126,7 +128,7 @@ pub fn invocation(
 /// Runs a compiled simulation in a folder, whatever its exit code.
 ///
 /// # Errors
-/// When Icarus is missing or the run takes longer than `limit`.
+/// Fails if Icarus is missing or the run takes longer than `limit`.
 pub fn run(
     toolchain: &Toolchain,
     program: &Path,

@@ -7,10 +7,10 @@ use sha2::{Digest as _, Sha256};
 
 use crate::files::Source;
 
-/// Hexadecimal digits of a SHA-256.
+/// The number of hexadecimal digits of a SHA-256.
 const HASH_DIGITS: usize = 64;
 
-/// The name of a cache entry: what made it, and the hash of all that went into it.
+/// The name of a cache entry: the kind of build, and the hash of all its inputs.
 #[derive(Debug, Clone, PartialEq, Eq, Hash)]
 pub struct Key(String);
 
@@ -21,7 +21,7 @@ impl Key {
         KeyBuilder { kind: kind.to_owned(), hash: Sha256::new() }
     }
 
-    /// Whether this could be the name of a key: a kind and a hash.
+    /// Returns whether this text has the form of a key: a kind and a hash.
     pub(crate) fn is_name(name: &str) -> bool {
         let digit = |c: u8| c.is_ascii_digit() || (b'a'..=b'f').contains(&c);
         name.rsplit_once('-').is_some_and(|(kind, hash)| {
@@ -29,7 +29,7 @@ impl Key {
         })
     }
 
-    /// The key as the name of a folder.
+    /// Returns the key as the name of a folder.
     #[must_use]
     pub fn as_str(&self) -> &str {
         &self.0
@@ -42,8 +42,8 @@ impl fmt::Display for Key {
     }
 }
 
-/// Collects what a build depends on. Every field is hashed with its name and length, so that no two
-/// sequences of fields run into one another.
+/// Collects the inputs of a build. Every field is hashed with its name and length, so that
+/// different sequences of fields have different hashes.
 #[derive(Debug, Clone)]
 pub struct KeyBuilder {
     kind: String,
@@ -51,7 +51,7 @@ pub struct KeyBuilder {
 }
 
 impl KeyBuilder {
-    /// Adds a named value: a version, a file name with its contents.
+    /// Adds a named value, such as a version, or the contents of a file under its name.
     #[must_use]
     pub fn field(mut self, name: &str, value: impl AsRef<[u8]>) -> Self {
         for part in [name.as_bytes(), value.as_ref()] {
@@ -69,28 +69,29 @@ impl KeyBuilder {
         values.iter().fold(counted, |key, value| key.field(name, value.as_ref()))
     }
 
-    /// Adds names and contents of source files.
+    /// Adds the names and contents of source files.
     #[must_use]
     pub fn sources(self, sources: &[Source]) -> Self {
         let counted = self.field("sources", sources.len().to_string());
         sources.iter().fold(counted, |key, (name, contents)| key.field(name, contents))
     }
 
-    /// Ends the key.
+    /// Finishes the key.
     #[must_use]
     pub fn finish(self) -> Key {
         Key(format!("{}-{}", self.kind, hex(&self.hash.finalize())))
     }
 }
 
-/// The SHA-256 of some bytes, in hexadecimal digits.
+/// Returns the SHA-256 of some bytes, as hexadecimal digits.
 #[must_use]
 pub fn sha256_hex(bytes: impl AsRef<[u8]>) -> String {
     hex(&Sha256::digest(bytes.as_ref()))
 }
 
-/// One hash for Verilog: that of what `sha256sum` prints for all files in the order of their names.
-/// Whoever reports on RTL prints it, so that two reports can be seen to be about the same RTL.
+/// Returns one hash for a set of Verilog files: the hash of what `sha256sum` prints for them in the
+/// order of their names. Reports on RTL contain it, so that a reader can see whether two reports
+/// are about the same RTL.
 #[must_use]
 pub fn sources_sha256(sources: &[Source]) -> String {
     let line = |(name, text): &Source| (name.clone(), format!("{}  {name}\n", sha256_hex(text)));

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Finds, checks and runs the external tools, and caches what they build.
 //!
-//! Everything goes through a [`Toolchain`], which finds each [`Tool`] once, refuses versions that are
-//! too old, and runs [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all that went
-//! into them. The modules [`verilator`], [`iverilog`], [`yosys`] and [`nextpnr`]
-//! know one tool each; [`SynthesisJob`] knows what Yosys is told for a Xilinx device. [`text`] puts user text into scripts.
+//! A [`Toolchain`] finds each [`Tool`] once, refuses versions that are too old, and runs
+//! [`Invocation`]s. Builds are kept in a [`Cache`] under the hash of all their inputs. The modules
+//! [`verilator`], [`iverilog`], [`yosys`] and [`nextpnr`] each run one tool; [`SynthesisJob`]
+//! synthesizes with Yosys for a Xilinx device. [`text`] escapes user text in scripts.
 
 pub mod cache;
 mod error;

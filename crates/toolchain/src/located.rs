@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A tool that was found, and what tells its executable from any other.
+//! A tool that was found, and the identity of its executable.
 
 use std::path::{Path, PathBuf};
 
@@ -8,11 +8,11 @@ use crate::tool::Version;
 /// A tool that was found and is new enough.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Located {
-    /// The executable.
+    /// The path of the executable.
     pub path: PathBuf,
-    /// Its version; `None` for a build between releases, which has none.
+    /// The version; `None` for a build between releases, which has none.
     pub version: Option<Version>,
-    /// The first line of what it prints about itself.
+    /// The line of its output that contains the version.
     pub banner: String,
     stamp: String,
 }
@@ -23,20 +23,21 @@ impl Located {
         Self { path, version, banner, stamp }
     }
 
-    /// Whether the file is the one that was asked.
+    /// Returns whether the file is unchanged since its version was read.
     pub(crate) fn is_unchanged(&self) -> bool {
         stamp(&self.path) == self.stamp
     }
 
-    /// What tells this executable from any other: banner, real path, size and time of change. Part of
-    /// every cache key, so that what one executable wrote is never taken for the work of another.
+    /// Returns the identity of the executable: its banner, real path, size and time of change. It
+    /// is part of every cache key, so that the result of one executable is never taken for that of
+    /// another.
     #[must_use]
     pub fn identity(&self) -> String {
         format!("{}\n{}", self.banner, self.stamp)
     }
 }
 
-/// Real path, size and time of change of a file, as far as they can be told.
+/// Returns the real path, size and time of change of a file, as far as the system reports them.
 fn stamp(path: &Path) -> String {
     let real = path.canonicalize().unwrap_or_else(|_| path.to_owned());
     let meta = std::fs::metadata(&real).ok();

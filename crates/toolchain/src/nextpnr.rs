@@ -19,22 +19,24 @@ const LIMIT: Duration = Duration::from_secs(3600);
 /// A netlist to place and route.
 #[derive(Debug, Clone)]
 pub struct NextpnrJob {
-    /// Which nextpnr: that of the device's family.
+    /// The variant of nextpnr for the device's family.
     pub tool: Tool,
-    /// The device, and whatever else it is told.
+    /// The arguments that choose the device, and further arguments.
     pub args: Vec<String>,
     /// A file that the arguments name, with its text.
     pub beside: Option<(&'static str, String)>,
-    /// What its choices start from.
+    /// The seed of the placement.
     pub seed: u32,
-    /// The netlist as Yosys writes it in JSON.
+    /// The netlist in the JSON format of Yosys.
     pub netlist: Vec<u8>,
 }
 
-/// Places and routes, or finds the result in the cache; returns the report that nextpnr writes as JSON.
+/// Places and routes a netlist, or finds the result in the cache. Returns the report that nextpnr
+/// writes as JSON.
 ///
 /// # Errors
-/// When nextpnr is missing, or fails; the log in [`ToolError::Failed`] says what the device lacks.
+/// Fails if nextpnr is missing or fails; the log in [`ToolError::Failed`] then says what the device
+/// lacks.
 pub fn run(toolchain: &Toolchain, cache: &Cache, job: &NextpnrJob) -> Result<Vec<u8>, ToolError> {
     let beside: Vec<_> =
         job.beside.iter().flat_map(|(name, text)| [(*name).to_owned(), text.clone()]).collect();
@@ -49,7 +51,8 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &NextpnrJob) -> Result<Vec
     fs::read(report.path()).map_err(ToolError::io("read", report.path()))
 }
 
-/// Names without folders: the builds for WebAssembly see only some of the folders of the machine.
+/// Runs nextpnr in a working folder. File names have no folders, because the builds for WebAssembly
+/// see only some of the folders of the machine.
 fn run_in(toolchain: &Toolchain, job: &NextpnrJob, dir: &Path) -> Result<(), ToolError> {
     let work = tempfile::tempdir_in(dir).map_err(ToolError::io("create a folder in", dir))?;
     files::write(work.path(), NETLIST, &job.netlist)?;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The widths that the ports of a module really have, parameters evaluated, as the tools tell them.
-//! Both simulators join what does not fit by dropping or padding bits, so that it must be asked.
+//! The actual widths of the ports of a module, with parameters evaluated, as the tools report them.
+//! Both simulators drop or pad bits where widths differ, so the widths must be checked.
 
 use crate::error::ToolError;
 
-/// A port and its bits.
+/// The name of a port and its width in bits.
 pub type PortBits = (String, u32);
 
-/// Compares the ports that Verilator declares in the header of a model with what they must be.
+/// Compares the ports in the C++ header that Verilator writes for a model with the required ports.
 pub(crate) fn check_header(top: &str, header: &str, wanted: &[PortBits]) -> Result<(), ToolError> {
     let declared: Vec<(&str, u32)> = header.lines().filter_map(declaration).collect();
     for (port, bits) in wanted {
@@ -22,7 +22,7 @@ pub(crate) fn check_header(top: &str, header: &str, wanted: &[PortBits]) -> Resu
     Ok(())
 }
 
-/// `VL_IN8(&name,msb,lsb);` or `VL_INW(&name,msb,lsb,words);`
+/// Parses a declaration such as `VL_IN8(&name,msb,lsb);` or `VL_INW(&name,msb,lsb,words);`.
 fn declaration(line: &str) -> Option<(&str, u32)> {
     let line = line.trim();
     let rest = ["VL_IN", "VL_OUT"].iter().find_map(|start| line.strip_prefix(start))?;
@@ -33,8 +33,8 @@ fn declaration(line: &str) -> Option<(&str, u32)> {
     Some((name, u32::try_from(msb.abs_diff(lsb) + 1).ok()?))
 }
 
-/// Looks through the warnings of Icarus for ports of `top` that its bench, in `file`, does not fit:
-/// `file:3: warning: Port 3 (a_i) of tiny expects 16 bits, got 11.`
+/// Fails if a warning of Icarus says that a port of `top` and its signal in the bench, `file`,
+/// differ in width: `file:3: warning: Port 3 (a_i) of tiny expects 16 bits, got 11.`
 pub(crate) fn check_warnings(top: &str, file: &str, log: &str) -> Result<(), ToolError> {
     let refusal = |line: &str| {
         let line = line.strip_prefix(file)?.strip_prefix(':')?;

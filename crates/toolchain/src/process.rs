@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs one child process. Input and output go through files, never through pipes: a child that
-//! writes much before it reads cannot block, and a grandchild that lives on cannot hold us. What stops the
-//! child stops all that it started.
+//! Runs one child process. Input and output go through files, never through pipes, so a child that
+//! writes much before it reads cannot block, and a grandchild that outlives the child cannot delay
+//! this process. A stop of the child also stops all processes that it started.
 
 use std::fs::File;
 use std::io::{Read as _, Seek as _, Write as _};
@@ -15,7 +15,7 @@ use crate::family::Family;
 use crate::interrupt::soon;
 use crate::invocation::{Input, Invocation, Output};
 
-/// Runs to the end, or to the time limit.
+/// Runs a program to its end, to its time limit, or until `cancel` is set.
 pub(crate) fn run(invocation: &Invocation, cancel: &AtomicBool) -> Result<Output, ToolError> {
     let program = &invocation.program;
     let mut stdout = match &invocation.stdout {
@@ -65,7 +65,7 @@ fn wait(
             family.end();
             return Err(ToolError::TimedOut { command: invocation.command_line(), limit });
         }
-        // Looking ever more rarely, a short run is not made longer by much.
+        // The pauses grow with the elapsed time, so a short run is hardly delayed.
         sleep((start.elapsed() / 16).clamp(Duration::from_micros(500), Duration::from_millis(10)));
     }
 }
@@ -151,10 +151,12 @@ mod tests {
         assert_eq!((merged.stdout.as_slice(), merged.stderr.len()), (&b"a\nb\nc\n"[..], 0));
     }
 
-    /// A grandchild that holds the pipe `alive` of its folder open as long as it lives.
+    /// A shell script with a grandchild that holds the pipe `alive` of its folder open as long as
+    /// it lives.
     const FAMILY: &str = "sh -c 'sleep 60; true' > alive & wait";
 
-    /// A folder with that pipe, and its other side: the pipe ends when nobody holds it any more.
+    /// Makes a folder with that pipe, and a receiver that hears when no process holds the pipe any
+    /// more.
     #[allow(clippy::unwrap_used, reason = "helper of tests")]
     fn pipe() -> (tempfile::TempDir, std::sync::mpsc::Receiver<()>) {
         let dir = tempfile::tempdir().unwrap();
@@ -199,7 +201,8 @@ mod tests {
         assert_ended(&ended);
     }
 
-    /// Whether this process was started to ignore a signal, as `nohup` and `&` in a script do; its children then do, too.
+    /// Returns whether this process was started to ignore a signal, as with `nohup` and `&` in a
+    /// script. Its children then ignore the signal, too.
     fn is_ignored(signal: rustix::process::Signal) -> bool {
         let status = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
         let line = status.lines().find_map(|line| line.strip_prefix("SigIgn:"));

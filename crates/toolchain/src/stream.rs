@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A program whose output is read, or whose input is written, while it runs: as much goes through a
-//! pipe as the other side takes, and what it says is collected line by line beside it.
+//! A program whose output is read, or whose input is written, while it runs. The data pass through
+//! a pipe at the speed of the slower side, and the messages of the program are collected line by
+//! line.
 //!
-//! It cannot block: a thread always empties the standard error, and a pipe may fill up only while
-//! nobody reads it. It does not outlive its [`Stream`] or [`Feeder`], and Ctrl-C in the terminal does
-//! not reach it, so that its other side decides how to end. Every wait for it ends with an [`Interrupt`].
+//! The program cannot block forever: a thread always empties its standard error, and the pipe fills
+//! up only while its reader is slower. The program does not outlive its [`Stream`] or [`Feeder`].
+//! Ctrl-C in the terminal does not reach it, so this process decides how it ends. Every wait for it
+//! ends on an [`Interrupt`].
 
 use std::io::{self, BufRead, BufReader, Read, Write};
 use std::process::{ChildStderr, ChildStdin, ChildStdout, Command, ExitStatus, Stdio};
@@ -16,14 +18,16 @@ use crate::family::Family;
 use crate::interrupt::{GracePeriod, Interrupt, InterruptibleReader, STEP};
 use crate::invocation::Invocation;
 
-/// Bytes of a line that are kept; what follows them is dropped, so that it cannot pass for a line of its own.
+/// The number of bytes of a line that are kept. The rest of the line is dropped, so that it cannot
+/// appear as a line of its own.
 const LINE: u64 = 1 << 14;
-/// How long a program that is fed may take no further input once an interrupt has come.
+/// The time for which a fed program may accept no input after an interrupt.
 const INPUT_GRACE: Duration = Duration::from_secs(1);
-/// How long it may take to complete its output then. Encoders hold back some dozen frames.
+/// The time in which a fed program may complete its output after an interrupt. Encoders hold back
+/// some dozen frames.
 const ENDING_GRACE: Duration = Duration::from_secs(10);
 
-/// A running program and what it says.
+/// A running program and its messages.
 #[derive(Debug)]
 struct Running {
     family: Family,
@@ -42,15 +46,15 @@ pub struct Stream {
 #[derive(Debug)]
 pub struct Feeder {
     running: Running,
-    /// None once the input has ended.
+    /// The pipe; `None` once the input has ended.
     stdin: Option<ChildStdin>,
 }
 
 impl Stream {
-    /// Starts a program with nothing on its standard input; a time limit does not apply.
+    /// Starts a program with an empty standard input; a time limit does not apply.
     ///
     /// # Errors
-    /// When it cannot be started.
+    /// Fails if the program cannot be started.
     pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
         let mut running = Running::start(invocation, interrupt, Stdio::null(), Stdio::piped())?;
         let stdout = running.family.head.stdout.take().ok_or_else(|| lost_pipe(invocation))?;
@@ -58,20 +62,21 @@ impl Stream {
         Ok(Self { running, stdout: InterruptibleReader::new(stdout, interrupt) })
     }
 
-    /// The next line of the standard error; waits for it. `None` when there will be no more.
+    /// Waits for the next line of the standard error and returns it. Returns `None` if no more
+    /// lines follow.
     ///
     /// # Errors
-    /// [`ToolError::Interrupted`] on an interrupt.
+    /// Fails with [`ToolError::Interrupted`] on an interrupt.
     pub fn next_line(&self) -> Result<Option<String>, ToolError> {
         self.running.next_line()
     }
 
-    /// Waits for the end, after the output has been read: whether the exit code was zero, and the
-    /// exit code or signal in words.
+    /// Waits for the end of the program, after its output has been read. Returns whether the exit
+    /// code is zero, and the exit code or signal as words.
     ///
     /// # Errors
-    /// [`ToolError::Interrupted`] on an interrupt, also where the program has heard of it first, and when the system
-    /// does not tell.
+    /// Fails with [`ToolError::Interrupted`] on an interrupt, even if the program ends before the
+    /// interrupt is set, and fails if the system does not report the end.
     pub fn finish(&mut self) -> Result<(bool, String), ToolError> {
         let status = self.running.wait(Duration::ZERO)?;
         if !status.success() && self.running.interrupt.is_set_soon() {
@@ -93,10 +98,10 @@ impl Read for Stream {
 }
 
 impl Feeder {
-    /// Starts a program whose standard output goes nowhere; a time limit does not apply.
+    /// Starts a program whose standard output is discarded; a time limit does not apply.
     ///
     /// # Errors
-    /// When it cannot be started.
+    /// Fails if the program cannot be started.
     pub fn start(invocation: &Invocation, interrupt: &Interrupt) -> Result<Self, ToolError> {
         let mut running = Running::start(invocation, interrupt, Stdio::piped(), Stdio::null())?;
         let stdin = running.family.head.stdin.take().ok_or_else(|| lost_pipe(invocation))?;
@@ -105,11 +110,12 @@ impl Feeder {
         Ok(Self { running, stdin: Some(stdin) })
     }
 
-    /// Ends the input and waits for the end of the program: whether the exit code was zero, and the
-    /// last line that it said, if it said anything. Once an interrupt has come, it has ten seconds left.
+    /// Ends the input and waits for the end of the program. Returns whether the exit code is zero,
+    /// and the last line of the standard error that is not blank, if any. After an interrupt, the
+    /// program has ten seconds left.
     ///
     /// # Errors
-    /// When the program does not end in time, or the system does not tell.
+    /// Fails if the program does not end in time, or if the system does not report the end.
     pub fn finish(&mut self) -> Result<(bool, Option<String>), ToolError> {
         drop(self.stdin.take());
         let success = self.running.wait(ENDING_GRACE)?.success();
@@ -119,10 +125,11 @@ impl Feeder {
 }
 
 impl Feeder {
-    /// After a write that has failed: ends the program if it has not ended, and returns the last line that it said.
+    /// Handles a write that failed: ends the program if an interrupt is set, waits for its end
+    /// otherwise, and returns the last line of its messages.
     ///
     /// # Errors
-    /// When the system does not tell.
+    /// Fails like [`Feeder::finish`].
     pub fn fail(&mut self) -> Result<Option<String>, ToolError> {
         drop(self.stdin.take());
         if self.running.interrupt.is_set() {
@@ -192,7 +199,7 @@ impl Running {
         }
     }
 
-    /// Waits for the end; when an interrupt is older than `grace`, the program is ended.
+    /// Waits for the end of the program; ends it once an interrupt is older than `grace`.
     fn wait(&mut self, grace: Duration) -> Result<ExitStatus, ToolError> {
         let failed =
             |source| ToolError::Io { action: "wait for", path: "the end of a tool".into(), source };
@@ -216,20 +223,22 @@ fn lost_pipe(invocation: &Invocation) -> ToolError {
     ToolError::io("run", &invocation.program)(io::Error::other("its pipes are missing"))
 }
 
-/// Makes a pipe hold about a frame of video, so that its two sides wake each other less often.
+/// Makes a pipe large enough for about a frame of video, so that its two sides wake each other less
+/// often.
 #[cfg(target_os = "linux")]
 fn widen(pipe: &impl std::os::fd::AsFd) {
-    /// What the system allows everyone by default.
+    /// The size that the system allows every user by default.
     const BYTES: usize = 1 << 20;
-    // Where it is refused the pipe works as it is.
+    // If the system refuses, the pipe works with its previous size.
     let _ = rustix::pipe::fcntl_setpipe_size(pipe, BYTES);
 }
 
-/// Elsewhere a pipe has the size that it has.
+/// On other systems the size of a pipe is not changed.
 #[cfg(not(target_os = "linux"))]
 fn widen<T>(_: &T) {}
 
-/// Lets writes return at once where the pipe is full. The other side is a description of its own and stays as it is.
+/// Makes writes return at once if the pipe is full. The other side has its own file description and
+/// is unaffected.
 #[cfg(unix)]
 fn never_wait(pipe: &ChildStdin) -> io::Result<()> {
     Ok(rustix::io::ioctl_fionbio(pipe, true)?)
@@ -241,7 +250,7 @@ fn wait_for_room(pipe: &ChildStdin, interrupt: &Interrupt) -> io::Result<()> {
     crate::interrupt::wait_until(writable, pipe, interrupt, INPUT_GRACE)
 }
 
-/// Elsewhere a write waits until it is done.
+/// On other systems a write waits until it is done.
 #[cfg(not(unix))]
 fn never_wait(_: &ChildStdin) -> io::Result<()> {
     Ok(())
@@ -258,7 +267,7 @@ fn collect(stderr: ChildStderr, lines: &Sender<String>) {
     while matches!(reader.by_ref().take(LINE).read_until(b'\n', &mut line), Ok(1..)) {
         let ends = line.ends_with(b"\n");
         if !is_continued {
-            // When nobody listens any more, the pipe is still emptied.
+            // A send fails when the receiver is gone; the pipe is still emptied.
             let _ = lines.send(String::from_utf8_lossy(&line).trim_end().to_owned());
         }
         is_continued = !ends;
@@ -321,7 +330,8 @@ mod tests {
         assert!(error.to_string().starts_with("cannot run `/nonexistent/tool`"), "{error}");
     }
 
-    /// A program that does nothing is given up: while it is read, at once; while it is fed, after its grace.
+    /// An interrupt gives up a program that does nothing: at once while it is read, after the grace
+    /// period while it is fed.
     #[test]
     fn an_interrupt_ends_every_wait() {
         let interrupt = Interrupt::default();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Synthesis of an array by Yosys, for the LUTs, carry chains and memories of Xilinx UltraScale+.
+//! Synthesizes an array with Yosys, for the LUTs, carry chains and memories of Xilinx UltraScale+.
 
 use std::collections::BTreeSet;
 
@@ -15,14 +15,15 @@ use crate::xilinx_cells;
 use crate::yosys::{self, YosysJob};
 
 const SYNTHESIS: &str = "synth_xilinx -family xcup -abc9 -nosrl -noiopad -noclkbuf";
-/// Shift registers, which `synth_xilinx` would make in the middle. Yosys up to 0.67 loses their enable
-/// (<https://github.com/YosysHQ/yosys/issues/6058>): it notes that there is none, next to its net. What
-/// was a chain of FDRE has an enable, active high.
+/// The commands that make shift registers after the synthesis; `synth_xilinx` would make them in
+/// the middle. Yosys up to 0.67 loses their enable
+/// (<https://github.com/YosysHQ/yosys/issues/6058>): it records that a shift register has none
+/// although it connects the net. A chain of FDRE has an enable that is active high.
 const SHIFT_REGISTERS: &str = "xilinx_srl -fixed -minlen 3\n\
     setparam -set ENPOL 1 t:$__XILINX_SHREG_\n\
     techmap -map +/xilinx/cells_map.v\n\
     clean\n";
-/// The file of the cells that synthesis can make.
+/// The file with the cells that synthesis can use.
 const CELLS: &str = "foveate_xilinx_cells.v";
 const NETLIST: &str = "netlist.json";
 const VERILOG: &str = "netlist.v";
@@ -32,39 +33,40 @@ const VERILOG: &str = "netlist.v";
 pub struct SynthesisJob {
     /// The Verilog files; headers for `` `include `` may be among them if they end in `.vh`.
     pub sources: Vec<Source>,
-    /// The module of which the array has many, an RPU or a lane. Its leaves are flattened into it. If
-    /// it has parameters, its Verilog must have the attribute `keep_hierarchy`.
+    /// The module of which the array has many instances, an RPU or a lane. Its leaves are flattened
+    /// into it. If it has parameters, its Verilog must have the attribute `keep_hierarchy`.
     pub unit: String,
     /// The module of the array.
     pub array: String,
-    /// Its parameters and their values.
+    /// The parameters of the array and their values.
     pub parameters: Vec<(&'static str, u32)>,
 }
 
-/// The netlist of an array, as it is counted and as Verilog.
+/// The netlist of an array, as JSON for counts and as Verilog.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Synthesis {
-    /// What made it.
+    /// The tool that made the netlist.
     pub tool: ToolRecord,
     /// The netlist as JSON.
     pub json: Vec<u8>,
-    /// The same netlist as Verilog: a module for the array, and one for the unit.
+    /// The same netlist as Verilog, with a module for the array and one for the unit.
     pub verilog: String,
 }
 
-/// What made a netlist or its figures, as reports say it.
+/// The tool that made a netlist or its figures, as stated in reports.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct ToolRecord {
-    /// `Yosys`.
+    /// The name of the tool, `Yosys`.
     pub name: String,
-    /// Its version as it says itself.
+    /// The version as the tool prints it.
     pub version: String,
     /// The synthesis command.
     pub flags: String,
 }
 
 impl Synthesis {
-    /// The types of all primitive cells: those that are no modules of the netlist. What is no netlist has none.
+    /// Returns the types of all primitive cells, which are those that are no modules of the
+    /// netlist. The set is empty if the JSON is not a netlist.
     #[must_use]
     pub fn cells(&self) -> BTreeSet<String> {
         let netlist: Value = serde_json::from_slice(&self.json).unwrap_or_default();
@@ -76,11 +78,11 @@ impl Synthesis {
 }
 
 impl SynthesisJob {
-    /// Synthesizes the array with the unit kept as a module: the leaves are flattened into the unit
-    /// but not the unit into the array.
+    /// Synthesizes the array and keeps the unit as a module: the leaves are flattened into the
+    /// unit, but the unit is not flattened into the array.
     ///
     /// # Errors
-    /// When Yosys is missing or refuses the design.
+    /// Fails if Yosys is missing or rejects the design.
     pub fn run(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Synthesis, ToolError> {
         let version = toolchain.find(Tool::Yosys)?.banner;
         let cells = xilinx_cells::made(toolchain, cache)?;
@@ -95,10 +97,10 @@ impl SynthesisJob {
         })
     }
 
-    /// The netlist, as JSON, of a module with its leaves apart.
+    /// Returns the netlist of a module as JSON, with its leaves as separate modules.
     ///
     /// # Errors
-    /// As [`SynthesisJob::run`].
+    /// Fails like [`SynthesisJob::run`].
     pub fn run_apart(
         &self,
         top: &str,
@@ -119,7 +121,8 @@ impl SynthesisJob {
             "" => String::new(),
             set => format!("chparam{set} {array}\n"),
         };
-        // A unit with parameters has another name by now, and its attribute from its Verilog.
+        // A unit with parameters has been renamed at this point, so its attribute must be in its
+        // Verilog.
         let prepare = format!(
             "{parameters}hierarchy -check -top {array}\n\
              setattr -mod -set keep_hierarchy 1 {unit}\n"
@@ -130,13 +133,14 @@ impl SynthesisJob {
         job
     }
 
-    /// Reads the sources, does `prepare`, synthesizes, and writes the netlist without the library of cells.
+    /// Returns a script that reads the sources, runs `prepare`, synthesizes, and writes the netlist
+    /// without the library of cells.
     fn script(&self, prepare: &str, top: &str, options: &str, cells: Option<String>) -> YosysJob {
         let mut sources = self.sources.clone();
         let mut synthesis = format!("{SYNTHESIS}{options} -top {top}");
         if let Some(cells) = cells {
             sources.push((CELLS.to_owned(), cells));
-            // What it would do at first, with fewer cells.
+            // These commands replace the first step of `synth_xilinx`, with fewer cells.
             let begin = format!(
                 "read_verilog -lib -specify +/xilinx/cells_sim.v\n\
                  read_verilog -lib {CELLS}\n\

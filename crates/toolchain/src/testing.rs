@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Helpers for tests: skip where a tool or data is missing, and a machine without any tool.
+//! Helpers for tests: skips where a tool or data is missing, and a mock machine with scripted
+//! tools.
 
 use std::collections::HashMap;
 use std::ffi::OsString;
@@ -13,12 +14,12 @@ use crate::invocation::{Invocation, Output};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
-/// Whether a test that needs these tools can run. If not, says so on the terminal, past the capture
-/// of the test harness.
+/// Returns whether a test that needs these tools can run. If not, prints a message that the test
+/// harness does not capture.
 ///
 /// # Panics
-/// When a tool cannot be used and the environment variable `FOVEATE_REQUIRE_TOOLS` is `1`, so that a
-/// test server does not skip in silence.
+/// Panics if a tool cannot be used and the environment variable `FOVEATE_REQUIRE_TOOLS` is `1`, so
+/// that a test server does not skip tests silently.
 #[must_use]
 pub fn require_tools(tools: &[Tool]) -> bool {
     let toolchain = Toolchain::system();
@@ -30,25 +31,25 @@ pub fn require_tools(tools: &[Tool]) -> bool {
     false
 }
 
-/// Whether tests take lists whole that take long, and not a part of them: with the environment variable `FOVEATE_WHOLE` set, as
-/// `scripts/release.sh` sets it.
+/// Returns whether slow tests run over whole lists and not over a part of them. The environment
+/// variable `FOVEATE_WHOLE` selects this; `scripts/release.sh` sets it.
 #[must_use]
 pub fn takes_whole_lists() -> bool {
     std::env::var_os("FOVEATE_WHOLE").is_some()
 }
 
-/// The step through a list of which each `n`-th item is enough for every run.
+/// Returns the step through a list for tests that need only every `n`-th item in most runs.
 #[must_use]
 pub fn every(n: usize) -> usize {
     if takes_whole_lists() { 1 } else { n }
 }
 
-/// The folder of real images and video that the environment variable `FOVEATE_DATA` names. Without
-/// one, says on the terminal that the test is skipped.
+/// Returns the folder of real images and video that the environment variable `FOVEATE_DATA` names.
+/// Without it, prints that the test is skipped.
 ///
 /// # Panics
-/// When the variable names something else than a folder and `FOVEATE_REQUIRE_TOOLS` is `1`. What is missing
-/// in the folder is for the test to fail on.
+/// Panics if the variable does not name a folder and `FOVEATE_REQUIRE_TOOLS` is `1`. A test itself
+/// must fail if a file is missing in the folder.
 #[must_use]
 pub fn data_folder() -> Option<PathBuf> {
     named_folder(std::env::var_os("FOVEATE_DATA"), is_strict())
@@ -68,15 +69,16 @@ fn named_folder(named: Option<OsString>, strict: bool) -> Option<PathBuf> {
     None
 }
 
-/// Whether tests that lack something fail instead of being skipped.
+/// Returns whether tests that lack a tool or data fail instead of being skipped.
 fn is_strict() -> bool {
     std::env::var_os("FOVEATE_REQUIRE_TOOLS").is_some_and(|value| value == "1")
 }
 
-/// Says that a test is skipped, and why, past the capture of the test harness.
+/// Prints that a test is skipped, and why, so that the test harness does not capture it.
 pub fn skip(reason: &str) {
     let name = std::thread::current().name().unwrap_or("test").to_owned();
-    // One write, so that tests side by side do not mix; nothing can be done for a lost terminal.
+    // A single write keeps the lines of concurrent tests apart. A failed write to the terminal is
+    // ignored.
     let line = format!("\nSKIPPED {name}: {reason}\n");
     let _ = std::io::stderr().write_all(line.as_bytes());
 }
@@ -92,12 +94,12 @@ pub struct MockHost {
     log: MockLog,
 }
 
-/// The commands that a [`MockHost`] ran.
+/// The commands that a [`MockHost`] has run.
 #[derive(Debug, Clone, Default)]
 pub struct MockLog(Arc<Mutex<Vec<String>>>);
 
 impl MockLog {
-    /// The command lines in order.
+    /// Returns the command lines in order.
     #[must_use]
     pub fn commands(&self) -> Vec<String> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner).clone()
@@ -105,7 +107,7 @@ impl MockLog {
 }
 
 impl MockHost {
-    /// A machine without any tool.
+    /// Makes a machine without any tool.
     #[must_use]
     pub fn new() -> Self {
         Self::default().variable("PATH", "/opt/bin")
@@ -118,14 +120,14 @@ impl MockHost {
         self
     }
 
-    /// Adds an executable that prints this when asked for its version.
+    /// Adds an executable that prints this banner when asked for its version.
     #[must_use]
     pub fn tool(mut self, path: &str, banner: &str) -> Self {
         self.tools.insert(path.into(), banner.to_owned());
         self
     }
 
-    /// Answers every run other than a question for the version.
+    /// Sets the answer to every run other than a request for the version.
     #[must_use]
     pub fn on_run<F>(mut self, handler: F) -> Self
     where
@@ -135,7 +137,7 @@ impl MockHost {
         self
     }
 
-    /// What will have been run.
+    /// Returns the log of the commands, which grows as they run.
     #[must_use]
     pub fn log(&self) -> MockLog {
         self.log.clone()

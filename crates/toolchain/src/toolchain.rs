@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds each tool once and refuses those that are too old.
+//! Finds each tool once and refuses tools that are too old.
 
 use std::collections::HashMap;
 use std::fmt;
@@ -17,18 +17,18 @@ use crate::tool::{Tool, Version};
 
 type Found<K> = Mutex<HashMap<K, Located>>;
 
-/// What this process has found on its machine, for toolchains to come: asking a tool for its version takes longer than
-/// small jobs take.
+/// The tools that this process has found on its machine, for all of its toolchains, because asking
+/// a tool for its version takes longer than a small job.
 static REMEMBERED: LazyLock<Found<(Tool, PathBuf)>> = LazyLock::new(Mutex::default);
 
 const VERSION_LIMIT: Duration = Duration::from_secs(600);
 
-/// The external tools of a machine. Cheap to clone; clones share what was found.
+/// The external tools of a machine. Clones are cheap and share the tools that were found.
 #[derive(Clone)]
 pub struct Toolchain {
     host: Arc<dyn Host>,
     found: Arc<Found<Tool>>,
-    /// What is known of executables by others, if it is of the same machine.
+    /// The tools found by other toolchains of the same machine; `None` for a mock.
     remembered: Option<&'static Found<(Tool, PathBuf)>>,
     cancel: Arc<AtomicBool>,
 }
@@ -46,13 +46,13 @@ impl fmt::Debug for Toolchain {
 }
 
 impl Toolchain {
-    /// The tools of this machine.
+    /// Returns the tools of this machine.
     #[must_use]
     pub fn system() -> Self {
         Self { remembered: Some(&REMEMBERED), ..Self::with_host(SystemHost) }
     }
 
-    /// The tools of another machine, such as a mock.
+    /// Returns the tools of another machine, such as a mock.
     #[must_use]
     pub fn with_host(host: impl Host + 'static) -> Self {
         Self {
@@ -63,19 +63,19 @@ impl Toolchain {
         }
     }
 
-    /// Stops what is running, and runs nothing more, as soon as the flag is set.
+    /// Stops the running program, and runs nothing more, as soon as the flag is set.
     #[must_use]
     pub fn cancelled_by(self, flag: Arc<AtomicBool>) -> Self {
         Self { cancel: flag, ..self }
     }
 
-    /// The flag that stops it, for work between runs.
+    /// Returns the flag that stops the toolchain, for checks between runs.
     #[must_use]
     pub fn cancel_flag(&self) -> &AtomicBool {
         &self.cancel
     }
 
-    /// The same, for what waits.
+    /// Returns an interrupt with the same flag, for waits.
     #[must_use]
     pub fn interrupt(&self) -> Interrupt {
         Interrupt::of(Arc::clone(&self.cancel))
@@ -84,7 +84,7 @@ impl Toolchain {
     /// Finds a tool by its environment variable or in `PATH`, and checks its version.
     ///
     /// # Errors
-    /// When it is missing, cannot be run, or is too old.
+    /// Fails if the tool is missing, cannot be run, or is too old.
     pub fn find(&self, tool: Tool) -> Result<Located, ToolError> {
         if let Some(located) = locked(&self.found).get(&tool) {
             return Ok(located.clone());
@@ -103,10 +103,10 @@ impl Toolchain {
         Ok(located)
     }
 
-    /// An invocation of a tool that was found and checked.
+    /// Returns an invocation of a tool that was found and checked.
     ///
     /// # Errors
-    /// As [`Toolchain::find`].
+    /// Fails like [`Toolchain::find`].
     pub fn invocation(&self, tool: Tool) -> Result<Invocation, ToolError> {
         Ok(Invocation::new(self.find(tool)?.path))
     }
@@ -114,7 +114,8 @@ impl Toolchain {
     /// Runs a program to its end, whatever its exit code.
     ///
     /// # Errors
-    /// When it cannot be started, time is over, or the flag of [`Toolchain::cancelled_by`] is set.
+    /// Fails if the program cannot be started, the time limit is reached, or the flag of
+    /// [`Toolchain::cancelled_by`] is set.
     pub fn run(&self, invocation: &Invocation) -> Result<Output, ToolError> {
         self.host.run_until(invocation, &self.cancel)
     }
@@ -122,7 +123,7 @@ impl Toolchain {
     /// Runs a program whose exit code must be zero.
     ///
     /// # Errors
-    /// As [`Toolchain::run`], and [`ToolError::Failed`] with the end of the log.
+    /// Fails like [`Toolchain::run`], and with [`ToolError::Failed`], which has the end of the log.
     pub fn run_checked(&self, invocation: &Invocation) -> Result<Output, ToolError> {
         self.run(invocation)?.checked(invocation)
     }
@@ -151,10 +152,12 @@ impl Toolchain {
     fn identify(&self, tool: Tool, path: PathBuf) -> Result<Located, ToolError> {
         let ask = Invocation::new(&path).arg(tool.version_flag()).timeout(VERSION_LIMIT);
         let output = self.run(&ask)?;
-        // vvp prints its version as an error; iverilog prints errors beside its version.
+        // vvp prints its version to the standard error; iverilog prints errors in addition to its
+        // version.
         let text = if output.stdout.is_empty() { &output.stderr } else { &output.stdout };
         let text = String::from_utf8_lossy(text);
-        // A program of YoWASP first says that it is being compiled, when it runs for the first time.
+        // A YoWASP program prints a message about its compilation before its version when it runs
+        // for the first time.
         let versioned = text.lines().find(|line| Version::find(line).is_some());
         let banner = versioned.or(text.lines().next()).unwrap_or_default().trim().to_owned();
         let version = Version::find(&banner);
@@ -177,7 +180,8 @@ fn locked<K>(found: &Found<K>) -> MutexGuard<'_, HashMap<K, Located>> {
     found.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-/// Builds between releases, which have no version to compare: they are new enough.
+/// Returns whether a tool is a build between releases, which has no version to compare and counts
+/// as new enough.
 fn is_development_build(tool: Tool, banner: &str) -> bool {
     match tool {
         Tool::Ffmpeg => banner.starts_with("ffmpeg version N-"),
@@ -188,7 +192,7 @@ fn is_development_build(tool: Tool, banner: &str) -> bool {
     }
 }
 
-/// Tools run in folders of their own, so that a relative path would lose its meaning.
+/// Makes a path absolute, because tools run in folders of their own.
 fn absolute(path: PathBuf) -> PathBuf {
     std::path::absolute(&path).unwrap_or(path)
 }

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The cells of Xilinx devices that only have ports, without those that no core can have.
+//! The cells of Xilinx devices of which Yosys knows only the ports, without those that no core can
+//! have.
 //!
-//! `synth_xilinx` begins with the ports of 328 cells, from pads to processors, and takes them along through all of its steps. Its
-//! rules for `UltraScale+` make four of them. A small core without the others is synthesized in two thirds of the time.
+//! `synth_xilinx` begins with the ports of 328 cells, from pads to processors, and carries them
+//! through all of its steps. Its rules for `UltraScale+` use four of them. Without the others, a
+//! small core is synthesized in two thirds of the time.
 //!
-//! The netlist stays the same: Yosys orders nets by numbers that names got when they were first seen, so all names of the file are
-//! shown to it before the four cells.
+//! The netlist stays the same. Yosys orders nets by the numbers that names get when they are first
+//! read, so all names of the file are read before the four cells.
 
 use std::collections::HashSet;
 use std::fs;
@@ -18,19 +20,20 @@ use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 use crate::yosys;
 
-/// The file in the library of Yosys.
+/// The file of the cells in the library of Yosys.
 const LIBRARY: &str = "xilinx/cells_xtra.v";
-/// What the rules make of it: block RAM, `UltraRAM` and DSP blocks.
+/// The cells that the rules use: block RAM, `UltraRAM` and DSP blocks.
 const MADE: [&str; 4] = ["RAMB18E2", "RAMB36E2", "URAM288", "DSP48E2"];
-/// Words of Verilog that the file has, which are no names.
+/// The keywords of Verilog in the file, which are not names.
 const KEYWORDS: [&str; 8] =
     ["module", "endmodule", "parameter", "input", "output", "inout", "integer", "real"];
 const KEPT: &str = "cells.v";
 
-/// Verilog of the cells, to be read in place of the file; none where the library of this Yosys cannot be read, or has another form.
+/// Returns the Verilog of the cells, to be read in place of the file. Returns `None` if the library
+/// of this Yosys cannot be read or has another form.
 ///
 /// # Errors
-/// When Yosys is missing, or the cache cannot be used.
+/// Fails if Yosys is missing or the cache cannot be used.
 pub(crate) fn made(toolchain: &Toolchain, cache: &Cache) -> Result<Option<String>, ToolError> {
     let key = Key::builder("cells")
         .field("version", toolchain.find(Tool::Yosys)?.identity())
@@ -48,19 +51,20 @@ pub(crate) fn made(toolchain: &Toolchain, cache: &Cache) -> Result<Option<String
     Ok((!text.is_empty()).then_some(text))
 }
 
-/// The names of the whole file, as attributes of a module without content, and the cells that the rules make.
+/// Returns the names of the whole file, as attributes of a module without content, and the cells
+/// that the rules use.
 fn part(library: &str) -> Option<String> {
     let made = MADE.iter().map(|name| yosys::module(library, name)).collect::<Option<String>>()?;
     Some(format!("(* {} *)\nmodule names;\nendmodule\n{made}", names(library).join(", ")))
 }
 
-/// The names in a text, each once, in the order in which they come first.
+/// Returns the names in a text, each once, in the order of their first occurrence.
 fn names(library: &str) -> Vec<&str> {
     let mut seen: HashSet<_> = KEYWORDS.into();
     let mut names = Vec::new();
     for line in library.lines() {
         let code = line.split("//").next().unwrap_or_default();
-        // What stands between two quotes is a value.
+        // Text between two quotes is a value.
         for text in code.split('"').step_by(2) {
             let words = text.split(|c: char| !(c.is_ascii_alphanumeric() || "_'".contains(c)));
             let is_name =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a Yosys script over sources from memory, and keeps its log and the files it wrote.
+//! Runs a Yosys script over sources from memory, and keeps its log and the files that it wrote.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -20,30 +20,30 @@ const SCRIPT: &str = "script.ys";
 const LOG: &str = "yosys.log";
 const LIMIT: Duration = Duration::from_secs(1800);
 
-/// A script to run.
+/// A Yosys script to run.
 #[derive(Debug, Clone, Default)]
 pub struct YosysJob {
     /// The Verilog files; the script reads them by these names.
     pub sources: Vec<Source>,
-    /// The commands, one on a line.
+    /// The commands, one per line.
     pub script: String,
-    /// The files that the script writes and that are wanted; names without folders.
+    /// The files that the script writes and that are returned; names without folders.
     pub outputs: Vec<String>,
 }
 
-/// What a script left.
+/// The results of a script.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct YosysRun {
     /// Everything that Yosys printed.
     pub log: String,
-    /// The wanted files by name.
+    /// The requested files by name.
     pub files: BTreeMap<String, Vec<u8>>,
 }
 
 /// Runs the script, or finds its results in the cache.
 ///
 /// # Errors
-/// When Yosys is missing, the script fails, or a wanted file was not written.
+/// Fails if Yosys is missing, if the script fails, or if a requested file was not written.
 pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<YosysRun, ToolError> {
     let key = Key::builder("yosys")
         .field("version", toolchain.find(Tool::Yosys)?.identity())
@@ -66,10 +66,11 @@ pub fn run(toolchain: &Toolchain, cache: &Cache, job: &YosysJob) -> Result<Yosys
     Ok(YosysRun { log: String::from_utf8_lossy(&read(LOG)?).into_owned(), files })
 }
 
-/// A file of models from the library of Yosys, such as `xilinx/cells_sim.v`. Yosys says where it lies.
+/// Returns a file of cell models from the library of Yosys, such as `xilinx/cells_sim.v`. The log
+/// of Yosys has the path of the file.
 ///
 /// # Errors
-/// When Yosys is missing or has no such file, or one that only it can read.
+/// Fails if Yosys is missing, has no such file, or is the only program that can read it.
 pub fn cell_models(toolchain: &Toolchain, cache: &Cache, file: &str) -> Result<String, ToolError> {
     let script = format!("read_verilog -lib +/{file}\n");
     let run = run(toolchain, cache, &YosysJob { script, ..YosysJob::default() })?;
@@ -81,7 +82,7 @@ pub fn cell_models(toolchain: &Toolchain, cache: &Cache, file: &str) -> Result<S
     fs::read_to_string(path).map_err(ToolError::io("read the cell models of Yosys in", path))
 }
 
-/// The text of the module of that name in a file of models, if it has one.
+/// Returns the text of the module of that name in a file of models, if the file has one.
 #[must_use]
 pub fn module(library: &str, name: &str) -> Option<String> {
     let begins = |line: &str| {
@@ -101,7 +102,8 @@ pub fn module(library: &str, name: &str) -> Option<String> {
     Some(text)
 }
 
-/// Refuses JSON that is none or empty: a Yosys that was killed, or is none, may have written it.
+/// Fails on JSON that is invalid or empty, as a Yosys that was killed, or another program in its
+/// place, may write it.
 fn check(name: &str, contents: &[u8], folder: &Path) -> Result<(), ToolError> {
     if !name.ends_with(".json") {
         return Ok(());

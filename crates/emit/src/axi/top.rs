@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Fills `axi.v`, the top of a core on a bus.
+//! Fills `axi.v`, the top of a core on AXI.
 
 use super::registers::{fingerprint, irrelevant, raw, thresholds};
 use crate::banner;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Entries that are in use. A process that uses one holds a shared lock of its folder; one that removes it
-//! needs an exclusive lock. The system gives up the locks of a process that ends, however it ends.
+//! The entries in use. A process that uses an entry holds a shared lock of its folder; a process
+//! that removes it needs an exclusive lock. The system releases the locks of a process that ends,
+//! in whatever way it ends.
 
 use std::fs::{self, File};
 use std::io::ErrorKind;
@@ -9,15 +10,15 @@ use std::time::SystemTime;
 
 use super::trust;
 
-/// A file of the cache, which is there as long as this lives.
+/// A file of the cache, which is not removed as long as this value lives.
 #[derive(Debug)]
 pub struct Entry {
     path: PathBuf,
     _hold: Hold,
 }
 
-/// A lock of a folder; nothing on a system or file system that does not lock folders, which removes
-/// nothing either.
+/// A lock of a folder. It holds no lock on a system or file system that cannot lock folders; no
+/// entries are removed there.
 #[derive(Debug)]
 pub(super) struct Hold(Option<File>);
 
@@ -26,13 +27,13 @@ impl Entry {
         Self { path, _hold: hold }
     }
 
-    /// The file.
+    /// Returns the path of the file.
     #[must_use]
     pub fn path(&self) -> &Path {
         &self.path
     }
 
-    /// The entry in the folder `place`, if it is there, used from now on.
+    /// Returns the entry in the folder `place` if it is there, and marks it as used.
     pub(super) fn take(place: &Path, artifact: &str) -> Option<Self> {
         let path = place.join(artifact);
         loop {
@@ -44,13 +45,14 @@ impl Entry {
                 hold.touch();
                 return Some(Self { path, _hold: hold });
             }
-            // It was removed, and built again, while we waited for the lock.
+            // The entry was removed and built again while this call waited for the lock.
         }
     }
 }
 
 impl Hold {
-    /// Waits while somebody removes the folder, which is soon done. Nothing where there is no folder.
+    /// Takes a shared lock. Waits while another process removes the folder, which takes a short
+    /// time. Returns `None` if there is no folder.
     pub(super) fn shared(folder: &Path) -> Option<Self> {
         match File::open(folder) {
             Ok(file) => Some(Self(file.lock_shared().is_ok().then_some(file))),
@@ -59,7 +61,8 @@ impl Hold {
         }
     }
 
-    /// Nothing where somebody else holds the folder, or it cannot be locked, or it is another by now.
+    /// Takes an exclusive lock. Returns `None` if another process holds the folder, if it cannot be
+    /// locked, or if it has been replaced.
     pub(super) fn exclusive(folder: &Path) -> Option<Self> {
         let file = File::open(folder).ok()?;
         file.try_lock().ok()?;
@@ -67,7 +70,8 @@ impl Hold {
         hold.is_of(folder).then_some(hold)
     }
 
-    /// Whether what is locked still stands under this name; where nothing is locked nothing is removed.
+    /// Returns whether the locked folder still has this name; true if nothing is locked, because
+    /// then nothing is removed.
     fn is_of(&self, folder: &Path) -> bool {
         let Some(file) = &self.0 else { return true };
         match (file.metadata(), fs::metadata(folder)) {
@@ -76,7 +80,8 @@ impl Hold {
         }
     }
 
-    /// Notes the time of use. It may belong to somebody else, who then notes it.
+    /// Sets the time of use. This fails if the folder belongs to another user, who sets the time
+    /// instead.
     fn touch(&self) {
         if let Some(file) = &self.0 {
             let _ = file.set_modified(SystemTime::now());
@@ -90,7 +95,7 @@ fn same(a: &fs::Metadata, b: &fs::Metadata) -> bool {
     (a.dev(), a.ino()) == (b.dev(), b.ino())
 }
 
-/// Folders are not locked elsewhere.
+/// Other systems do not lock folders.
 #[cfg(not(unix))]
 fn same(_: &fs::Metadata, _: &fs::Metadata) -> bool {
     true

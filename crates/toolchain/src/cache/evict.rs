@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What goes when the cache is too large, or when nobody needs it any more.
+//! Removes entries if the cache is too large, and the remains of killed builds.
 
 use std::fs::{self, DirEntry, File};
 use std::path::{Path, PathBuf};
@@ -8,25 +8,26 @@ use std::time::{Duration, SystemTime};
 use super::entry::Hold;
 use crate::key::Key;
 
-/// Names of what lies beside the entries: a build under way, the logs of those that failed, and what is being
-/// removed.
+/// The prefix of the name of a build in progress.
 pub(super) const BUILDING: &str = ".building-";
+/// The name of the folder with the logs of failed builds.
 pub(super) const LOGS: &str = "logs";
+/// The prefix of the name of a folder that is being removed.
 const REMOVING: &str = ".removing-";
-/// Held by the process that looks through the cache: one is enough.
+/// The file that the evicting process locks, because one such process at a time is enough.
 const GATE: &str = ".evicting";
-/// What is older is no build under way but the rest of one that was killed.
+/// The age from which a build in progress is treated as the remains of a killed process.
 pub(super) const STALE: Duration = Duration::from_secs(24 * 3600);
 
-/// What may go: the folder of an entry, or the log of a failed build.
+/// The folder of an entry or the log of a failed build, either of which may be removed.
 struct Candidate {
     path: PathBuf,
     used: SystemTime,
     bytes: u64,
 }
 
-/// Removes what was used least recently until `goal` bytes are left, if there are more than `limit`. What
-/// a process holds stays, so that more may be left.
+/// Removes the least recently used entries until `goal` bytes are left, if there are more than
+/// `limit`. More bytes may be left, because entries that a process holds are not removed.
 pub(super) fn evict(root: &Path, limit: u64, goal: u64) {
     let Ok(gate) = File::options().create(true).append(true).open(root.join(GATE)) else { return };
     if gate.try_lock().is_err() {
@@ -48,7 +49,7 @@ pub(super) fn evict(root: &Path, limit: u64, goal: u64) {
     }
 }
 
-/// Removes what killed builds have left.
+/// Removes the remains of killed builds.
 pub(super) fn sweep(root: &Path) {
     for entry in entries(root) {
         let name = entry.file_name();
@@ -61,7 +62,7 @@ pub(super) fn sweep(root: &Path) {
     }
 }
 
-/// Bytes of all files below.
+/// Returns the number of bytes of all files below a folder.
 pub(super) fn size(folder: &Path) -> u64 {
     let size = |entry: DirEntry| match entry.metadata() {
         Ok(meta) if meta.is_dir() => size(&entry.path()),
@@ -78,7 +79,7 @@ fn candidates(root: &Path) -> Vec<Candidate> {
         let bytes = if folder { size(&path) } else { entry.metadata().ok()?.len() };
         Some(Candidate { path, used, bytes })
     };
-    // Whatever else lies there is not ours.
+    // Other files in the folder do not belong to the cache.
     let named = |entry: &DirEntry, end: &str| {
         entry.file_name().to_str().and_then(|name| name.strip_suffix(end)).is_some_and(Key::is_name)
     };
@@ -87,7 +88,7 @@ fn candidates(root: &Path) -> Vec<Candidate> {
     built.chain(logs).filter_map(candidate).collect()
 }
 
-/// Takes an entry that nobody holds out of its place, and then removes it.
+/// Moves an entry that no process holds out of its place, and then removes it.
 fn remove(root: &Path, path: &Path) -> bool {
     if path.is_file() {
         return fs::remove_file(path).is_ok();
@@ -97,7 +98,8 @@ fn remove(root: &Path, path: &Path) -> bool {
         return false;
     };
     let moved = fs::rename(path, aside.path()).is_ok();
-    // Whoever waits for it shall see that it is gone.
+    // The lock is released after the move, so that a process that waits for it sees that the entry
+    // is gone.
     drop(hold);
     moved
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How much a cache may hold, and when it is looked at.
+//! The size limit of a cache, and when it is enforced.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -8,16 +8,16 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use super::evict;
 use crate::error::ToolError;
 
-/// The variable that says how much.
+/// The environment variable with the limit.
 pub(super) const VARIABLE: &str = "FOVEATE_CACHE_SIZE";
 const MIB: u64 = 1 << 20;
 const LEAST: u64 = MIB;
 const DEFAULT: u64 = 5 << 30;
-/// The folder is looked through when this part of the limit has been built, and then as much is made free:
-/// a build that fills it does not look through it every time.
+/// The part of the limit, as a divisor, that is built before the folder is checked again, and that
+/// is then freed. A build that fills the cache thus does not check the folder every time.
 const SLACK: u64 = 16;
 
-/// The most bytes of a cache, or none.
+/// The largest number of bytes of a cache, or no limit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Limit(Option<u64>);
 
@@ -35,7 +35,7 @@ impl Limit {
         Self(Some(bytes))
     }
 
-    /// `500M`, `5G` or `1T`, in powers of 1,024; `none`.
+    /// Parses a limit such as `500M`, `5G` or `1T`, in powers of 1,024, or `none`.
     pub(super) fn parse(text: &str) -> Result<Self, ToolError> {
         if text.trim() == "none" {
             return Ok(Self::NONE);
@@ -56,8 +56,9 @@ impl Limit {
             .ok_or_else(|| ToolError::CacheSize { value: text.to_owned() })
     }
 
-    /// Something of `bytes` was built: makes room where that may be needed. `built` is what this process
-    /// has built since it looked. Nothing depends on it, so that a failure is none.
+    /// Makes room if necessary after something of `bytes` was built. `built` is the number of bytes
+    /// that this process has built since its last check. No result depends on this, so failures are
+    /// ignored.
     pub(super) fn enforce(self, root: &Path, built: &OnceLock<AtomicU64>, bytes: u64) {
         let Some(limit) = self.0 else { return };
         let part = limit / SLACK;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Builds, entries, their removal, and processes side by side.
+//! Tests of builds, entries, their removal, and concurrent processes.
 
 use std::io::{BufRead as _, BufReader};
 use std::process::{Command, Stdio};
@@ -127,7 +127,7 @@ fn a_throw_away_cache_goes_away() {
     assert!(!path.exists());
 }
 
-/// A build of so many bytes.
+/// Returns a build that writes this number of bytes.
 fn sized(bytes: usize) -> impl FnOnce(&Path) -> Result<(), ToolError> {
     move |dir| fs::write(dir.join("file"), vec![7; bytes]).map_err(ToolError::io("write", dir))
 }
@@ -136,7 +136,7 @@ fn limited(root: &Path, bytes: u64) -> Cache {
     Cache { limit: Limit::bytes(bytes), ..Cache::at(root).unwrap() }
 }
 
-/// Sets the time of use of an entry so many hours back.
+/// Sets the time of use of an entry back by this number of hours.
 fn age(cache: &Cache, name: &str, hours: u64) {
     let past = SystemTime::now() - Duration::from_secs(3600 * hours);
     let folder = fs::File::open(cache.root().join(key(name).as_str())).unwrap();
@@ -157,7 +157,7 @@ fn what_was_used_least_recently_goes_first() {
         age(&cache, name, hours);
     }
     assert_eq!(there(&cache, &["a", "b", "c"]), [true, true, true]);
-    // Used again, it is the youngest but for what is built now.
+    // Entry `a` is used again, so only the entry that is built now is younger.
     cache.get_or_build(&key("a"), "file", |_| panic!("it is there")).unwrap();
     cache.get_or_build(&key("d"), "file", sized(3000)).unwrap();
     assert_eq!(there(&cache, &["a", "b", "c", "d"]), [true, false, true, true]);
@@ -172,7 +172,7 @@ fn what_is_in_use_stays() {
     let kept = cache.keep_or_build(&key("kept"), "file", sized(6000)).unwrap();
     age(&cache, "held", 9);
     age(&cache, "kept", 9);
-    // Another process, as far as locks are concerned.
+    // A second cache behaves like another process as far as locks are concerned.
     let other = limited(folder.path(), 10_000);
     other.get_or_build(&key("x"), "file", sized(6000)).unwrap();
     assert!(held.path().is_file() && kept.is_file());
@@ -214,8 +214,8 @@ fn old_logs_count_too() {
     assert_eq!(there(&cache, &["a"]), [true]);
 }
 
-/// Threads with caches of their own build, use and remove the same entries: what one uses is there, and in
-/// the end no more is left than is allowed.
+/// Threads with their own caches build, use and remove the same entries. An entry stays while a
+/// thread uses it, and in the end the folder is within its limit.
 #[cfg(unix)]
 #[test]
 fn users_and_removers_do_not_meet() {
@@ -227,7 +227,7 @@ fn users_and_removers_do_not_meet() {
             let (folder, built) = (folder.path(), &built);
             scope.spawn(move || {
                 for round in 0..150_u32 {
-                    // A new cache every time looks through the folder after every build.
+                    // A new cache checks the folder after its first build.
                     let cache = limited(folder, LIMIT);
                     let name = (worker * 7 + round * 5) % 12;
                     let entry = cache.get_or_build(&key(&name.to_string()), "file", |dir| {
@@ -244,7 +244,8 @@ fn users_and_removers_do_not_meet() {
         }
     });
     assert!(built.into_inner() > 12, "nothing was removed");
-    // Where another test of this process is just starting a program, that holds copies of the locks until it runs.
+    // While another test of this process starts a program, the new process holds copies of the
+    // locks until it runs.
     let end = Instant::now() + Duration::from_secs(20);
     for number in 0.. {
         let last = key(&format!("last {number}"));
@@ -262,7 +263,8 @@ fn users_and_removers_do_not_meet() {
 
 const HOLDER: &str = "FOVEATE_TEST_HOLDER";
 
-/// Not a test by itself: a process that holds an entry until its input ends.
+/// This is not a test by itself, but the body of a process that holds an entry until its input
+/// ends.
 #[test]
 fn holder() {
     let Some(root) = std::env::var_os(HOLDER) else { return };
@@ -289,7 +291,7 @@ fn what_another_process_uses_stays_until_it_ends() {
     age(&fresh(), "held", 9);
     fresh().get_or_build(&key("a"), "file", sized(6000)).unwrap();
     assert_eq!(there(&fresh(), &["held"]), [true]);
-    // However it ends.
+    // The lock is released even if the process is killed.
     child.kill().unwrap();
     child.wait().unwrap();
     fresh().get_or_build(&key("b"), "file", sized(6000)).unwrap();

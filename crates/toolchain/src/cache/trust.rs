@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether programs may be run from a folder: nobody but this user and root can put any there. The folder and every folder above
-//! it are looked at from the top, so that nobody else can change one that was looked at. Links are followed before, and never again.
+//! Checks whether programs may be run from a folder: only this user and root may be able to put
+//! files there. The folder and every folder above it are checked from the top down, so no other
+//! user can change a folder that was checked. Links are resolved before the checks, and never
+//! again.
 
 use std::path::{Path, PathBuf};
 
 use crate::error::ToolError;
 
-/// The place of the cache without links, made if it is not there. It is looked at whenever it is used.
+/// Returns the path of the cache without links, and creates the folder if it is missing. The path
+/// is checked on every use.
 ///
 /// # Errors
-/// When it cannot be made, or is within the reach of other users.
+/// Fails if the folder cannot be created, or if other users can write to it.
 pub(super) fn open(root: &Path) -> Result<PathBuf, ToolError> {
     let failed = ToolError::cache("create", root);
-    // Before anything is made in a place of somebody else.
+    // This check comes before anything is created, because the place may belong to another user.
     let there = root.ancestors().find(|folder| folder.exists()).unwrap_or(root);
     check(root, &there.canonicalize().map_err(failed)?, there == root)?;
     make(root).map_err(ToolError::cache("create", root))?;
@@ -21,7 +24,7 @@ pub(super) fn open(root: &Path) -> Result<PathBuf, ToolError> {
     Ok(place)
 }
 
-/// Makes a folder that only its owner can enter, and those above it.
+/// Creates a folder that only its owner can enter, and those above it.
 fn make(root: &Path) -> std::io::Result<()> {
     let mut builder = std::fs::DirBuilder::new();
     builder.recursive(true);
@@ -35,7 +38,7 @@ fn check(_: &Path, _: &Path, _: bool) -> Result<(), ToolError> {
     Ok(())
 }
 
-/// Elsewhere a folder says nothing of who can write to it.
+/// On other systems the metadata of a folder do not tell who can write to it.
 #[cfg(not(unix))]
 pub(super) fn is_entry(_: &Path, _: &str) -> bool {
     true
@@ -56,11 +59,13 @@ mod unix {
 
     const GROUP: u32 = 0o020;
     const ALL: u32 = 0o002;
-    /// A user who is neither the owner nor root cannot rename entries of others in the folder.
+    /// In a folder with this bit, a user who is neither the owner nor root cannot rename the
+    /// entries of others.
     const STICKY: u32 = 0o1000;
 
-    /// Refuses a place without links into which others can put something. `root` is what the user calls the cache, and `is_cache`
-    /// says whether the place is the cache or a folder above it.
+    /// Fails if other users can put files into a place, whose path has no links. `root` is the path
+    /// that the user gave for the cache, and `is_cache` says whether the place is the cache or a
+    /// folder above it.
     pub(super) fn check(root: &Path, place: &Path, is_cache: bool) -> Result<(), ToolError> {
         let mut above: Vec<&Path> = place.ancestors().collect();
         above.reverse();
@@ -74,8 +79,9 @@ mod unix {
         Ok(())
     }
 
-    /// Why a folder is within the reach of others, and what to do. Folders in which everybody puts things are fine above the cache
-    /// if they are sticky, such as `/tmp`.
+    /// Returns why other users can write to a folder, and the remedy; `None` if they cannot. Above
+    /// the cache, folders that everybody can write to are accepted if they are sticky, such as
+    /// `/tmp`.
     fn objection(folder: &Path, about: &Metadata, may_be_shared: bool) -> Option<(String, String)> {
         let name = folder.display();
         let elsewhere = "set FOVEATE_CACHE to a folder of your own, or to `off`";
@@ -93,7 +99,7 @@ mod unix {
         Some((reason, format!("run `chmod go-w '{name}'`, or {elsewhere}")))
     }
 
-    /// Whether the file of an entry is out of the reach of others.
+    /// Returns whether other users are unable to change the file of an entry.
     pub(in super::super) fn is_entry(place: &Path, artifact: &str) -> bool {
         let Ok(folder) = symlink_metadata(place) else { return false };
         let is_private = folder.mode() & 0o077 == 0;
@@ -116,7 +122,7 @@ mod tests {
     use std::fs::{self, Permissions};
     use std::os::unix::fs::{MetadataExt as _, PermissionsExt as _, chown, symlink};
 
-    /// An id that is nobody's here.
+    /// The id of another user.
     const OTHER: u32 = 54_321;
 
     fn set(path: &Path, mode: u32) {
@@ -156,7 +162,7 @@ mod tests {
         for (mode, is_refused) in [(0o775, true), (0o777, true), (0o1777, false), (0o755, false)] {
             set(&above, mode);
             assert_eq!(open(&root).is_err(), is_refused, "{mode:o}");
-            // Nothing is made in it either.
+            // Nothing is created in the folder either.
             assert_eq!(open(&above.join("new/cache")).is_err(), is_refused, "{mode:o}");
             assert_eq!(above.join("new").exists(), !is_refused, "{mode:o}");
             let _ = fs::remove_dir_all(above.join("new"));
@@ -180,7 +186,7 @@ mod tests {
         open(&root).unwrap();
         chown(&above, Some(OTHER), None).unwrap();
         assert!(refused(&root).contains(&format!("`{}` belongs", above.display())));
-        // A link of somebody else leads to a good folder, which is used by its own name.
+        // A link of another user leads to a good folder, which is used by its own path.
         let link = dir.path().join("link");
         let good = dir.path().join("good");
         fs::create_dir(&good).unwrap();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Compiles and links what Verilator wrote.
+//! Compiles and links the C++ that Verilator writes.
 //!
-//! Every C++ file of a model includes the same large headers, which takes longer than what a small model
-//! has of its own. Small models are therefore compiled as one file that includes the others, main
-//! and all, large ones as several of them; and for models that are quick to build the headers are compiled
-//! once, into the cache.
+//! Every C++ file of a model includes the same large headers, whose compilation takes longer than
+//! the code of a small model. Small models are therefore compiled as one file that includes all
+//! others and the main, and large models as several such files. For models that are built with
+//! `-Og`, the headers are compiled once, into the cache.
 
 use std::ffi::OsString;
 use std::fs;
@@ -23,35 +23,36 @@ use crate::key::{Key, KeyBuilder};
 use crate::tool::Tool;
 use crate::toolchain::Toolchain;
 
-/// What is linked.
+/// The name of the linked executable.
 pub(super) const EXECUTABLE: &str = "simulator";
-/// The file of the job's `main`.
+/// The file with the `main` of the job.
 pub(super) const MAIN: &str = "foveate_main.cpp";
-/// The longest that a run of Verilator or of the compiler may take.
+/// The time limit of a run of Verilator or of the compiler.
 pub(super) const LIMIT: Duration = Duration::from_secs(1800);
-/// Bytes of generated C++ that one compiler run takes at most, if files are not larger themselves.
+/// The bytes of generated C++ that one compiler run takes at most, unless a single file is larger.
 const BUNDLE: u64 = 256 << 10;
 const COMPILERS: usize = 2;
 const RUN_TIME_FLAG: &str = "-O2";
-/// Libraries for waves that the package of Verilator does not bring along.
+/// The headers of libraries for waves that Verilator's package does not depend on, with their
+/// Debian packages.
 const HEADERS: [(&str, &str); 2] = [("zlib.h", "zlib1g-dev"), ("lz4.h", "liblz4-dev")];
 const SLOW_FLAG: &str = "-O0";
-/// What the C++ of models and their mains includes, to be compiled once for each flag: 60 MB, and a fifth of the time
-/// of a small model. A main may include less or more.
+/// The includes of models and their mains, which are compiled once for each flag. The result has 60
+/// MB, and saves a fifth of the time of a small model. A main may include other headers.
 const HEADER: &str = "#include \"verilated.h\"\n#include <chrono>\n#include <cstddef>\n\
     #include <cstdio>\n#include <cstdlib>\n#include <cstring>\n#include <memory>\n\
     #include <type_traits>\n#include <vector>\n";
 const HEADER_FILE: &str = "foveate_verilated.h";
-/// The name under which GCC and Clang look for a compiled header.
+/// The name under which GCC and Clang search for a compiled header.
 const COMPILED_HEADER: &str = "foveate_verilated.h.gch";
 
-/// How much the C++ compiler optimizes.
+/// The optimization level of the C++ compiler.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Optimize {
-    /// `-Og`: quick to build, for short runs.
+    /// The flag `-Og`: quick to build, for short runs.
     #[default]
     Build,
-    /// `-O3`: quick to run, for long runs.
+    /// The flag `-O3`: quick to run, for long runs.
     Run,
 }
 
@@ -64,7 +65,7 @@ impl Optimize {
     }
 }
 
-/// A C++ compiler set up for Verilator's headers.
+/// A C++ compiler with the settings for Verilator's headers.
 pub(super) struct Compiler<'a> {
     toolchain: &'a Toolchain,
     include: &'a Path,
@@ -76,7 +77,7 @@ struct Unit {
     source: PathBuf,
     object: PathBuf,
     flag: &'static str,
-    /// A header to begin with, compiled under the same flag.
+    /// A header to include first, compiled with the same flag.
     header: Option<PathBuf>,
 }
 
@@ -90,7 +91,7 @@ impl<'a> Compiler<'a> {
         Ok(Self { toolchain, include, flags: flags(trace) })
     }
 
-    /// The objects of Verilator's run time, compiled when they are needed for the first time.
+    /// Returns the objects of Verilator's run time, which are compiled when they are first needed.
     pub(super) fn run_time(
         &self,
         cache: &Cache,
@@ -111,7 +112,7 @@ impl<'a> Compiler<'a> {
         })
     }
 
-    /// The common headers, compiled when they are needed for the first time.
+    /// Returns the common headers, which are compiled when they are first needed.
     fn header(&self, cache: &Cache, flag: &'static str) -> Result<PathBuf, ToolError> {
         let key = tools_key("verilated header", self.toolchain)?
             .list("flags", &self.flags)
@@ -132,7 +133,7 @@ impl<'a> Compiler<'a> {
         Ok(compiled.with_file_name(HEADER_FILE))
     }
 
-    /// The objects of the model and of its main.
+    /// Returns the objects of the model and of its main.
     pub(super) fn model(
         &self,
         cache: &Cache,
@@ -201,7 +202,7 @@ impl<'a> Compiler<'a> {
         self.toolchain.run_checked(&invocation).map(drop).map_err(explain)
     }
 
-    /// Where headers are looked for.
+    /// Returns the arguments with the folders of headers.
     fn includes(&self) -> [OsString; 5] {
         let (system, more) = (OsString::from("-isystem"), self.include.join("vltstd"));
         ["-I.".into(), system.clone(), self.include.into(), system, more.into()]
@@ -212,7 +213,8 @@ impl<'a> Compiler<'a> {
     }
 }
 
-/// Says how to install a header that the compiler did not find.
+/// Turns the error about a header that the compiler did not find into one that says how to install
+/// it.
 fn explain(error: ToolError) -> ToolError {
     let ToolError::Failed { full, .. } = &error else { return error };
     let missing = |(header, _): &&(&str, &str)| {
@@ -225,7 +227,7 @@ fn explain(error: ToolError) -> ToolError {
     }
 }
 
-/// A key that depends on the versions of Verilator and the compiler.
+/// Starts a key that depends on the versions of Verilator and the compiler.
 pub(super) fn tools_key(kind: &str, toolchain: &Toolchain) -> Result<KeyBuilder, ToolError> {
     let verilator = toolchain.find(Tool::Verilator)?;
     let compiler = toolchain.find(Tool::Cxx)?;
@@ -235,7 +237,7 @@ pub(super) fn tools_key(kind: &str, toolchain: &Toolchain) -> Result<KeyBuilder,
         .field("compiler", compiler.identity()))
 }
 
-/// What Verilator's headers want, with or without waves.
+/// Returns the flags that Verilator's headers need, with or without waves.
 pub(super) fn flags(trace: bool) -> Vec<String> {
     let trace = u8::from(trace);
     let fixed = ["-std=gnu++17", "-w", "-pthread", "-DVERILATOR=1", "-DVL_TIME_CONTEXT"];
@@ -245,8 +247,8 @@ pub(super) fn flags(trace: bool) -> Vec<String> {
     flags
 }
 
-/// Writes files that include the generated ones, each up to a certain size, and `last` if there is such
-/// a file at the end of the last; returns their names.
+/// Writes files that include the generated ones, each up to a certain size. `last`, if given, is
+/// included at the end of the last one. Returns the names of the files.
 fn bundle(
     dir: &Path,
     kind: &str,
@@ -274,7 +276,8 @@ fn bundle(
     bundles.iter().enumerate().map(write).collect()
 }
 
-/// Does `work` for every item, a few at a time; results are in order, the first error wins.
+/// Does `work` for every item, a few at a time. The results are in order. Fails with the first
+/// error that is found.
 fn in_parallel<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<R, ToolError> + Sync,

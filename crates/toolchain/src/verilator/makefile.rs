@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads from Verilator's makefiles which files it wrote, and which parts of its run time and which
-//! libraries they need. That differs between versions, so that it is asked and not assumed.
+//! Reads Verilator's makefiles to learn which files it wrote, and which parts of its run time and
+//! which libraries they need. This differs between versions, so it is read and not assumed.
 
 use std::path::{Path, PathBuf};
 
@@ -9,13 +9,13 @@ use crate::error::ToolError;
 /// The lists that Verilator writes for its own makefile.
 #[derive(Debug, Default, PartialEq, Eq)]
 pub(super) struct Makefile {
-    /// Generated files that run often, without `.cpp`.
+    /// The generated files that run often, without `.cpp`.
     pub(super) fast: Vec<String>,
-    /// Generated files that run once.
+    /// The generated files that run once, without `.cpp`.
     pub(super) slow: Vec<String>,
-    /// Parts of the run time.
+    /// The parts of the run time.
     pub(super) run_time: Vec<String>,
-    /// Flags for the linker.
+    /// The flags for the linker.
     pub(super) libraries: Vec<String>,
     /// The folder of Verilator's headers and run time.
     pub(super) include: PathBuf,
@@ -42,19 +42,19 @@ impl Makefile {
     }
 }
 
-/// The words assigned to a variable, over continued lines.
+/// Returns the words assigned to a variable, over continued lines.
 fn list(makefile: &str, variable: &str) -> Vec<String> {
     let joined = makefile.replace("\\\n", " ");
     let assigned = joined.lines().filter_map(|line| assigned(line, variable));
     assigned.flat_map(str::split_whitespace).map(str::to_owned).collect()
 }
 
-/// All that one line assigns to a variable, such as a path with spaces.
+/// Returns everything that one line assigns to a variable, such as a path with spaces.
 fn rest_of_line<'a>(makefile: &'a str, variable: &str) -> &'a str {
     makefile.lines().find_map(|line| assigned(line, variable)).unwrap_or_default().trim()
 }
 
-/// What a line assigns to a variable, if it does.
+/// Returns the text that a line assigns to a variable; `None` if it assigns nothing to it.
 fn assigned<'a>(line: &'a str, variable: &str) -> Option<&'a str> {
     let rest = line.strip_prefix(variable)?.trim_start();
     ["+=", "?=", "="].into_iter().find_map(|sign| rest.strip_prefix(sign))

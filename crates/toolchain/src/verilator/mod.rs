@@ -2,8 +2,8 @@
 //! Builds a simulator from Verilog and a C++ main, with Verilator and a C++ compiler.
 //!
 //! Verilator's own makefile compiles its run time anew for every model, which takes longer than a
-//! small model itself. Here the run time is compiled once into the cache; each model compiles its own
-//! files only, with two compilers side by side.
+//! small model itself. Here the run time is compiled once into the cache. Each model compiles only
+//! its own files, with two compilers in parallel.
 
 mod compile;
 mod makefile;
@@ -27,13 +27,13 @@ use makefile::Makefile;
 
 const WAIVERS: &str = "waivers.vlt";
 
-/// What Verilator does about questionable Verilog.
+/// The treatment of questionable Verilog.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Lint {
     /// Every warning of `-Wall` is an error.
     #[default]
     Strict,
-    /// Warnings are not looked for; only what is no Verilog fails.
+    /// Warnings are not reported; only invalid Verilog is an error.
     Lenient,
 }
 
@@ -51,29 +51,29 @@ impl Lint {
 pub struct VerilatorJob {
     /// The Verilog files; headers for `` `include `` may be among them if they end in `.vh`.
     pub sources: Vec<Source>,
-    /// The top module. The C++ class is `V` and this name, its header `V<top>.h`.
+    /// The top module. The C++ class is this name after a `V`, and its header is `V<top>.h`.
     pub top: String,
     /// The C++ source with `main`.
     pub cpp_main: String,
-    /// A Verilator configuration: lint waivers, `no_inline`.
+    /// A Verilator configuration, for lint waivers and `no_inline`.
     pub vlt: Option<String>,
     /// Whether the model can write FST waves.
     pub trace: bool,
-    /// How much the C++ compiler optimizes.
+    /// The optimization level of the C++ compiler.
     pub optimize: Optimize,
-    /// What to do about questionable Verilog.
+    /// The treatment of questionable Verilog.
     pub lint: Lint,
-    /// Ports of the top module and the widths that they must have; others are not looked at.
+    /// The ports of the top module whose widths are checked, with these widths.
     pub port_bits: Vec<PortBits>,
-    /// Further arguments for Verilator, such as `--assert`.
+    /// Further arguments of Verilator, such as `--assert`.
     pub extra_args: Vec<String>,
 }
 
-/// Builds the simulator, or finds it in the cache, and returns its executable, which stays as long as the
-/// cache.
+/// Builds the simulator, or finds it in the cache. Returns its executable, which stays as long as
+/// the cache.
 ///
 /// # Errors
-/// When a tool is missing, or Verilator or the compiler refuses the sources.
+/// Fails if a tool is missing, or if Verilator or the compiler rejects the sources.
 pub fn build(
     toolchain: &Toolchain,
     cache: &Cache,
@@ -88,10 +88,10 @@ pub fn build(
     })
 }
 
-/// Whether the simulator is in the cache, so that [`build`] would take no time.
+/// Returns whether the simulator is in the cache, so that [`build`] would take no time.
 ///
 /// # Errors
-/// When a tool is missing.
+/// Fails if a tool is missing.
 pub fn is_built(
     toolchain: &Toolchain,
     cache: &Cache,
@@ -103,7 +103,7 @@ pub fn is_built(
 /// Runs Verilator's lint over the sources.
 ///
 /// # Errors
-/// When Verilator is missing, or finds anything.
+/// Fails if Verilator is missing or reports anything.
 pub fn lint(
     toolchain: &Toolchain,
     sources: &[Source],
@@ -118,11 +118,11 @@ pub fn lint(
     toolchain.run_checked(&invocation).map(drop)
 }
 
-/// The hierarchy below `top`, with these parameters of it, as Verilator's XML: every module with the values of its
-/// parameters, without `generate` branches that are not taken.
+/// Returns the hierarchy below `top` with these parameters, as Verilator's XML. It has every module
+/// with the values of its parameters, without `generate` branches that are not taken.
 ///
 /// # Errors
-/// When Verilator is missing, or refuses the sources.
+/// Fails if Verilator is missing or rejects the sources.
 pub fn elaborate(
     toolchain: &Toolchain,
     sources: &[Source],
@@ -136,7 +136,7 @@ pub fn elaborate(
     let invocation = toolchain
         .invocation(Tool::Verilator)?
         .args(["--xml-only", "--xml-output", HIERARCHY, "--no-timing", "--top-module", top])
-        // By default a loop of more than 1,024 turns is taken for one without end.
+        // By default Verilator treats a loop of more than 1,024 iterations as endless.
         .args(["--unroll-count", "1000000"])
         .args(Lint::Lenient.flags())
         .args(parameters);
@@ -191,13 +191,14 @@ fn build_in(
     files::write(dir, MAIN, job.cpp_main.as_bytes())?;
     let makefile = Makefile::read(dir, &job.prefix())?;
     let compiler = Compiler::new(toolchain, &makefile.include, job.trace)?;
-    // First what may have mistakes.
+    // The model is compiled first, because only its sources may have mistakes.
     let mut objects = compiler.model(cache, dir, &makefile, job.optimize)?;
     objects.extend(compiler.run_time(cache, &makefile)?);
     compiler.link(dir, &objects, &makefile)
 }
 
-/// The sources in `dir`, and their names as arguments; headers are found, not named.
+/// Writes the sources into `dir` and adds their names as arguments. Headers are not named, because
+/// Verilator finds them.
 fn with_sources(
     invocation: Invocation,
     dir: &Path,

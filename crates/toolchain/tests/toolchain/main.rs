@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! External tools, real ones and such as misbehave.
+//! Tests of external tools: real ones, and programs that misbehave.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod tools;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The real tools on a small counter. Skipped, visibly, where a tool is missing.
+//! The real tools on a small counter. A test is skipped with a message where a tool is missing.
 
 use std::fs;
 use std::time::Duration;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Executables that pretend to be Yosys: their results are not taken for those of another.
+//! Executables in the place of Yosys: the result of one is not taken for that of another.
 #![cfg(unix)]
 
 use std::fs;
@@ -9,7 +9,7 @@ use std::path::Path;
 use foveate_toolchain::yosys::{self, YosysJob};
 use foveate_toolchain::{Cache, Host, Invocation, Output, SystemHost, ToolError, Toolchain};
 
-/// A machine whose Yosys is one script.
+/// A machine whose Yosys is a script.
 struct Only(String);
 
 impl Host for Only {
@@ -26,7 +26,7 @@ impl Host for Only {
     }
 }
 
-/// A Yosys that writes this as its result.
+/// Makes a Yosys that writes this text as its result.
 fn fake(dir: &Path, name: &str, result: &str) -> Toolchain {
     let path = dir.join(name);
     let script = format!(
@@ -37,8 +37,8 @@ fn fake(dir: &Path, name: &str, result: &str) -> Toolchain {
     Toolchain::with_host(Only(path.to_str().unwrap().to_owned()))
 }
 
-/// One test, because a script that is just being written cannot be run, and another thread that
-/// starts a process keeps it open for a moment.
+/// These checks are one test, because a script cannot be run while a process has it open for
+/// writing, and a process that another thread starts has it open for a moment.
 #[test]
 fn what_a_pretender_wrote_is_not_taken_for_more() {
     results_belong_to_the_executable_that_wrote_them();
