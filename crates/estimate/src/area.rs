@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The area of a module from the counts of its cells.
+//! The area of a module, computed from the counts of its cells.
 
 use std::collections::BTreeMap;
 
@@ -8,38 +8,40 @@ use serde::{Deserialize, Serialize};
 use crate::cells::CellKind;
 use crate::error::EstimateError;
 
-/// Resources of a module.
+/// The resources of a module.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 pub struct Area {
-    /// Logic LUTs when small ones share a LUT6 with two outputs: Yosys' "estimated LCs".
+    /// The number of logic LUTs when small ones share a LUT6 with two outputs: Yosys' "estimated
+    /// LCs".
     pub lut_logic_low: u64,
-    /// Logic LUTs one by one, and inverters.
+    /// The number of logic LUTs when none is shared, and of inverters.
     pub lut_logic_high: u64,
-    /// LUTs used as memory or shift register.
+    /// The number of LUTs used as memory or shift register.
     pub lut_memory: u64,
-    /// The same with two `SRL16E` in one LUT, as Vivado packs them.
+    /// The number of LUTs used as memory or shift register when two `SRL16E` share a LUT, as Vivado
+    /// packs them.
     pub lut_memory_packed: u64,
-    /// `lut_logic_high + lut_memory`; compare this with Vivado's "CLB LUTs".
+    /// The sum of `lut_logic_high` and `lut_memory`, comparable to Vivado's "CLB LUTs".
     pub lut_total: u64,
-    /// `lut_logic_high + lut_memory_packed`.
+    /// The sum of `lut_logic_high` and `lut_memory_packed`.
     pub lut_total_packed: u64,
-    /// Flip-flops.
+    /// The number of flip-flops.
     pub ff: u64,
-    /// Carry logic in units of `CARRY4`; a `CARRY8` is two.
+    /// The carry logic in units of `CARRY4`; a `CARRY8` counts as two.
     pub carry: u64,
-    /// DSP blocks.
+    /// The number of DSP blocks.
     pub dsp: u64,
-    /// Block RAM in units of `RAMB18`; a `RAMB36` is two.
+    /// The block RAM in units of `RAMB18`; a `RAMB36` counts as two.
     pub bram18: u64,
-    /// UltraRAM blocks.
+    /// The number of UltraRAM blocks.
     pub uram: u64,
 }
 
 impl Area {
-    /// The area of a module's own cells.
+    /// Returns the area of a module's own cells.
     ///
     /// # Errors
-    /// [`EstimateError::UnknownCell`] for the first cell that is not known.
+    /// Fails with [`EstimateError::UnknownCell`] for the first cell that is not known.
     pub fn of_cells(module: &str, cells: &BTreeMap<String, u64>) -> Result<Self, EstimateError> {
         let mut area = Self::default();
         let (mut luts, mut inverters, mut shift_registers) = ([0; 7], 0, 0);
@@ -71,13 +73,13 @@ impl Area {
         Ok(area)
     }
 
-    /// The area of `count` such modules, side by side.
+    /// Returns the area of `count` such modules.
     #[must_use]
     pub fn times(self, count: u64) -> Self {
         self.zip(self, |value, _| value * count)
     }
 
-    /// The area of this and another module.
+    /// Returns the area of this and another module together.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         self.zip(other, |a, b| a + b)
@@ -100,9 +102,10 @@ impl Area {
     }
 }
 
-/// LUTs by number of inputs when small ones share one: a LUT1 beside a LUT5, LUT4 or LUT3, a LUT2
-/// beside a LUT4 or LUT3, the rest in pairs. This is what Yosys calls estimated LCs. It is counted
-/// here because Yosys' own figure includes submodules in some versions and not in others.
+/// Returns the number of LUTs when small ones share a LUT6: a LUT1 with a LUT5, LUT4 or LUT3, a
+/// LUT2 with a LUT4 or LUT3, and the rest in pairs. The index of `luts` is the number of inputs.
+/// Yosys calls this number estimated LCs. It is counted here because Yosys' own figure includes
+/// submodules in some versions and not in others.
 fn shared_luts(luts: [u64; 7]) -> u64 {
     let [_, mut ones, mut twos, threes, fours, fives, sixes] = luts;
     let host = |hosts: u64, guests: &mut u64| {
@@ -118,7 +121,7 @@ fn shared_luts(luts: [u64; 7]) -> u64 {
     sixes + fives + fours + threes + (ones + twos).div_ceil(2)
 }
 
-/// A quotient rounded to thousandths.
+/// Returns a quotient rounded to thousandths.
 pub(crate) fn quotient(value: u64, unit: u64) -> f64 {
     let thousandths = (value * 1000 + unit / 2) / unit;
     f64::from(u32::try_from(thousandths).unwrap_or(u32::MAX)) / 1000.0
@@ -174,7 +177,7 @@ mod tests {
         assert_eq!(low(&[("LUT5", 2), ("LUT2", 2)]), 3);
         assert_eq!(low(&[("LUT4", 1), ("LUT3", 1), ("LUT2", 3)]), 3);
         assert_eq!(low(&[("LUT3", 4)]), 4);
-        // As Yosys 0.23 says of two modules of a real netlist.
+        // These are the figures of Yosys 0.23 for two modules of a real netlist.
         let rpu = [("LUT2", 9), ("LUT3", 5), ("LUT4", 1), ("LUT5", 3), ("LUT6", 2)];
         assert_eq!(low(&rpu), 13);
         let rcm = [("LUT2", 4), ("LUT3", 2), ("LUT4", 131), ("LUT5", 63), ("LUT6", 26)];

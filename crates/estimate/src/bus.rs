@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A core on a bus: what it takes as a whole, and what each part around the array takes of that.
+//! The area of a core on AXI: that of the whole core, and that of each part around the array.
 //!
-//! The whole is one netlist, in which logic is shared across the borders of modules. The parts are those of the netlist in
-//! which every module stands apart, so they add up to a little more or less.
+//! The whole is one netlist, in which logic is shared across the borders of modules. The parts are
+//! counted in a netlist in which every module is synthesized separately, so their sum differs a
+//! little from the whole.
 
 use foveate_emit::AXI_PARTS;
 use foveate_toolchain::{Synthesis, SynthesisJob, sources_sha256};
@@ -13,37 +14,41 @@ use crate::error::EstimateError;
 use crate::levels::{LogicPath, longest_paths};
 use crate::netlist::{NETLIST, Netlist};
 
-/// A core on a bus, with the array inside.
+/// The area of a core on AXI, with the array inside.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct BusArea {
-    /// The module on top: `rcm_axi`.
+    /// The top module, `rcm_axi`.
     pub module: String,
-    /// The hash of its RTL, as that of the array. A co-simulation of the core on the bus says the same.
+    /// The hash of its RTL, computed as for the array. A co-simulation of the core on AXI reports
+    /// the same hash.
     pub rtl_sha256: String,
-    /// All of it, the array included.
+    /// The area of the whole core, the array included.
     pub whole: Area,
-    /// What stands around the array, each module synthesized apart; empty if not asked for.
+    /// The areas of the parts around the array, with each module synthesized separately; empty
+    /// unless requested.
     pub parts: Vec<PartArea>,
-    /// Its longest path.
+    /// The longest path of the core.
     pub path: LogicPath,
 }
 
-/// Modules around the array that do one thing together.
+/// The area of modules around the array that form one part.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PartArea {
-    /// What people call it.
+    /// The name of the part in reports.
     pub name: String,
-    /// The modules, with all that is inside them; of the top only what is its own.
+    /// The modules, each with all modules inside it. For the top module, only its own cells count.
     pub modules: Vec<String>,
-    /// What they take together.
+    /// The area of the modules together.
     pub area: Area,
 }
 
 impl BusArea {
-    /// What is counted in the netlist of the whole, and in that of its modules apart, if there is one.
+    /// Counts the area in the netlist of the whole core, and that of its parts in the netlist of
+    /// its separate modules, if there is one.
     ///
     /// # Errors
-    /// When a netlist is not understood, a cell is not known or a part is missing, or when logic runs in a circle.
+    /// Fails if a netlist cannot be read, if a cell is not known or a part is missing, or if there
+    /// is a combinational loop.
     pub(crate) fn of(
         job: &SynthesisJob,
         whole: &Synthesis,
@@ -61,7 +66,7 @@ impl BusArea {
     }
 }
 
-/// Every part around the array, and what the top has itself.
+/// Returns the area of every part around the array, and of the cells of the top itself.
 fn parts(top: &str, apart: &Netlist) -> Result<Vec<PartArea>, EstimateError> {
     let part = |(name, modules): &(&str, &[&str])| {
         let add = |sum: Area, module: &&str| apart.area_in(top, module).map(|area| sum.plus(area));

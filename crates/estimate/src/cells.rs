@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What each cell of a Xilinx netlist costs. A cell that is not in this list is an error upstream.
+//! The cost of each cell of a Xilinx netlist. A cell that is not in this list causes an error in
+//! the caller.
 
 /// The kind of a primitive cell of the UltraScale+ family, with its cost where it has one.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -22,12 +23,13 @@ pub enum CellKind {
     BlockRam(u64),
     /// An UltraRAM block.
     UltraRam,
-    /// Takes no area of its own: constants, clock buffers, multiplexers behind LUTs, notes.
+    /// A cell without an area of its own: a constant, a clock buffer, a multiplexer behind LUTs, or
+    /// a note of Yosys.
     Free,
 }
 
 impl CellKind {
-    /// The kind of a cell by the name of its type; `None` if it is not known.
+    /// Returns the kind of a cell by the name of its type; `None` if it is not known.
     #[must_use]
     pub fn of(cell: &str) -> Option<Self> {
         Some(match cell {

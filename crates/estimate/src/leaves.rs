@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Lists the leaf modules of a module under the names and parameters that the source gives them.
+//! Lists the leaf modules of a module under the names and parameters of the source.
 
 use std::collections::BTreeMap;
 
@@ -7,8 +7,8 @@ use crate::error::EstimateError;
 use crate::netlist::Netlist;
 use crate::report::LeafArea;
 
-/// The areas of all modules inside `top`, its own cells first. Copies of one module with the same
-/// parameters and area are one row.
+/// Returns the areas of all modules inside `top`, its own cells first. Instances of one module with
+/// the same parameters and area share a row.
 pub(crate) fn leaf_areas(top: &str, netlist: &Netlist) -> Result<Vec<LeafArea>, EstimateError> {
     let mut rows = BTreeMap::new();
     for (name, count) in netlist.instances(top, &[])? {

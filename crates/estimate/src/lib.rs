@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Area and logic levels of a Foveate design from Yosys, beside the paper's table.
+//! Estimates area and logic levels of a Foveate design with Yosys, and compares them with the
+//! paper's table.
 //!
-//! [`estimate`] synthesizes the array with the RPU kept as one module. Its leaves are flattened into
-//! it, so they share logic. The array is not flattened, so 784 RPUs take the time of one. A second
-//! run keeps all leaves separate and shows where the area goes.
+//! [`estimate`] synthesizes the array with the RPU kept as one module. The leaves are flattened
+//! into the RPU, so they share logic. The array is not flattened, so 784 RPUs take the time of one.
+//! A second run keeps all leaves separate and shows the area of each.
 //!
-//! Figures are Yosys estimates. Vivado packs better; published ratios of the two are 1.5 to 2.3 in
-//! LUTs. Use the figures to compare one design with another.
+//! The figures are Yosys estimates. Vivado packs better; published ratios of the two are 1.5 to 2.3
+//! in LUTs. Use the figures to compare one design with another.
 
 mod area;
 mod bus;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads the netlist that Yosys writes as JSON, by name.
+//! Reads the modules and the counts of their cells from the netlist that Yosys writes as JSON.
 //!
-//! The counts of `stat -json` would be smaller, but they are not the same in all versions: 0.23
-//! writes text between the modules of a nested design, which is no JSON, and 0.70 adds submodules to
-//! some figures. The netlist itself has been the same for years.
+//! The counts of `stat -json` would be smaller, but they differ between versions: 0.23 writes text
+//! between the modules of a nested design, which is not JSON, and 0.70 adds submodules to some
+//! figures. The format of the netlist itself has been stable for years.
 
 use std::collections::BTreeMap;
 
@@ -12,14 +12,14 @@ use serde::Deserialize;
 use crate::area::Area;
 use crate::error::EstimateError;
 
-/// What messages call a netlist.
+/// The name of a netlist in messages.
 pub(crate) const NETLIST: &str = "netlist.json";
 
 /// The modules of a netlist by name.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Netlist(BTreeMap<String, Module>);
 
-/// A module: primitive cells and submodules by type, and what it is called in the source.
+/// A module: its primitive cells and submodules by type, and its name in the source.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Module {
     pub(crate) cells: BTreeMap<String, u64>,
@@ -28,7 +28,7 @@ pub(crate) struct Module {
     pub(crate) parameters: Vec<String>,
 }
 
-/// Only what is needed; other fields come and go with versions.
+/// The part of the netlist that is needed; other fields differ between versions.
 #[derive(Deserialize)]
 struct RawNetlist {
     modules: BTreeMap<String, RawModule>,
@@ -70,13 +70,13 @@ impl Netlist {
         }
     }
 
-    /// The area of a module's own cells, without submodules.
+    /// Returns the area of a module's own cells, without submodules.
     pub(crate) fn own_area(&self, name: &str) -> Result<Area, EstimateError> {
         let module = self.module(name)?;
         Area::of_cells(&module.source_name, &module.cells)
     }
 
-    /// The area of a module and all that is inside it, except for the modules `without`.
+    /// Returns the area of a module and all modules inside it, except for the modules `without`.
     pub(crate) fn whole_area(&self, top: &str, without: &[&str]) -> Result<Area, EstimateError> {
         let counts = self.instances(top, without)?;
         let mut inside = counts.iter().filter(|(name, _)| !without.contains(&name.as_str()));
@@ -85,7 +85,8 @@ impl Netlist {
         })
     }
 
-    /// The area of the modules with this name in the source that stand in `top` itself, with all that is inside them.
+    /// Returns the area of the modules with this source name that `top` instantiates directly, with
+    /// all modules inside them.
     pub(crate) fn area_in(&self, top: &str, source_name: &str) -> Result<Area, EstimateError> {
         let mut found = None;
         for (name, &count) in &self.module(top)?.submodules {
@@ -97,7 +98,8 @@ impl Netlist {
         found.ok_or_else(|| self.missing(source_name))
     }
 
-    /// How often each module stands below `top`, at any depth; `leaves` are not entered.
+    /// Returns the number of instances of each module below `top`, at any depth; `leaves` are not
+    /// entered.
     pub(crate) fn instances(
         &self,
         top: &str,
@@ -132,7 +134,7 @@ impl Netlist {
 }
 
 impl Module {
-    /// A cell whose type is a module of the design is a submodule.
+    /// Counts the cells of a module. A cell whose type is a module of the design is a submodule.
     fn new(name: &str, raw: &RawModule, modules: &BTreeMap<String, RawModule>) -> Self {
         let mut module = Self::default();
         for cell in raw.cells.values() {
@@ -151,7 +153,7 @@ impl Module {
     }
 }
 
-/// Yosys writes numbers as strings of binary digits, and text as text.
+/// Returns a parameter as text. Yosys writes numbers as strings of binary digits, and text as text.
 fn number(value: &serde_json::Value) -> String {
     let Some(text) = value.as_str() else { return value.to_string() };
     u64::from_str_radix(text, 2).map_or_else(|_| text.trim_end().to_owned(), |n| n.to_string())
@@ -208,7 +210,7 @@ mod tests {
         let beside = netlist.whole_area("rpu", &["pair"]).unwrap();
         assert_eq!(pair.unwrap().plus(beside), netlist.whole_area("rpu", &[]).unwrap());
         assert!(adders.unwrap().carry > 0, "a module with parameters has another name");
-        // Not one that stands deeper.
+        // A module that is deeper in the hierarchy is not found.
         let error = netlist.area_in("rpu", "adder").unwrap_err();
         assert!(matches!(error, EstimateError::MissingModule { .. }), "{error}");
     }

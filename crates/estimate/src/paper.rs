@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The paper's table, and what a design is of it.
+//! The paper's table, and the figures of a design as ratios to it.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,42 +8,43 @@ use crate::area::{Area, quotient};
 /// A row of the paper's table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 pub struct PaperRow {
-    /// LUTs, those used as memory included.
+    /// The number of LUTs, including those used as memory.
     pub lut: u64,
-    /// Flip-flops.
+    /// The number of flip-flops.
     pub ff: u64,
-    /// LUTs used as memory.
+    /// The number of LUTs used as memory.
     pub lutram: u64,
 }
 
-/// The paper's RPU, 8x8 pixels.
+/// The paper's RPU, for 8x8 pixels.
 pub const PAPER_RPU: PaperRow = PaperRow { lut: 183, ff: 90, lutram: 16 };
-/// The paper's RCM, 224x224 pixels.
+/// The paper's RCM, for 224x224 pixels.
 pub const PAPER_RCM: PaperRow = PaperRow { lut: 143_472, ff: 70_562, lutram: 12_544 };
 /// The number of regions of the paper's RCM.
 pub const PAPER_REGIONS: u64 = 784;
 
-/// Figures divided by the paper's; below 1 is smaller.
+/// The figures of a design divided by the paper's; a ratio below 1 means that the design is
+/// smaller.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Ratios {
-    /// `lut_total` by the paper's LUTs.
+    /// The ratio of `lut_total` to the paper's LUTs.
     pub lut_total: f64,
-    /// `lut_total_packed` by the paper's LUTs.
+    /// The ratio of `lut_total_packed` to the paper's LUTs.
     pub lut_total_packed: f64,
-    /// Flip-flops.
+    /// The ratio of flip-flops.
     pub ff: f64,
-    /// `lut_memory` by the paper's LUTRAM.
+    /// The ratio of `lut_memory` to the paper's LUTRAM.
     pub lut_memory: f64,
-    /// `lut_memory_packed` by the paper's LUTRAM.
+    /// The ratio of `lut_memory_packed` to the paper's LUTRAM.
     pub lut_memory_packed: f64,
 }
 
-/// The paper's row and what the design is of it.
+/// A row of the paper's table, and the ratios of the design to it.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct BesidePaper {
     /// The paper's figures.
     pub paper: PaperRow,
-    /// The design's figures divided by them.
+    /// The design's figures divided by the paper's.
     pub ratio: Ratios,
 }
 
@@ -60,11 +61,11 @@ impl BesidePaper {
     }
 }
 
-/// The paper's table beside the design.
+/// The comparison of a design with the paper's table.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 pub struct Paper {
-    /// The RPU.
+    /// The comparison of the RPU.
     pub rpu: BesidePaper,
-    /// The RCM; absent unless the design has as many regions as the paper's.
+    /// The comparison of the RCM; absent unless the design has as many regions as the paper's.
     pub rcm: Option<BesidePaper>,
 }

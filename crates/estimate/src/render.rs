@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report for people: text for a terminal, Markdown for a document.
+//! Renders the report as text for a terminal and as Markdown.
 
 mod paper;
 
@@ -11,12 +11,12 @@ use foveate_pictures::page::number::grouped;
 use foveate_toolchain::ToolRecord;
 use paper::paper_table;
 
-/// What a core on a bus is called.
+/// The name of a core on AXI in tables.
 const ON_BUS: &str = "RCM on AXI";
 
 const COLUMNS: [&str; 8] = ["low", "high", "memory", "LUT", "FF", "carry", "DSP", "RAMB36"];
 
-/// The report as tables for a terminal of `width` columns; 80 is enough.
+/// Returns the report as tables for a terminal of `width` columns; 80 columns are enough.
 #[must_use]
 pub fn render_text(report: &AreaReport, width: usize) -> String {
     let mut text = wrap(&heading(report), width);
@@ -27,7 +27,7 @@ pub fn render_text(report: &AreaReport, width: usize) -> String {
     text
 }
 
-/// The report as Markdown.
+/// Returns the report as Markdown.
 #[must_use]
 pub fn render_markdown(report: &AreaReport) -> String {
     let mut text = heading(report) + "\n";
@@ -127,12 +127,12 @@ fn path_table(report: &AreaReport) -> Table {
     }
 }
 
-/// What all of a design is called.
+/// Returns the name of the whole design.
 fn whole_name(report: &AreaReport) -> &'static str {
     if report.bus.is_some() { ON_BUS } else { "RCM" }
 }
 
-/// The cells of a path, runs of one type as one word.
+/// Returns the cells of a path as text; consecutive carry blocks form one word.
 fn cells(path: &LogicPath) -> String {
     let runs = path.through.chunk_by(|a, b| a == b && a.starts_with("CARRY"));
     let names = runs.map(|run| match run {
@@ -143,7 +143,7 @@ fn cells(path: &LogicPath) -> String {
     if text.is_empty() { "a wire".to_owned() } else { text }
 }
 
-/// A row, and a second one if shift registers can be packed.
+/// Returns the row of an area, and a second one if shift registers can be packed.
 fn area_rows(name: &str, area: &Area) -> Vec<Vec<String>> {
     let mut rows = vec![area_row(name, area)];
     if area.lut_memory_packed != area.lut_memory {
@@ -187,7 +187,7 @@ fn share_row(report: &AreaReport) -> Vec<String> {
 }
 
 fn leaf_table(report: &AreaReport) -> Table {
-    // The first is the module whose leaves they are.
+    // The first row is the module whose leaves are listed.
     let of_array =
         report.bus.is_some() || report.leaves.first().is_some_and(|leaf| leaf.module == "rcm");
     let whole = if of_array { whole_name(report) } else { report.unit.as_str() };
@@ -212,13 +212,13 @@ fn leaf_row(leaf: &LeafArea) -> Vec<String> {
         parameters => format!("{} {}", leaf.module, parameters.join(" ")),
     };
     let mut row = vec![name, grouped(leaf.instances)];
-    // Without DSP slices there is room for the names in 80 columns.
+    // Without the column for DSP blocks, the names fit into 80 columns.
     let figures = COLUMNS.into_iter().zip(area_row("", &leaf.area).into_iter().skip(1));
     row.extend(figures.filter(|(column, _)| *column != "DSP").map(|(_, figure)| figure));
     row
 }
 
-/// Block RAM as every table has it: in units of `RAMB36`, of which a `RAMB18` is half.
+/// Returns block RAM in units of `RAMB36`, of which a `RAMB18` is half, as in every table.
 #[must_use]
 pub fn ramb36(bram18: u64) -> String {
     let half = if bram18 & 1 == 1 { ".5" } else { "" };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The report: areas, share of the device, and the paper's figures beside them.
+//! The report: areas, shares of the device, and the comparison with the paper.
 
 use serde::{Deserialize, Serialize};
 
@@ -13,17 +13,17 @@ use crate::paper::{BesidePaper, PAPER_RCM, PAPER_REGIONS, PAPER_RPU, Paper};
 use crate::speed::Speed;
 use foveate_toolchain::ToolRecord;
 
-/// The version of the JSON report. It grows when a field changes its meaning or goes away.
+/// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const FORMAT_VERSION: u32 = 1;
 
-/// A leaf module, synthesized apart from the others.
+/// The area of a leaf module that was synthesized separately.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LeafArea {
-    /// The module.
+    /// The name of the module.
     pub module: String,
-    /// Its parameters as `NAME=VALUE`.
+    /// The parameters as `NAME=VALUE`.
     pub parameters: Vec<String>,
-    /// How many of it one RPU has.
+    /// The number of instances in the module whose leaves are listed.
     pub instances: u64,
     /// The area of one instance, without the modules inside it.
     pub area: Area,
@@ -32,13 +32,13 @@ pub struct LeafArea {
 /// The longest paths, in logic levels.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Paths {
-    /// That of one RPU or lane alone, from and to its ports too.
+    /// The longest path of one RPU or lane alone, from and to its ports, too.
     pub rpu: LogicPath,
-    /// That of the RCM, through RPUs and lanes.
+    /// The longest path of the RCM, through RPUs and lanes.
     pub rcm: LogicPath,
 }
 
-/// Paths, and the clock that follows from the slowest.
+/// The longest paths, and the clock estimated from the slowest path.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Timing {
     pub(crate) paths: Paths,
@@ -46,7 +46,7 @@ pub(crate) struct Timing {
     pub(crate) clocks_per_frame: u64,
 }
 
-/// Areas as they are measured.
+/// The areas as they are measured.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Areas {
     pub(crate) unit: Area,
@@ -55,69 +55,72 @@ pub(crate) struct Areas {
     pub(crate) bus: Option<BusArea>,
 }
 
-/// What the array has many of.
+/// The name and number of the units of an array.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub(crate) struct Units {
     pub(crate) name: String,
     pub(crate) count: u64,
 }
 
-/// What was synthesized.
+/// The hashes of the synthesized RTL.
 #[derive(Debug, Clone, Default)]
 pub(crate) struct Rtl {
     pub(crate) sha256: String,
     pub(crate) rpu_sha256: String,
 }
 
-/// The area of a design.
+/// The area of a design, with its paths, clock and speed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct AreaReport {
-    /// [`FORMAT_VERSION`].
+    /// The version of the format, [`FORMAT_VERSION`].
     pub format_version: u32,
-    /// What made the figures.
+    /// The tool that made the figures.
     pub tool: ToolRecord,
-    /// The hash of the RTL: that of `sha256sum` over all files in the order of their names. A
-    /// co-simulation of the whole array says the same.
+    /// The hash of the RTL: that of the output of `sha256sum` over all files in the order of their
+    /// names. A co-simulation of the whole array reports the same hash.
     pub rtl_sha256: String,
-    /// The same of the RTL of one RPU. A co-simulation of it says the same.
+    /// The hash of the RTL of one RPU. A co-simulation of one RPU reports the same hash.
     pub rpu_sha256: String,
-    /// The device of the shares.
+    /// The device that the shares refer to.
     pub device: Device,
     /// The number of regions.
     pub regions: u64,
-    /// What the array has many of: `RPU`, one per region, or `lane`.
+    /// The name of the unit: `RPU`, one per region, or `lane`.
     pub unit: String,
-    /// How many of it.
+    /// The number of units.
     pub units: u64,
-    /// One RPU, or one lane, its leaves flattened.
+    /// The area of one RPU or lane, with its leaves flattened.
     pub rpu: Area,
-    /// What the RCM has beside its RPUs or lanes.
+    /// The area of the RCM without its RPUs or lanes.
     pub rcm_glue: Area,
-    /// The RCM: glue and all RPUs or lanes.
+    /// The area of the RCM: glue and all RPUs or lanes.
     pub rcm: Area,
-    /// The core on a bus, with the RCM inside; nothing where the RCM is all that there is.
+    /// The area of the core on AXI, with the RCM inside; `None` without a bus.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub bus: Option<BusArea>,
     /// The longest paths.
     pub paths: Paths,
-    /// The clock that the RCM, or the core on a bus, is expected to reach; nothing where it has no logic between registers.
+    /// The clock that the RCM, or the core on AXI, is expected to reach; `None` if it has no logic
+    /// between registers.
     #[serde(default)]
     pub clock: Option<ClockEstimate>,
-    /// Clocks from one frame to the next.
+    /// The clocks from one frame to the next.
     pub clocks_per_frame: u64,
-    /// Frames per second at the estimated clock, or at one that was given; nothing where there is none.
+    /// The frames per second at the estimated clock or at a given one; `None` without a clock.
     pub speed: Option<Speed>,
-    /// The share of the device that the RCM, or the core on a bus, takes.
+    /// The share of the device that the RCM, or the core on AXI, takes.
     pub share: Share,
-    /// The paper's table.
+    /// The comparison with the paper's table.
     pub paper: Paper,
-    /// The leaves of an RPU, of the array or of the core on a bus, and its own glue; empty if not asked for. They do not
-    /// add up to it, because logic is optimized across leaves.
+    /// The leaves of an RPU, of the array or of the core on AXI, and the module's own glue; empty
+    /// unless requested. Their sum differs from the whole, because logic is optimized across
+    /// leaves.
     pub leaves: Vec<LeafArea>,
 }
 
 impl AreaReport {
-    /// Puts the measured areas beside device and paper.
+    /// Makes a report from the measured areas, with the shares of the device and the comparison
+    /// with the paper.
     pub(crate) fn new(
         tool: ToolRecord,
         rtl: Rtl,
@@ -158,20 +161,20 @@ impl AreaReport {
         }
     }
 
-    /// All that the design takes: the core on a bus, else the RCM.
+    /// Returns the area of the whole design: the core on AXI, else the RCM.
     #[must_use]
     pub fn whole(&self) -> &Area {
         self.bus.as_ref().map_or(&self.rcm, |bus| &bus.whole)
     }
 
-    /// Logic levels of the longest path of all.
+    /// Returns the logic levels of the longest of all paths.
     #[must_use]
     pub fn levels(&self) -> u32 {
         let bus = self.bus.as_ref().map_or(0, |bus| bus.path.levels);
         self.paths.rcm.levels.max(self.paths.rpu.levels).max(bus)
     }
 
-    /// The report with frames per second at a clock of so many MHz, if one is given.
+    /// Returns the report with the frames per second at a clock in MHz, if one is given.
     #[must_use]
     pub fn at(mut self, mhz: Option<f64>) -> Self {
         let given = mhz.map(|mhz| Speed::given(mhz, self.clocks_per_frame));
@@ -179,10 +182,10 @@ impl AreaReport {
         self
     }
 
-    /// The report as indented JSON with a final line break.
+    /// Returns the report as indented JSON with a final line break.
     ///
     /// # Errors
-    /// When it cannot be serialized, which no report of this crate causes.
+    /// Fails if the report cannot be serialized, which no report of this crate causes.
     pub fn to_json(&self) -> Result<String, EstimateError> {
         serde_json::to_string_pretty(self).map(|text| text + "\n").map_err(EstimateError::Json)
     }
@@ -193,17 +196,17 @@ pub(crate) mod tests {
     use super::*;
     use crate::bus::PartArea;
 
-    /// A report with round figures, for the tests of its renderings.
+    /// Returns a report with round figures, for the tests of its renderings.
     pub(crate) fn example(regions: u64) -> AreaReport {
         of_units(regions, Units { name: "RPU".into(), count: regions }, None)
     }
 
-    /// The same as a serial array of `lanes` lanes.
+    /// Returns a report of a serial array of `lanes` lanes.
     pub(crate) fn serial_example(regions: u64, lanes: u64) -> AreaReport {
         of_units(regions, Units { name: "lane".into(), count: lanes }, None)
     }
 
-    /// The same as a core on a bus.
+    /// Returns a report of a core on AXI.
     pub(crate) fn bus_example() -> AreaReport {
         let area = |lut_total| Area { lut_total, lut_total_packed: lut_total, ..Area::default() };
         let part = |name: &str, modules: &[&str], luts| PartArea {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames per second, which hold at a clock: one that was given, or the estimated one with its range.
+//! The frames per second at a clock: a given one, or the estimated one with its range.
 
 use foveate_pictures::page::number::real;
 use serde::{Deserialize, Serialize};
@@ -11,28 +11,28 @@ use crate::clock::ClockEstimate;
 pub struct Speed {
     /// The clock in MHz.
     pub clock_mhz: f64,
-    /// The low end of its range; of a clock that was given, the clock.
+    /// The low end of the range of the clock in MHz; the clock itself if it was given.
     pub low_clock_mhz: f64,
-    /// The high end of its range.
+    /// The high end of the range of the clock in MHz; the clock itself if it was given.
     pub high_clock_mhz: f64,
-    /// Whether the clock is estimated; else it was given.
+    /// Whether the clock is estimated, as opposed to given.
     pub estimated: bool,
     /// Frames per second at the clock.
     pub frames_per_second: f64,
-    /// Frames per second at the low end.
+    /// Frames per second at the low end of the clock's range.
     pub low_frames_per_second: f64,
-    /// Frames per second at the high end.
+    /// Frames per second at the high end of the clock's range.
     pub high_frames_per_second: f64,
 }
 
 impl Speed {
-    /// Of frames of so many clocks at a clock that was given.
+    /// Computes the frames per second at a given clock.
     #[must_use]
     pub fn given(mhz: f64, clocks_per_frame: u64) -> Self {
         Self::over([mhz; 3], false, clocks_per_frame)
     }
 
-    /// Of frames of so many clocks at the estimated clock.
+    /// Computes the frames per second at the estimated clock.
     #[must_use]
     pub fn estimated(clock: &ClockEstimate, clocks_per_frame: u64) -> Self {
         Self::over([clock.low_mhz, clock.mhz, clock.high_mhz], true, clocks_per_frame)
@@ -52,7 +52,7 @@ impl Speed {
         }
     }
 
-    /// The clock in MHz: `44 (35 to 59)` if it is estimated, else as it was given.
+    /// Returns the clock in MHz as text: `44 (35 to 59)` if it is estimated, else as it was given.
     #[must_use]
     pub fn clock_text(&self) -> String {
         let Self { clock_mhz, low_clock_mhz, high_clock_mhz, .. } = self;
@@ -63,13 +63,15 @@ impl Speed {
         }
     }
 
-    /// The frames per second: `685,714` from a thousand on, else with a digit after the point.
+    /// Returns the frames per second as text: `685,714` from a thousand on, else with a digit after
+    /// the point.
     #[must_use]
     pub fn rate_text(&self) -> String {
         real(self.frames_per_second, 1)
     }
 
-    /// The same with its range: `5.6 (4.5 to 7.4)` if the clock is estimated.
+    /// Returns the frames per second with their range as text: `5.6 (4.5 to 7.4)` if the clock is
+    /// estimated.
     #[must_use]
     pub fn rate_with_range(&self) -> String {
         let rate = self.rate_text();
@@ -81,7 +83,7 @@ impl Speed {
         format!("{rate} ({low} to {high})")
     }
 
-    /// Both: `31.6 frames/s at 250 MHz`, or
+    /// Returns the rate and the clock as text: `31.6 frames/s at 250 MHz`, or
     /// `5.6 (4.5 to 7.4) frames/s at an estimated clock of 44 (35 to 59) MHz`.
     #[must_use]
     pub fn text(&self) -> String {
@@ -90,7 +92,7 @@ impl Speed {
     }
 }
 
-/// The most clocks per frame that reach this many frames per second at a clock in Hz.
+/// Returns the most clocks per frame that reach this number of frames per second at a clock in Hz.
 #[must_use]
 #[allow(
     clippy::cast_possible_truncation,

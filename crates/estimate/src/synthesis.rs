@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which synthesis a design asks for: its unit, the array around it, what puts that on a bus, and their Verilog.
+//! The synthesis of a design: its unit, the array around it, the core on AXI, and their Verilog.
 
 use foveate_design::Design;
 use foveate_emit::{AXI_TOP, SourceFile, Top, on_bus};
@@ -8,14 +8,14 @@ use foveate_toolchain::{Source, SynthesisJob, sources_sha256};
 use crate::EstimateJob;
 
 impl EstimateJob {
-    /// The synthesis of a design's freshly generated Verilog.
+    /// Makes the job for a design's freshly generated Verilog.
     #[must_use]
     pub fn of(design: &Design, top: Top) -> Self {
         Self::with_sources(design, top, sources(design, top))
     }
 
-    /// The synthesis of a design from this Verilog. Where the array is not made of modules
-    /// `rpu`, that is an array of its own.
+    /// Makes the job for a design with this Verilog. If the array does not consist of modules
+    /// `rpu`, module `rpu` is an array of its own.
     #[must_use]
     pub fn with_sources(design: &Design, top: Top, verilog: Vec<Source>) -> Self {
         let unit = design.unit();
@@ -49,7 +49,8 @@ impl EstimateJob {
         }
     }
 
-    /// The same with the modules apart: those of the unit, or of the array where that says more, or of a core on a bus.
+    /// Adds the list of separate modules: those of the unit, of the array where that says more, or
+    /// of a core on AXI.
     #[must_use]
     pub fn with_leaves(self, design: &Design) -> Self {
         let of_array = design.unit().split.to_owned();

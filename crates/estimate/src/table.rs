@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A table that can be text for a terminal or Markdown.
+//! A table that can be rendered as text for a terminal or as Markdown.
 
-/// Rows of cells under a header; the first column is text, the others are figures.
+/// A table whose first column is text and whose other columns are figures.
 #[derive(Debug, Clone, Default, PartialEq, Eq)]
 pub(crate) struct Table {
     pub(crate) title: String,
@@ -14,8 +14,9 @@ const GAP: usize = 2;
 const NARROWEST: usize = 20;
 
 impl Table {
-    /// Aligned columns. The first one is cut where the table would be wider than `width`, unless too
-    /// little would be left of it: a terminal that narrow has to break the lines.
+    /// Returns the table as aligned columns. The first column is truncated where the table would be
+    /// wider than `width`, unless too little of it would remain: a terminal that narrow has to
+    /// break the lines.
     pub(crate) fn text(&self, width: usize) -> String {
         let mut columns = self.widths();
         let figures: usize = columns.iter().skip(1).map(|column| column + GAP).sum();
@@ -34,7 +35,8 @@ impl Table {
         text
     }
 
-    /// The same, but with columns that do not fit one below the other, under the first one again.
+    /// Returns the table as text. Columns that do not fit are placed below the others, after a
+    /// repeated first column.
     pub(crate) fn stacked_text(&self, width: usize) -> String {
         let widths = self.widths();
         let first = widths.first().copied().unwrap_or_default();
@@ -65,7 +67,7 @@ impl Table {
         parts.iter().enumerate().map(part).collect()
     }
 
-    /// A Markdown table under its title in bold.
+    /// Returns the table as Markdown under its title in bold.
     pub(crate) fn markdown(&self) -> String {
         let row = |cells: &[String]| {
             let cells = cells.iter().map(|cell| cell.trim_start().replace('|', "\\|"));
@@ -92,7 +94,7 @@ impl Table {
     }
 }
 
-/// The header of a table: that of the first column, and those of the figures.
+/// Makes the header of a table from the header of the first column and those of the figures.
 pub(crate) fn header(first: &str, columns: &[&str]) -> Vec<String> {
     std::iter::once(&first).chain(columns).map(|&text| text.to_owned()).collect()
 }
@@ -117,7 +119,7 @@ fn cut(cell: &str, width: usize) -> String {
     kept + ".."
 }
 
-/// Breaks a sentence into lines of at most `width`.
+/// Breaks a sentence into lines of at most `width` characters.
 pub(crate) fn wrap(sentence: &str, width: usize) -> String {
     let mut text = String::new();
     let mut column = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A toy design through Yosys. Skipped, visibly, where Yosys is missing.
+//! Tests of a toy design with Yosys. They are skipped with a message where Yosys is missing.
 
 use foveate_estimate::{EstimateError, EstimateJob, estimate, render_text};
 use foveate_toolchain::testing::require_tools;
@@ -47,7 +47,7 @@ fn a_toy_array_is_estimated() {
     assert!(report.paths.rpu.levels >= 3, "{:?}", report.paths);
     assert!(report.paths.rpu.to.contains("(FDRE."), "{:?}", report.paths);
     assert_eq!((report.unit.as_str(), report.units), ("RPU", 784));
-    // Frames of 64 clocks, at the clock of this netlist.
+    // A frame takes 64 clocks, at the clock of this netlist.
     let (speed, clock) = (report.speed.unwrap(), report.clock.as_ref().unwrap());
     assert!(speed.estimated && speed.clock_mhz == clock.mhz, "{speed:?}");
     assert_eq!(speed.frames_per_second, clock.mhz * 1e6 / 64.0);
@@ -60,7 +60,7 @@ fn a_toy_array_is_estimated() {
     assert!(render_text(&report, 80).contains("RCM, Yosys estimate"));
     assert_eq!(estimate(&tools, &cache, &job).unwrap(), report);
 
-    // The same netlist is not that of another design.
+    // The same netlist is rejected for another design.
     let error = estimate(&tools, &cache, &EstimateJob { units: 5, ..job }).unwrap_err();
     let expected = "`rcm` has 784 instances of `rpu`, but the design has 5; the Verilog may belong to another design";
     assert_eq!(error.to_string(), expected);

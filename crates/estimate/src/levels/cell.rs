@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which inputs of a cell its outputs wait for, what starts at it and what ends at it.
+//! The timing of a cell: the inputs that each output depends on, and the pins at which paths start
+//! and end.
 
 use super::delay;
 use super::joint::{Joint, joints};
@@ -7,19 +8,19 @@ use super::path::Weight;
 use super::raw::{Bit, RawCell};
 use crate::cells::CellKind;
 
-/// What paths do at one cell, in nets of its module.
+/// The parts of paths at one cell, in nets of its module.
 #[derive(Default)]
 pub(super) struct CellTiming {
-    /// From an input to an output, and what that adds to the path.
+    /// The input net and the output net of each arc, and the weight that it adds to a path.
     pub(super) arcs: Vec<(u32, u32, Weight)>,
-    /// Outputs at which paths start, and what they start with.
+    /// The outputs at which paths start, and their initial weights.
     pub(super) starts: Vec<(u32, Weight)>,
-    /// Inputs at which paths end, and their pins.
+    /// The inputs at which paths end, and their pins.
     pub(super) ends: Vec<(u32, String)>,
 }
 
 impl CellTiming {
-    /// The timing of a cell of that kind. `chained` says of a net whether it is the last carry of
+    /// Returns the timing of a cell of a kind. `chained` returns whether a net is the last carry of
     /// another block.
     pub(super) fn of(kind: CellKind, cell: &RawCell, chained: impl Fn(u32) -> bool) -> Self {
         let mut timing = Self::default();
@@ -46,7 +47,7 @@ impl CellTiming {
     }
 }
 
-/// The last carry of a block, from which the chain goes on.
+/// Returns the last carry of a block, from which a chain continues.
 pub(super) fn carry_out(cell: &RawCell) -> Option<u32> {
     matches!(CellKind::of(&cell.kind), Some(CellKind::Carry(_)))
         .then(|| cell.connections.get("CO")?.last().and_then(Bit::net))
@@ -81,7 +82,8 @@ fn is_clock(kind: CellKind, port: &str) -> bool {
     port.contains("CLK") || (kind == CellKind::FlipFlop && port == "C")
 }
 
-/// What a path from this input to this output passes; `None` where the output does not wait for it.
+/// Returns the weight of the arc from this input to this output; `None` if the output does not
+/// depend on the input.
 fn arc(
     kind: CellKind,
     cell: &RawCell,
@@ -93,7 +95,7 @@ fn arc(
         CellKind::Lut(_) | CellKind::Inverter => Some(Weight::LEVEL),
         CellKind::Free => Some(Weight::NONE),
         CellKind::Carry(_) => {
-            // Bit i of the sum comes before bit i of the data enters, bit i of the carry behind it.
+            // Bit i of the sum does not depend on bit i of the data, but bit i of the carry does.
             let waits = match input.port {
                 "S" => input.index <= output.index,
                 "DI" if output.port == "O" => input.index < output.index,
@@ -114,8 +116,8 @@ fn arc(
     }
 }
 
-/// Whether a distributed memory's output is read at this input: `DOB` at `ADDRB`, `DPO` at `DPRA`,
-/// the others at `A`. What leaves a shift register at its end (`Q31`) is not addressed.
+/// Returns whether an input addresses the read of a distributed memory's output: `ADDRB` for `DOB`,
+/// `DPRA` for `DPO`, and `A` for the others. The end of a shift register (`Q31`) is not addressed.
 fn read_address(output: &str, input: &str) -> bool {
     let is_numbered = |name: &str, start: &str| {
         name.strip_prefix(start).is_some_and(|rest| rest.chars().all(|c| c.is_ascii_digit()))
@@ -128,14 +130,14 @@ fn read_address(output: &str, input: &str) -> bool {
     }
 }
 
-/// Inputs at which a path ends. Data of a multiplier without input registers goes on instead, unless
-/// a register behind the multiplication takes it.
+/// Returns whether a path ends at an input. Data of a multiplier without input registers pass
+/// through, unless a register follows the multiplication.
 fn is_end(kind: CellKind, cell: &RawCell, port: &str) -> bool {
     match kind {
         CellKind::FlipFlop | CellKind::BlockRam(_) | CellKind::UltraRam => true,
         CellKind::Srl16 => !port.starts_with('A'),
         CellKind::Memory(_) => {
-            // The address that is written is one of those that are read; of a shift register, none.
+            // The write address is also a read address; a shift register has no write address.
             let is_shift_address = cell.kind.starts_with("SRL") && port.starts_with('A');
             let only_read = port.starts_with("DPRA")
                 || port.strip_prefix("ADDR").is_some_and(|letter| !is_written(cell, letter));
@@ -149,19 +151,20 @@ fn is_end(kind: CellKind, cell: &RawCell, port: &str) -> bool {
     }
 }
 
-/// Memories with several addresses are written at the last one.
+/// Returns whether a memory is written at this address. Memories with several addresses are written
+/// at the last one.
 fn is_written(cell: &RawCell, letter: &str) -> bool {
     let addresses = cell.connections.keys().filter_map(|port| port.strip_prefix("ADDR"));
     addresses.max() == Some(letter)
 }
 
-/// What a path that starts at the outputs starts with.
+/// Returns the initial weight of a path that starts at the outputs; `None` if no path starts there.
 fn start(kind: CellKind, cell: &RawCell) -> Option<Weight> {
     match kind {
         CellKind::FlipFlop | CellKind::Srl16 | CellKind::BlockRam(_) | CellKind::UltraRam => {
             Some(Weight::NONE)
         }
-        // What was written leaves through the multiplexer that reads it.
+        // A written word leaves the memory through the multiplexer that reads it.
         CellKind::Memory(_) if cell.kind.starts_with("SRL") => Some(Weight::NONE),
         CellKind::Memory(_) => Some(Weight::LEVEL),
         CellKind::Dsp => {
@@ -171,12 +174,14 @@ fn start(kind: CellKind, cell: &RawCell) -> Option<Weight> {
     }
 }
 
-/// Whether a DSP block has no register of that name; it has one unless the parameter says 0.
+/// Returns whether a DSP block lacks the register of that name; it has the register unless the
+/// parameter is 0.
 fn is_unregistered(cell: &RawCell, register: &str) -> bool {
     cell.number(&format!("{register}REG")) == Some(0)
 }
 
-/// Whether an input of a DSP block goes into the multiplication or addition without a register.
+/// Returns whether an input of a DSP block enters the multiplication or addition without a
+/// register.
 fn is_data(cell: &RawCell, port: &str) -> bool {
     matches!(port, "A" | "B" | "C" | "D") && is_unregistered(cell, port)
 }

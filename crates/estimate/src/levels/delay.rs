@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Delays of Xilinx cells in picoseconds, from the `specify` blocks of Yosys' cell models
-//! (`xilinx/cells_sim.v`). Where a block tells many bits apart, the slowest of its group stands for all.
+//! The delays of Xilinx cells in picoseconds, from the `specify` blocks of Yosys' cell models
+//! (`xilinx/cells_sim.v`). Where a block distinguishes many bits, the slowest of a group is used
+//! for all.
 //!
-//! * The models are those of the 7 series. Yosys has none of UltraScale+, and takes these for it.
+//! * The models are those of the 7 series. Yosys has none of UltraScale+, and uses these for it.
 //! * Setup times are left out, as those of ECP5 are 0.
 
 use super::joint::Joint;
@@ -10,17 +11,19 @@ use super::path::Weight;
 use super::raw::RawCell;
 use crate::cells::CellKind;
 
-/// From an input of a look-up table to its output, the last input first: it is the fastest.
+/// The delays from an input of a look-up table to its output, beginning with the last input, which
+/// is the fastest.
 const LUT: [u32; 6] = [127, 238, 407, 472, 631, 642];
-/// From the clock to the output of a flip-flop.
+/// The delay from the clock to the output of a flip-flop.
 const START: u32 = 303;
-/// From the clock to the output of a shift register, and of distributed RAM.
+/// The delay from the clock to the output of a shift register.
 const SHIFT_START: u32 = 1472;
+/// The delay from the clock to the output of distributed RAM.
 const MEMORY_START: u32 = 1190;
-/// From the clock to the output of block RAM, without and with its output register.
+/// The delays from the clock to the output of block RAM, without and with its output register.
 const BLOCK_START: [u32; 2] = [2454, 882];
 
-/// From an input of a cell to one of its outputs.
+/// Returns the delay from an input of a cell to one of its outputs.
 pub(super) fn arc(kind: CellKind, cell: &RawCell, input: &Joint<'_>, output: &Joint<'_>) -> u32 {
     match kind {
         CellKind::Lut(inputs) => table(inputs.saturating_sub(1 + place(input))),
@@ -45,14 +48,14 @@ pub(super) fn arc(kind: CellKind, cell: &RawCell, input: &Joint<'_>, output: &Jo
     }
 }
 
-/// What a path starts with at the outputs of a cell.
+/// Returns the initial weight of a path at the outputs of a cell.
 pub(super) fn start(kind: CellKind, cell: &RawCell) -> Weight {
     let registered = ["DOA_REG", "DOB_REG"].iter().any(|name| cell.number(name) == Some(1));
     let clock_to_output = match kind {
         CellKind::Srl16 => SHIFT_START,
         CellKind::Memory(_) if cell.kind.starts_with("SRL") => SHIFT_START,
         CellKind::Memory(_) => MEMORY_START,
-        // UltraRAM has no model: it is taken for block RAM.
+        // There is no model of UltraRAM, so that of block RAM is used.
         CellKind::BlockRam(_) | CellKind::UltraRam => BLOCK_START[usize::from(registered)],
         _ => START,
     };
@@ -63,7 +66,8 @@ fn table(behind_last: usize) -> u32 {
     LUT[behind_last.min(LUT.len() - 1)]
 }
 
-/// The number of an input among those of its kind: `I3`, `DPRA3` and bit 3 of `ADDRA` are 3.
+/// Returns the number of an input among those of its kind: `I3`, `DPRA3` and bit 3 of `ADDRA` are
+/// 3.
 fn place(input: &Joint<'_>) -> usize {
     let digits = input.port.trim_start_matches(|c: char| !c.is_ascii_digit());
     digits.parse().unwrap_or(input.index)

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What paths do at the cells of an ECP5, with the delays of Yosys' cell models (`ecp5/cells_sim.v`) in
-//! picoseconds. Reads of distributed RAM have a delay of 0 there. What they lack is what nextpnr 0.11 says
-//! of speed grade 6.
+//! The timing of the cells of an ECP5, with the delays of Yosys' cell models (`ecp5/cells_sim.v`)
+//! in picoseconds. The models give reads of distributed RAM a delay of 0. The delays that the
+//! models lack are those of nextpnr 0.11 for speed grade 6.
 
 use super::cell::CellTiming;
 use super::joint::joints;
 use super::path::Weight;
 use super::raw::RawCell;
 
-/// From inputs to outputs.
+/// The delays from inputs to outputs.
 type Table = &'static [(&'static str, &'static str, u32)];
 
 pub(super) const LUT4: Table =
     &[("A", "Z", 141), ("B", "Z", 275), ("C", "Z", 379), ("D", "Z", 379)];
-/// The multiplexer of two tables, and that of two of those.
+/// The delays of the multiplexer of two tables.
 pub(super) const PFUMX: Table = &[("ALUT", "Z", 98), ("BLUT", "Z", 98), ("C0", "Z", 151)];
+/// The delays of the multiplexer of two `PFUMX`.
 pub(super) const L6MUX21: Table = &[("D0", "Z", 140), ("D1", "Z", 141), ("SD", "Z", 148)];
-/// Two bits of a carry chain; the upper inputs do not reach the lower sum.
+/// The delays of two bits of a carry chain; the upper inputs do not reach the lower sum.
 #[rustfmt::skip]
 pub(super) const CCU2C: Table = &[
     ("A0", "S0", 379), ("B0", "S0", 379), ("C0", "S0", 275), ("D0", "S0", 141), ("CIN", "S0", 257),
@@ -26,13 +27,15 @@ pub(super) const CCU2C: Table = &[
     ("A1", "COUT", 516), ("B1", "COUT", 516), ("C1", "COUT", 412), ("D1", "COUT", 278),
     ("CIN", "COUT", 43),
 ];
-/// From nextpnr: from the clock to the output of a flip-flop, of block RAM without and with its output
-/// register, and through a multiplier.
+/// The delay from the clock to the output of a flip-flop, from nextpnr.
 const START: u32 = 525;
+/// The delays from the clock to the output of block RAM, without and with its output register, from
+/// nextpnr.
 const BLOCK_START: [u32; 2] = [5830, 960];
+/// The delay through a multiplier, from nextpnr.
 const MULTIPLIER: u32 = 3930;
 
-/// The timing of a cell; nothing where it is not known.
+/// Returns the timing of a cell; `None` if the cell is not known.
 pub(super) fn timing(cell: &RawCell) -> Option<CellTiming> {
     match cell.kind.as_str() {
         "LUT4" => Some(through(cell, LUT4)),
@@ -54,7 +57,8 @@ fn through(cell: &RawCell, table: Table) -> CellTiming {
     CellTiming { arcs: table.iter().filter_map(arc).collect(), ..CellTiming::default() }
 }
 
-/// Paths end at all inputs but the clocks, and start at the outputs, each after its time.
+/// Returns the timing of a registered cell. Paths end at all inputs except clocks, and start at the
+/// outputs, each after its delay.
 fn registered(cell: &RawCell, output: &str, ps: impl Fn(&str) -> u32) -> CellTiming {
     let mut timing = CellTiming::default();
     for joint in joints(cell).filter(|joint| !joint.port.contains("CLK")) {
@@ -67,14 +71,14 @@ fn registered(cell: &RawCell, output: &str, ps: impl Fn(&str) -> u32) -> CellTim
     timing
 }
 
-/// `DOA3` is an output of side A.
+/// Returns the delay from the clock to an output of block RAM; `DOA3` is an output of side A.
 fn block_start(cell: &RawCell, output: &str) -> u32 {
     let side = &output["DO".len().."DO?".len()];
     let registered = cell.text(&format!("REGMODE_{side}")) == Some("OUTREG");
     BLOCK_START[usize::from(registered)]
 }
 
-/// Written at the clock, read at any time.
+/// Returns the timing of distributed RAM, which is written at the clock and read at any time.
 fn memory(cell: &RawCell) -> CellTiming {
     let mut timing = CellTiming::default();
     let outputs = || joints(cell).filter(|joint| joint.port == "DO").map(|joint| joint.net);
@@ -89,7 +93,8 @@ fn memory(cell: &RawCell) -> CellTiming {
     timing
 }
 
-/// Multipliers have no registers here: `synth_ecp5` leaves those of the fabric.
+/// Returns the timing of a multiplier. Multipliers have no registers here, because `synth_ecp5`
+/// leaves registers in the fabric.
 fn multiplier(cell: &RawCell) -> CellTiming {
     let is_output = |port: &str| port.starts_with('P') || port.starts_with("RO");
     let is_input = |port: &str| port.starts_with('A') || port.starts_with('B');

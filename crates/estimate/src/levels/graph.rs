@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A module with everything inside it as one graph of nets, numbered through all instances.
+//! A module with everything inside it as one graph of nets, numbered across all instances.
 
 use std::collections::{BTreeMap, HashMap, HashSet};
 use std::rc::Rc;
@@ -12,7 +12,7 @@ use super::raw::{Bit, RawModule, RawNetlist};
 use crate::cells::CellKind;
 use crate::error::EstimateError;
 
-/// Where paths can go, start and end.
+/// The nets of a module, with the places where paths go, start and end.
 pub(super) struct Graph<'a> {
     pub(super) arcs: Vec<Arc<'a>>,
     pub(super) starts: Vec<Start>,
@@ -24,7 +24,7 @@ pub(super) struct Arc<'a> {
     pub(super) from: u32,
     pub(super) to: u32,
     pub(super) weight: Weight,
-    /// The type of the cell; nothing where a module joins two nets.
+    /// The type of the cell; `None` where a module connects two nets.
     pub(super) cell: Option<&'a str>,
 }
 
@@ -35,13 +35,13 @@ pub(super) struct Start {
 
 pub(super) struct End<'a> {
     pub(super) net: u32,
-    /// The type of the cell and its pin; nothing for an output port.
+    /// The type of the cell and its pin; `None` for an output port.
     pub(super) pin: Option<(&'a str, String)>,
-    /// The net whose name tells which register, memory or port it is.
+    /// The net whose name identifies the register, memory or port.
     pub(super) named: u32,
 }
 
-/// A net under its name in one of the instances that it belongs to.
+/// A net, with its name in one of the instances that it belongs to.
 struct Net<'a> {
     instance: Instance<'a>,
     local: u32,
@@ -54,14 +54,14 @@ struct Instance<'a> {
     cells: Rc<[Timed<'a>]>,
 }
 
-/// A cell with what paths do at it, and its first output.
+/// A cell with its timing and its first output.
 struct Timed<'a> {
     kind: &'a str,
     timing: CellTiming,
     output: Option<u32>,
 }
 
-/// The nets of an instance: its own numbers, and those of the graph.
+/// The nets of an instance: local numbers, and the numbers in the graph.
 type Nets = HashMap<u32, u32>;
 
 impl<'a> Graph<'a> {
@@ -91,13 +91,13 @@ impl<'a> Graph<'a> {
         self.nets.len()
     }
 
-    /// The name of a net with the instances around it.
+    /// Returns the name of a net, preceded by the instances that contain it.
     pub(super) fn name(&self, net: u32) -> String {
         let Net { instance, local } = &self.nets[net as usize];
         inside(&instance.path, &instance.module.net_name(*local))
     }
 
-    /// The graph's number of a net of an instance.
+    /// Returns the graph's number of a net of an instance.
     fn net(&mut self, instance: &Instance<'a>, nets: &mut Nets, local: u32) -> u32 {
         *nets.entry(local).or_insert_with(|| {
             self.nets.push(Net { instance: instance.clone(), local });
@@ -128,7 +128,8 @@ impl<'a> Builder<'a> {
         Ok(Instance { path: path.into(), module, cells })
     }
 
-    /// Adds the cells of an instance and what is inside it. `nets` has what its ports are joined to.
+    /// Adds the cells of an instance and all modules inside it. `nets` has the nets that its ports
+    /// are connected to.
     fn fill(
         &mut self,
         graph: &mut Graph<'a>,
@@ -164,8 +165,8 @@ impl<'a> Builder<'a> {
     }
 }
 
-/// Joins the ports of an inner instance to the nets outside. Returns an arc for every output that
-/// comes from an input or leaves under a second name.
+/// Connects the ports of an inner instance to the nets outside. Returns an arc for every output
+/// that comes from an input or leaves under a second name.
 fn bind<'a>(
     graph: &mut Graph<'a>,
     (outer, nets): (&Instance<'a>, &mut Nets),
@@ -192,7 +193,7 @@ fn bind<'a>(
     again
 }
 
-/// The cells of a module that are no modules.
+/// Returns the primitive cells of a module.
 fn timed<'a>(
     netlist: &RawNetlist,
     name: &str,

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Logic levels of the longest path, counted in the synthesized netlist.
+//! The logic levels of the longest path, counted in the synthesized netlist.
 //!
-//! A path goes from a register, a memory or an input port to a register, a memory or an output port.
-//! On its way a LUT is a level, an asynchronous read of distributed RAM is one, a multiplication
-//! without registers is one, and a carry chain is one, however long: its blocks of four bits are
-//! counted apart, because a block costs a fraction of a LUT. Multiplexers behind LUTs (MUXF7..9)
-//! belong to their LUTs. Modules that were kept apart are entered, so that paths cross them.
+//! A path leads from a register, a memory or an input port to a register, a memory or an output
+//! port. Each of these is one level: a LUT, an asynchronous read of distributed RAM, a
+//! multiplication without registers, and a carry chain of any length. The blocks of four bits of a
+//! chain are counted separately, because a block costs a fraction of a LUT. Multiplexers behind
+//! LUTs (MUXF7..9) belong to their LUTs. Paths also cross modules that were kept separate.
 //!
-//! The slowest path is another one: each cell on it has the delay of Yosys' model of it, and wires are a
-//! stated share of the whole. Only placement knows them; see `docs/clock.md` for how far off that is.
+//! The slowest path may be another one: each cell on it has the delay of Yosys' model of it, and
+//! wires are a fixed share of the whole. The real delays of wires are known only after placement;
+//! `docs/clock.md` states the error.
 
 mod cell;
 mod delay;
@@ -26,10 +27,10 @@ pub(crate) use path::WIRING_SHARE;
 use path::Weight;
 use raw::RawNetlist;
 
-/// The longest path of each of the `tops`, with all modules inside them.
+/// Returns the longest path of each of the `tops`, with all modules inside them.
 ///
 /// # Errors
-/// When the netlist is not understood, a module is missing, or logic runs in a circle.
+/// Fails if the netlist cannot be read, a module is missing, or there is a combinational loop.
 pub(crate) fn longest_paths(
     file: &'static str,
     json: &[u8],
@@ -44,10 +45,10 @@ pub(crate) fn longest_paths(
     tops.iter().map(longest).collect()
 }
 
-/// The slowest path of `top` with all modules inside it, and its time in picoseconds.
+/// Returns the slowest path of `top` with all modules inside it, and its time in picoseconds.
 ///
 /// # Errors
-/// As [`longest_paths`].
+/// Fails like [`longest_paths`].
 pub(crate) fn slowest_path(
     file: &'static str,
     json: &[u8],
@@ -59,7 +60,7 @@ pub(crate) fn slowest_path(
     search::longest(&Graph::of(&netlist, top, library)?, Weight::by_time)
 }
 
-/// Whose cells a netlist is made of.
+/// The vendor library of the cells in a netlist.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Library {
     Xilinx,

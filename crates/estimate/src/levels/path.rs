@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The longest path as it is reported, and what tells which of two is longer.
+//! The longest path in reports, and the order of paths by length.
 
 use serde::{Deserialize, Serialize};
 
 /// The longest path of a module.
 #[derive(Debug, Clone, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct LogicPath {
-    /// Logic levels.
+    /// The number of logic levels.
     pub levels: u32,
-    /// Blocks of four bits that it crosses in carry chains.
+    /// The number of blocks of four bits that the path crosses in carry chains.
     pub carry4: u32,
-    /// Where it starts: an input port, or the output of a register or memory.
+    /// The start of the path: an input port, or the output of a register or memory.
     pub from: String,
-    /// Where it ends: an output port, or a pin of a register or memory.
+    /// The end of the path: an output port, or a pin of a register or memory.
     pub to: String,
-    /// The types of the cells between, in order.
+    /// The types of the cells in between, in order.
     pub through: Vec<String>,
 }
 
-/// The part of a path's time that is wires. Found on ECP5, where nextpnr says what is
-/// reached: see `docs/clock.md`.
+/// The share of wires in the delay of a path. It was determined on ECP5, where nextpnr reports the
+/// real frequency: see `docs/clock.md`.
 pub(crate) const WIRING_SHARE: f64 = 0.65;
 
-/// What a path has passed, and the time that it is taken to need, wires included.
+/// The levels and carry blocks of a path, and its estimated delay in picoseconds, wires included.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Weight {
     pub(super) levels: u32,
@@ -36,18 +36,18 @@ impl Weight {
     pub(super) const CHAIN: Self = Self { levels: 1, carry4: 1, ps: 0 };
     pub(super) const BLOCK: Self = Self { levels: 0, carry4: 1, ps: 0 };
 
-    /// A delay in logic, which has its share of wires beside it.
+    /// Makes the weight of a delay in logic, and adds the share of the wires.
     pub(super) fn wired(ps: u32) -> Self {
         Self::fixed(with_wires(ps))
     }
 
-    /// A delay inside a block, which wires do not follow.
+    /// Makes the weight of a delay inside a block, which no wires follow.
     pub(super) fn fixed(ps: u32) -> Self {
         Self { ps, ..Self::NONE }
     }
 
-    /// What a path starts with: a flip-flop's delay, with wires as all logic has them, and what a slower
-    /// block takes longer.
+    /// Makes the initial weight of a path: the delay of a flip-flop with the usual share of wires,
+    /// and the additional delay of a slower block without wires.
     pub(super) fn after_clock(clock_to_output: u32, flip_flop: u32) -> Self {
         Self::wired(flip_flop).plus(Self::fixed(clock_to_output.saturating_sub(flip_flop)))
     }
@@ -60,12 +60,12 @@ impl Weight {
         }
     }
 
-    /// Of two paths with equal levels the one with more carry blocks is longer.
+    /// Returns the key that orders paths by levels, and by carry blocks for equal levels.
     pub(super) fn by_levels(self) -> (u32, u32) {
         (self.levels, self.carry4)
     }
 
-    /// Of two paths that need the same time the one with more levels is longer.
+    /// Returns the key that orders paths by delay, and by levels for equal delays.
     pub(super) fn by_time(self) -> (u32, u32) {
         (self.ps, self.levels)
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Ports, cells, connections and names as Yosys writes them.
+//! Ports, cells, connections and names in the JSON format of Yosys.
 
 use std::collections::BTreeMap;
 
@@ -66,20 +66,21 @@ impl RawPort {
 }
 
 impl RawCell {
-    /// A parameter that is a number; Yosys writes it as binary digits.
+    /// Returns a parameter that is a number; Yosys writes it as binary digits.
     pub(super) fn number(&self, name: &str) -> Option<u64> {
         let value = self.parameters.get(name)?;
         value.as_u64().or_else(|| u64::from_str_radix(value.as_str()?, 2).ok())
     }
 
-    /// A parameter that is text.
+    /// Returns a parameter that is text.
     pub(super) fn text(&self, name: &str) -> Option<&str> {
         self.parameters.get(name)?.as_str().map(str::trim_end)
     }
 }
 
 impl RawModule {
-    /// The name of a net: one from the source if it has one, else whatever it is called.
+    /// Returns the name of a net: a name from the source if it has one, else a name that Yosys
+    /// made.
     pub(super) fn net_name(&self, net: u32) -> String {
         let place = |bits: &[Bit]| bits.iter().position(|bit| bit.net() == Some(net));
         let named = self.netnames.iter().filter_map(|(name, net)| {

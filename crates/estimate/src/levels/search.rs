@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The longest path of a graph, net by net in the order in which signals arrive.
+//! Finds the longest path of a graph, net by net in the order in which signals arrive.
 
 use super::graph::Graph;
 use super::path::{LogicPath, Weight};
 use crate::error::EstimateError;
 
-/// How a signal arrives at a net at the latest.
+/// The latest arrival of a signal at a net.
 #[derive(Clone, Copy)]
 struct Arrival {
     weight: Weight,
-    /// The arc by which it comes; it starts here if there is none.
+    /// The arc that the signal comes through; `None` if it starts at this net.
     by: Option<usize>,
 }
 
-/// What tells which of two paths is longer.
+/// A function that returns the length of a path for comparisons.
 pub(super) type Length = fn(Weight) -> (u32, u32);
 
-/// The longest path and its time; of several the first in the order of the netlist. A module without any
-/// path has one of no levels without ends.
+/// Returns the longest path and its time in picoseconds; of several paths, the first in the order
+/// of the netlist. A module without any path has a path without levels and ends.
 ///
 /// # Errors
-/// When logic runs in a circle.
+/// Fails if there is a combinational loop.
 pub(super) fn longest(
     graph: &Graph<'_>,
     length: Length,
@@ -63,7 +63,7 @@ fn arrivals(graph: &Graph<'_>, length: Length) -> Result<Vec<Option<Arrival>>, E
         let arrival = Arrival { weight: start.weight, by: None };
         delay(&mut arrivals[start.net as usize], arrival, length);
     }
-    // Arcs by the net that they leave, as ranges of a list.
+    // The arcs that leave a net are a range of the sorted list.
     let mut order: Vec<usize> = (0..graph.arcs.len()).collect();
     order.sort_by_key(|&arc| graph.arcs[arc].from);
     let leaving = |net: u32| {
@@ -95,7 +95,8 @@ fn arrivals(graph: &Graph<'_>, length: Length) -> Result<Vec<Option<Arrival>>, E
     }
 }
 
-/// Of arrivals with equal weight, one by an arc says more than one that starts here.
+/// Keeps the later of two arrivals. For equal weights, an arrival through an arc is kept, because
+/// it says more than a start.
 fn delay(slot: &mut Option<Arrival>, arrival: Arrival, length: Length) {
     let order = |arrival: Arrival| (length(arrival.weight), arrival.by.is_some());
     if slot.is_none_or(|earlier| order(arrival) > order(earlier)) {
@@ -103,8 +104,8 @@ fn delay(slot: &mut Option<Arrival>, arrival: Arrival, length: Length) {
     }
 }
 
-/// The nets of a circle that is upstream of a net that waits: every net that waits has one before it
-/// that does, so that going back must come around.
+/// Returns the nets of a loop upstream of a waiting net. Every waiting net has a waiting
+/// predecessor, so a search backwards must come around.
 fn circle(graph: &Graph<'_>, waiting: &[u32], mut net: u32) -> String {
     let mut seen = Vec::new();
     while !seen.contains(&net) {

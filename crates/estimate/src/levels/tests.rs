@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small netlists, written down as Yosys would.
+//! Tests on small netlists in the format of Yosys.
 
 use serde_json::{Value, json};
 
@@ -72,7 +72,7 @@ fn a_chain_is_one_level_and_its_blocks_are_counted() {
     assert_eq!(text(&path), "1+2 q[0] [CARRY4 CARRY4] q[0] (FDRE.D)");
 }
 
-/// The lowest sum does not wait for the data beside it, so that it may select that data.
+/// The lowest sum does not depend on the data input of its bit, so it may select that data.
 #[test]
 fn bits_of_a_block_wait_only_for_lower_ones() {
     let path = longest(
@@ -151,7 +151,7 @@ fn slowest(cells: &Value, library: Library) -> (String, u32) {
     (text(&path), ps)
 }
 
-/// What stands for the wires beside so many picoseconds of logic.
+/// Returns a delay of logic with the share of its wires.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "some nanoseconds")]
 fn with_wires(ps: u32) -> u32 {
     (f64::from(ps) / 0.35).round() as u32
@@ -159,7 +159,8 @@ fn with_wires(ps: u32) -> u32 {
 
 #[test]
 fn the_slowest_path_need_not_have_the_most_levels() {
-    // Two tables by their last inputs, or one by its first.
+    // One path has two tables entered by their last inputs, the other has one table entered by its
+    // first.
     let cells = json!({
         "f": cell("FDRE", &json!({ "C": [1], "D": [30], "Q": [10] })),
         "a": cell("LUT2", &json!({ "I0": ["0"], "I1": [10], "O": [20] })),
@@ -221,7 +222,8 @@ fn an_ecp5_has_cells_of_its_own() {
     assert!(error.unwrap_err().to_string().contains("`EHXPLLL`"));
 }
 
-/// The delays are those of the Yosys that is installed. Skipped, visibly, where it is missing.
+/// The delays are those of the installed Yosys. The test is skipped with a message where Yosys is
+/// missing.
 #[test]
 fn delays_are_those_of_the_cell_models() {
     use foveate_toolchain::testing::require_tools;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The paper's table with the design's figures below.
+//! The paper's table with the design's figures.
 
 use crate::area::Area;
 use crate::paper::BesidePaper;
@@ -7,10 +7,10 @@ use crate::report::AreaReport;
 use crate::table::{Table, header};
 use foveate_pictures::page::number::grouped;
 
-/// None where the paper has nothing like it.
+/// Returns the table; `None` if the paper has no comparable module.
 pub(super) fn paper_table(report: &AreaReport) -> Option<Table> {
     let mut rows = Vec::new();
-    // A unit for all regions is beside the paper's array, but not beside one RPU.
+    // A unit for all regions is comparable to the paper's array, but not to one RPU.
     if report.units > 1 || report.regions == 1 {
         rows = paper_rows("RPU", &report.unit, &report.rpu, &report.paper.rpu);
     }
@@ -29,7 +29,7 @@ pub(super) fn paper_table(report: &AreaReport) -> Option<Table> {
     })
 }
 
-/// The paper's module, and what stands beside it.
+/// Returns the row of the paper's module, and those of the design's module.
 fn paper_rows(
     paper_name: &str,
     name: &str,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The longest path of a placement, in the words of the source: modules, registers, ports.
+//! The longest path of a placement in the names of the source: modules, registers and ports.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,15 +11,15 @@ use super::result::{Path, Pin};
 /// The longest path between two edges of the clock.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct CriticalPath {
-    /// Where it starts.
+    /// The start of the path.
     pub from: PathEnd,
-    /// Where it ends.
+    /// The end of the path.
     pub to: PathEnd,
-    /// Its delay in nanoseconds.
+    /// The delay of the path in nanoseconds.
     pub ns: f64,
-    /// The part of it that is wires.
+    /// The delay of its wires in nanoseconds.
     pub wire_ns: f64,
-    /// Wires with a delay on it.
+    /// The number of its wires that have a delay.
     pub wires: u64,
 }
 
@@ -28,11 +28,11 @@ pub struct CriticalPath {
 pub struct PathEnd {
     /// The module in which it is declared.
     pub module: String,
-    /// Its name below the top, with the instances around it.
+    /// The name below the top, preceded by the instances that contain it.
     pub name: String,
 }
 
-/// What names mean: the netlist as it was placed, and the modules before it was flattened.
+/// The source of names: the netlist as it was placed, and the modules before it was flattened.
 pub(super) struct Names<'a> {
     pub(super) top: &'a str,
     pub(super) netlist: &'a Netlist,
@@ -40,7 +40,7 @@ pub(super) struct Names<'a> {
 }
 
 impl Names<'_> {
-    /// The path in the words of the source.
+    /// Returns the path in the names of the source.
     pub(super) fn path(&self, path: &Path) -> Option<CriticalPath> {
         let first = path.steps.iter().find(|step| step.is_wire())?;
         let last = path.steps.last()?;
@@ -59,14 +59,14 @@ impl Names<'_> {
         })
     }
 
-    /// A name with its module; that of the cell where no net has one in the source.
+    /// Returns a name with its module; the name of the cell if no net has a name in the source.
     fn end(&self, name: Option<String>, pin: &Pin) -> PathEnd {
         let name = name.unwrap_or_else(|| format!("{} ({})", pin.cell, pin.port));
         PathEnd { module: self.hierarchy.module_of(self.top, &name), name }
     }
 
-    /// The register, port or memory at a pin where a path ends. iCE40 packs a table and the flip-flop
-    /// behind it into one cell, which has the name of the table.
+    /// Returns the register, port or memory at a pin where a path ends. iCE40 packs a table and the
+    /// flip-flop behind it into one cell, which has the name of the table.
     fn register(&self, pin: &Pin) -> Option<String> {
         if let Some(port) = port_of(&pin.cell) {
             return Some(port.trim_end_matches("_DFFLC").to_owned());
@@ -84,11 +84,12 @@ impl Names<'_> {
                 None => self.netlist.name(register.net("Q")?),
             };
         }
-        // A memory: its name, up to what Yosys has put behind it.
+        // The name of a memory ends before the suffix of Yosys.
         Some(format!("{} ({} {})", memory(name), cell.kind, pin.port))
     }
 
-    /// The cell of the netlist that became a cell of the placement, which may have a suffix.
+    /// Returns the cell of the netlist that became a cell of the placement, which may have a
+    /// suffix.
     fn cell<'a>(&'a self, name: &'a str) -> Option<(&'a str, &'a Cell)> {
         let shorter = [Some(name), name.rsplit_once('$').map(|(name, _)| name)];
         let packed = ["_LC", "_DFFLC"].map(|suffix| name.strip_suffix(suffix));
@@ -100,7 +101,8 @@ impl Names<'_> {
     }
 }
 
-/// `u_store.words_q.0.1` and `u_store.words_q_DP16KD` are `u_store.words_q`.
+/// Returns the name of a memory without the suffixes of Yosys: `u_store.words_q` for
+/// `u_store.words_q.0.1` and `u_store.words_q_DP16KD`.
 fn memory(cell: &str) -> &str {
     let numbered = cell.trim_end_matches(|c: char| c == '.' || c.is_ascii_digit());
     let kinds = ["_DP16KD", "_TRELLIS", "_SB_", "_MULT"];

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The devices that a design can be placed on. Another one that nextpnr knows is another row.
+//! The devices that a design can be placed on. A further device that nextpnr supports is one more
+//! row.
 
 use foveate_toolchain::Tool;
 
-/// What devices of a kind have in common: cells, synthesis and the program that places them.
+/// A family of devices, with the same cells, synthesis and place-and-route program.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Family {
     /// Lattice ECP5.
@@ -19,16 +20,16 @@ pub(crate) enum Family {
 /// A device with its package and speed grade.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct RouteDevice {
-    /// What it is called on the command line.
+    /// The name of the device on the command line.
     pub name: &'static str,
-    /// The part.
+    /// The name of the part.
     pub part: &'static str,
     /// The package; only the clock has a pin.
     pub package: &'static str,
-    /// The speed grade, where the family has several.
+    /// The speed grade, if the family has several.
     pub speed: Option<&'static str>,
     pub(crate) family: Family,
-    /// How nextpnr is told the part.
+    /// The option that selects the part in nextpnr.
     flag: &'static str,
 }
 
@@ -60,7 +61,7 @@ const fn gowin(
     RouteDevice { name, part, package: "QN88", speed: Some(speed), family: Family::Gowin, flag }
 }
 
-/// Every device. Without a speed grade in its name, an ECP5 is one of the slowest grade, 6.
+/// All devices. An ECP5 without a speed grade in its name has the slowest grade, 6.
 pub const ROUTE_DEVICES: &[RouteDevice] = &[
     ecp5("ecp5-85k", "LFE5U-85F", "--85k", "6"),
     ecp5("ecp5-45k", "LFE5U-45F", "--45k", "6"),
@@ -74,20 +75,20 @@ pub const ROUTE_DEVICES: &[RouteDevice] = &[
 ];
 
 impl RouteDevice {
-    /// The device of that name.
+    /// Returns the device of that name.
     #[must_use]
     pub fn named(name: &str) -> Option<&'static Self> {
         ROUTE_DEVICES.iter().find(|device| device.name == name)
     }
 
-    /// The part with package and speed grade, as one orders it.
+    /// Returns the part with package and speed grade, as in an order.
     #[must_use]
     pub fn full_name(&self) -> String {
         let speed = self.speed.map_or_else(String::new, |speed| format!(", speed {speed}"));
         format!("{} in {}{speed}", self.part, self.package)
     }
 
-    /// The nextpnr that knows the device.
+    /// Returns the variant of nextpnr that supports the device.
     #[must_use]
     pub fn tool(&self) -> Tool {
         match self.family {
@@ -97,11 +98,11 @@ impl RouteDevice {
         }
     }
 
-    /// What nextpnr is told beside netlist and seed.
+    /// Returns the arguments of nextpnr other than netlist and seed.
     pub(crate) fn arguments(&self) -> Vec<String> {
         let target = self.family.target_mhz().to_string();
         if self.family == Family::Gowin {
-            // Part and speed are one word, and even the clock needs a pin.
+            // Part and speed grade are one argument, and even the clock needs a pin.
             let words = [self.flag, "--vopt", "family=GW2A-18C", "--vopt", "cst=pins.cst"];
             let freq = ["--freq", &target, "--timing-allow-fail"];
             return words.into_iter().chain(freq).map(str::to_owned).collect();
@@ -122,7 +123,7 @@ impl RouteDevice {
 }
 
 impl Family {
-    /// The synthesis of the family, before `-top`.
+    /// Returns the synthesis command of the family, without `-top`.
     pub(crate) fn synthesis(self) -> &'static str {
         match self {
             Self::Ecp5 => "synth_ecp5 -abc9",
@@ -132,7 +133,7 @@ impl Family {
         }
     }
 
-    /// What is defined for the Verilog to have the family's own memories.
+    /// Returns the macro that makes the Verilog use the family's own memories.
     pub(crate) fn define(self) -> Option<&'static str> {
         match self {
             Self::Ecp5 => Some("FOVEATE_ECP5"),
@@ -140,8 +141,8 @@ impl Family {
         }
     }
 
-    /// Whether look-up tables can be memory. Where they cannot, a memory that asks for it becomes what the
-    /// family has.
+    /// Returns whether look-up tables can be memory. If they cannot, a memory that requests
+    /// distributed RAM becomes another memory of the family.
     pub(crate) fn has_distributed_ram(self) -> bool {
         match self {
             Self::Ecp5 | Self::Gowin => true,
@@ -149,7 +150,8 @@ impl Family {
         }
     }
 
-    /// The pin of the clock, where nextpnr does not choose one: a file that its arguments name, and its text.
+    /// Returns the constraint for the pin of the clock where nextpnr does not choose one: a file
+    /// that its arguments name, and its text.
     pub(crate) fn pins(self, clock: &str) -> Option<(&'static str, String)> {
         match self {
             Self::Ecp5 | Self::Ice40Up | Self::Ice40Hx => None,
@@ -157,7 +159,8 @@ impl Family {
         }
     }
 
-    /// The oldest Yosys whose netlists nextpnr takes for the family: major, minor, and both as text.
+    /// Returns the oldest Yosys whose netlists nextpnr accepts for the family: major, minor, and
+    /// both as text.
     pub(crate) fn oldest_yosys(self) -> (u32, u32, &'static str) {
         match self {
             Self::Ecp5 | Self::Ice40Up | Self::Ice40Hx => (0, 23, "0.23"),
@@ -165,8 +168,9 @@ impl Family {
         }
     }
 
-    /// A clock that no design here reaches, so that nextpnr goes on improving. The result depends on it
-    /// only weakly: paths are weighed by how far each is behind the worst.
+    /// Returns a clock frequency that no design of this project reaches, so that nextpnr continues
+    /// to optimize. The result depends only weakly on it, because the weight of a path depends on
+    /// its distance from the worst path.
     fn target_mhz(self) -> u32 {
         match self {
             Self::Ecp5 => 400,

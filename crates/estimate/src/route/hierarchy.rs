@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which module an instance is of. Flattening keeps the instances in the names of nets and cells
-//! (`u_core.u_edge.count_q`), but not their modules: they are read before it.
+//! The modules of the instances. Flattening keeps the instances in the names of nets and cells
+//! (`u_core.u_edge.count_q`), but not their modules, which are therefore read before it.
 
 use std::collections::BTreeMap;
 
@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use crate::error::EstimateError;
 
-/// The modules with their instances, as they were before flattening.
+/// The modules with their instances, before flattening.
 #[derive(Deserialize)]
 pub(super) struct Hierarchy {
     modules: BTreeMap<String, Module>,
@@ -30,7 +30,7 @@ impl Hierarchy {
         serde_json::from_slice(json).map_err(|source| EstimateError::Format { file, source })
     }
 
-    /// The source's name of the module in which a name below `top` is declared.
+    /// Returns the source name of the module in which a name below `top` is declared.
     pub(super) fn module_of(&self, top: &str, name: &str) -> String {
         let (mut module, mut rest) = (top, name);
         while let Some((kind, inner)) = self.enter(module, rest) {
@@ -39,8 +39,8 @@ impl Hierarchy {
         source_name(module).to_owned()
     }
 
-    /// The instance that a name begins with: its module, and what follows. Names of instances in generated
-    /// blocks have dots of their own, so that all instances are compared.
+    /// Returns the module of the instance that a name begins with, and the rest of the name. Names
+    /// of instances in generated blocks contain dots, so the name is compared with all instances.
     fn enter<'a>(&'a self, module: &str, name: &'a str) -> Option<(&'a str, &'a str)> {
         let cells = &self.modules.get(module)?.cells;
         cells.iter().find_map(|(instance, cell)| {
@@ -50,7 +50,8 @@ impl Hierarchy {
     }
 }
 
-/// A module with parameters is called `$paramod\adder\WIDTH=...` or `$paramod$hash\adder`.
+/// Returns the source name of a module; one with parameters is called `$paramod\adder\WIDTH=...` or
+/// `$paramod$hash\adder`.
 fn source_name(module: &str) -> &str {
     if !module.starts_with("$paramod") {
         return module;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Drives Yosys once for each family of devices, and nextpnr once for each device and seed.
+//! Runs Yosys once for each family of devices, and nextpnr once for each device and seed.
 
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -27,7 +27,7 @@ use foveate_toolchain::ToolRecord;
 
 const NETLIST: &str = "netlist.json";
 const HIERARCHY: &str = "hierarchy.json";
-/// Placements at a time: each takes a processor and up to a gigabyte.
+/// The number of concurrent placements: each takes a processor and up to a gigabyte.
 const AT_ONCE: usize = 2;
 
 /// A design to place and route.
@@ -35,20 +35,21 @@ const AT_ONCE: usize = 2;
 pub struct RouteJob {
     /// The Verilog files.
     pub sources: Vec<Source>,
-    /// The module on top.
+    /// The top module.
     pub top: String,
-    /// The port of its clock.
+    /// The clock port of the top.
     pub clock: &'static str,
-    /// Its parameters and their values.
+    /// The parameters of the top and their values.
     pub parameters: Vec<Parameter>,
-    /// How many seeds, from 1 on.
+    /// The number of seeds, which count from 1.
     pub seeds: u32,
-    /// Whether the family's own memories are left out, which the Verilog has where the family is defined.
+    /// Whether to ignore the family's own memories, which the Verilog uses where the macro of the
+    /// family is defined.
     pub is_portable: bool,
 }
 
 impl RouteJob {
-    /// The whole array of a design, or its smallest core.
+    /// Makes a job for the whole array of a design, or for its smallest core.
     #[must_use]
     pub fn of(design: &Design, top: Top, seeds: u32, is_portable: bool) -> Self {
         Self {
@@ -61,7 +62,7 @@ impl RouteJob {
         }
     }
 
-    /// The whole core of a design on a bus; none of a design with ports only.
+    /// Makes a job for the whole core of a design on AXI; `None` for a design with ports only.
     #[must_use]
     pub fn on_bus(design: &Design, seeds: u32, is_portable: bool) -> Option<Self> {
         Some(Self {
@@ -74,8 +75,9 @@ impl RouteJob {
         })
     }
 
-    /// The whole design as one module: placement crosses all borders. Whether all modules are there is checked by the
-    /// family's synthesis, which knows its cells.
+    /// Returns the synthesis of the whole design as one module, so that placement crosses all
+    /// borders. The family's synthesis checks that all modules are present, because it knows its
+    /// cells.
     fn synthesis(&self, family: Family) -> YosysJob {
         let Self { top, .. } = self;
         let define = family.define().filter(|_| !self.is_portable);
@@ -116,11 +118,11 @@ struct Ready {
     port_ff: u64,
 }
 
-/// Places and routes a design on each of the devices, as often as it has seeds. A device that is too small
-/// is part of the report.
+/// Places and routes a design on each of the devices, once per seed. A device that is too small is
+/// part of the report.
 ///
 /// # Errors
-/// When a tool is missing or fails, or what it writes is not understood.
+/// Fails if a tool is missing or fails, or if its output cannot be read.
 pub fn place_and_route(
     toolchain: &Toolchain,
     cache: &Cache,
@@ -154,7 +156,7 @@ impl Ready {
         job: &RouteJob,
         device: &'static RouteDevice,
     ) -> Result<Self, EstimateError> {
-        // Before a synthesis of minutes: whether there is anything that places.
+        // The place-and-route program is checked first, because the synthesis takes minutes.
         toolchain.find(device.tool())?;
         let (major, minor, needed) = device.family.oldest_yosys();
         let found = toolchain.find(Tool::Yosys)?;
@@ -181,7 +183,7 @@ impl Ready {
         nextpnr::run(toolchain, cache, &job)
     }
 
-    /// What the seeds of one device say together.
+    /// Combines the results of all seeds on one device.
     fn routed(
         &self,
         top: &str,
@@ -261,8 +263,8 @@ impl Ready {
     }
 }
 
-/// What nextpnr gets of the netlist that Yosys wrote: all of it as it is, with flip-flops for ports. Returns it, its
-/// file, and the number of these flip-flops.
+/// Prepares the netlist of Yosys for nextpnr: everything stays unchanged, except that flip-flops
+/// replace the ports. Returns the netlist, its file, and the number of these flip-flops.
 pub(super) fn to_place(
     json: &[u8],
     top: &str,
@@ -275,7 +277,7 @@ pub(super) fn to_place(
     Ok((netlist, json, port_ff))
 }
 
-/// The result for each item in its order, a few at a time.
+/// Returns the result for each item in order, a few at a time.
 fn side_by_side<T: Sync, R: Send>(items: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
     let next = AtomicUsize::new(0);
     let done = Mutex::new(Vec::new());

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The clock that a design reaches: placed and routed by nextpnr on devices that it knows.
+//! The clock frequency that a design reaches when nextpnr places and routes it on a supported
+//! device.
 //!
-//! Each device gets the synthesis of its family, and several seeds: one placement is one throw of the
-//! dice. Cores have more ports than a device has pins, and their ports are joined to other logic, not to
-//! pins. So every port bit gets a flip-flop of its own, only the clock has a pin, and these flip-flops are
-//! not counted. See [`ports`].
+//! Each device gets the synthesis of its family, and several seeds, because the result of one
+//! placement is random. Cores have more ports than a device has pins, and in use their ports
+//! connect to other logic, not to pins. So every port bit gets a flip-flop of its own, only the
+//! clock has a pin, and these flip-flops are not counted. See [`ports`].
 
 mod critical;
 mod device;

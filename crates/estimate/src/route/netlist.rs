@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The synthesized netlist as it can be edited before it is placed: cells, ports and names of one module.
-//! What is not touched stays as Yosys wrote it.
+//! The synthesized netlist in a form that can be edited before it is placed: the cells, ports and
+//! names of one module. All other fields stay as Yosys wrote them.
 
 use std::collections::BTreeMap;
 
@@ -65,7 +65,7 @@ pub(super) enum Bit {
 }
 
 impl Netlist {
-    /// The module `top` of a file that Yosys wrote, and what wrote it.
+    /// Returns the module `top` of a file that Yosys wrote, and the creator of the file.
     pub(super) fn parse(json: &[u8], top: &str) -> Result<(Self, Value), EstimateError> {
         let wrong = |source| EstimateError::Format { file: FILE, source };
         let mut file: File = serde_json::from_slice(json).map_err(wrong)?;
@@ -76,26 +76,26 @@ impl Netlist {
         Ok((serde_json::from_value(module).map_err(wrong)?, file.creator))
     }
 
-    /// The file that nextpnr reads: this module alone.
+    /// Returns the file that nextpnr reads, with this module alone.
     pub(super) fn to_json(&self, top: &str, creator: Value) -> Result<Vec<u8>, EstimateError> {
         let module = serde_json::to_value(self).map_err(EstimateError::Json)?;
         let file = File { creator, modules: BTreeMap::from([(top.to_owned(), module)]) };
         serde_json::to_vec(&file).map_err(EstimateError::Json)
     }
 
-    /// How many cells are of a type that starts so.
+    /// Counts the cells whose type starts with `kind`.
     pub(super) fn count(&self, kind: &str) -> u64 {
         self.cells.values().filter(|cell| cell.kind.starts_with(kind)).count() as u64
     }
 
-    /// The highest number of a net.
+    /// Returns the highest number of a net.
     pub(super) fn last_net(&self) -> u32 {
         let of_cells = self.cells.values().flat_map(|cell| cell.connections.values().flatten());
         let of_ports = self.ports.values().flat_map(|port| &port.bits);
         of_cells.chain(of_ports).filter_map(Bit::net).max().unwrap_or(0)
     }
 
-    /// The net of that name, which may have an index.
+    /// Returns the net of that name, which may have an index.
     pub(super) fn net(&self, name: &str) -> Option<u32> {
         let whole = self.netnames.get(name).and_then(|known| known.bits.first()?.net());
         whole.or_else(|| {
@@ -105,7 +105,7 @@ impl Netlist {
         })
     }
 
-    /// What a net is called in the source, where it is driven; see [`rank`].
+    /// Returns the name of a net in the source, at the place where it is driven; see [`rank`].
     pub(super) fn name(&self, net: u32) -> Option<String> {
         let names = self.netnames.iter().filter(|(_, known)| known.hide_name == 0);
         let best = names
@@ -121,8 +121,9 @@ impl Netlist {
     }
 }
 
-/// What tells which of a net's names says best where it is driven, the lowest first: that of a register
-/// (`_q`), then that of the innermost output (`_o`), and that of the outermost input (`_i`) last.
+/// Returns the rank of a name of a net; the name with the lowest rank best describes where the net
+/// is driven. The order is the name of a register (`_q`), then that of the innermost output (`_o`),
+/// and last that of the outermost input (`_i`).
 fn rank(name: &str) -> (bool, u8, isize, usize) {
     let depth = name.matches('.').count().cast_signed();
     let (kind, depth) = match name.rsplit_once('_') {
@@ -134,7 +135,7 @@ fn rank(name: &str) -> (bool, u8, isize, usize) {
     (is_made(name), kind, depth, name.len())
 }
 
-/// Whether Yosys made the name out of those of cells around it.
+/// Returns whether Yosys made the name from the names of nearby cells.
 fn is_made(name: &str) -> bool {
     ["_LUT4_", "_CCU2C_", "_TRELLIS_", "_SB_", "_PFUMX_", "_L6MUX21_", "_DFF", "_ALU_", "_MUX2_"]
         .iter()
@@ -142,7 +143,7 @@ fn is_made(name: &str) -> bool {
 }
 
 impl Cell {
-    /// A cell that the source does not have.
+    /// Makes a cell that the source does not have.
     pub(super) fn new(
         kind: &str,
         parameters: &[(&str, &str)],
@@ -168,12 +169,12 @@ impl Cell {
         }
     }
 
-    /// The only bit of a port.
+    /// Returns the only bit of a port.
     pub(super) fn bit(&self, port: &str) -> Option<&Bit> {
         self.connections.get(port)?.first()
     }
 
-    /// The net at a port of one bit.
+    /// Returns the net at a port of one bit.
     pub(super) fn net(&self, port: &str) -> Option<u32> {
         self.bit(port)?.net()
     }

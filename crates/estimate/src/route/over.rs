@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a device has too few of, as nextpnr's log says where a design does not fit.
+//! The resources that a device lacks, from nextpnr's log of a design that does not fit.
 
 use serde::{Deserialize, Serialize};
 
-/// A kind of place of which a device has too few.
+/// A resource that a design needs more of than a device has.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Over {
-    /// What nextpnr calls it.
+    /// The name of the resource in nextpnr.
     pub place: String,
-    /// How many the design needs.
+    /// The number that the design needs.
     pub used: u64,
-    /// How many the device has.
+    /// The number that the device has.
     pub available: u64,
 }
 
-/// What a device has too few of, from the table in nextpnr's log: `DP16KD:  155/ 108 143%`.
+/// Returns the resources that a device lacks, from lines of nextpnr's log such as
+/// `DP16KD: 155/ 108 143%`.
 pub(super) fn over(log: &str) -> Vec<Over> {
     let row = |line: &str| {
         let (place, counts) = line.strip_prefix("Info:")?.split_once(':')?;

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Ports become flip-flops. A core stands in the middle of a chip: what drives its inputs and reads its
-//! outputs are registers near it, not pins, of which there are too few.
+//! Replaces ports by flip-flops. A core is usually inside a chip: its inputs are driven, and its
+//! outputs are read, by nearby registers and not by pins, of which there are too few.
 //!
-//! An input bit comes from a flip-flop that holds itself; an output bit goes into one that nobody reads.
-//! So paths from and to ports are timed as in a chip where the neighbour registers them, nothing pulls
-//! the placement anywhere, and no logic is added. Constants at outputs need nothing.
+//! An input bit comes from a flip-flop that holds its value; an output bit goes into a flip-flop
+//! that nothing reads. So paths from and to ports are timed as in a chip where the neighbour
+//! registers them, no pin affects the placement, and no logic is added. Constants at outputs need
+//! no flip-flop.
 
 use super::device::Family;
 use super::netlist::{Bit, Cell, Netlist};
 use crate::error::EstimateError;
 
-/// Replaces every port but the clock, which keeps its pin; returns the number of flip-flops that stand there instead.
+/// Replaces every port except the clock, which keeps its pin. Returns the number of flip-flops in
+/// place of ports.
 ///
 /// # Errors
-/// When there is no clock.
+/// Fails if there is no clock.
 pub(super) fn become_registers(
     netlist: &mut Netlist,
     clock_port: &'static str,
@@ -47,7 +49,7 @@ pub(super) fn become_registers(
     Ok(registers as u64)
 }
 
-/// Puts the input buffer that nextpnr wants there between the clock and its pin.
+/// Inserts the input buffer that nextpnr requires between the clock and its pin.
 fn pad(netlist: &mut Netlist, clock_port: &str, outside: u32) {
     if let Some(bit) = netlist.ports.get_mut(clock_port).and_then(|port| port.bits.first_mut()) {
         let inside = std::mem::replace(bit, Bit::Net(outside));
@@ -62,16 +64,16 @@ fn cell_name(port: &str, index: usize) -> String {
     format!("{PREFIX}{port}[{index}]")
 }
 
-/// The port bit that a flip-flop stands for.
+/// Returns the port bit that a flip-flop replaces.
 pub(super) fn port_of(cell: &str) -> Option<&str> {
     cell.strip_prefix(PREFIX)
 }
 
-/// A flip-flop without enable and reset.
+/// Returns a flip-flop without enable and reset.
 fn register(family: Family, clock: Bit, data: Bit, out: Bit) -> Cell {
     match family {
         Family::Ecp5 => {
-            // A space behind a text of digits says that it is text.
+            // A space after a text of digits marks it as text.
             let parameters = [
                 ("CEMUX", "1 "),
                 ("CLKMUX", "CLK"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The placed design for people: text for a terminal, Markdown for a document.
+//! Renders the placed design as text for a terminal and as Markdown.
 
 use foveate_pictures::page::number::grouped;
 
@@ -10,14 +10,14 @@ use crate::table::{Table, header, wrap};
 const COLUMNS: [&str; 8] =
     ["logic", "FF", "block RAM", "SPRAM", "DSP", "fmax MHz", "slowest", "fastest"];
 
-/// The report as a table for a terminal of `width` columns, with a sentence on each device.
+/// Returns the report as a table for a terminal of `width` columns, with a sentence on each device.
 #[must_use]
 pub fn render_routes_text(report: &RouteReport, width: usize) -> String {
     let sentences = sentences(report).map(|sentence| wrap(&sentence, width));
     table(report).stacked_text(width) + "\n" + &sentences.collect::<String>()
 }
 
-/// The report as Markdown.
+/// Returns the report as Markdown.
 #[must_use]
 pub fn render_routes_markdown(report: &RouteReport) -> String {
     let sentences = sentences(report).map(|sentence| format!("* {sentence}\n"));

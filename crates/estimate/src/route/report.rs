@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is reported of a design on each device.
+//! The report on a placed and routed design on each device.
 
 use serde::{Deserialize, Serialize};
 
@@ -8,15 +8,15 @@ use super::over::Over;
 use crate::clock::ClockEstimate;
 use foveate_toolchain::ToolRecord;
 
-/// The version of the JSON report. It grows when a field changes its meaning or goes away.
+/// The version of the JSON report. It grows when a field changes its meaning or is removed.
 pub const ROUTE_FORMAT_VERSION: u32 = 2;
 
-/// A design, placed and routed on one device or several.
+/// The results of a design on one device or several.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct RouteReport {
-    /// [`ROUTE_FORMAT_VERSION`].
+    /// The version of the format, [`ROUTE_FORMAT_VERSION`].
     pub format_version: u32,
-    /// The module on top: `rpu`, `rcm` or `rcm_axi`.
+    /// The top module: `rpu`, `rcm` or `rcm_axi`.
     pub top: String,
     /// The hash of the RTL; see `sources_sha256` of the toolchain.
     pub rtl_sha256: String,
@@ -24,71 +24,74 @@ pub struct RouteReport {
     pub devices: Vec<Routed>,
 }
 
-/// A design on one device.
+/// The result of a design on one device.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Routed {
     /// The name of the device.
     pub device: String,
     /// The part with package and speed grade.
     pub part: String,
-    /// What synthesized it.
+    /// The tool that synthesized the design.
     pub synthesis: ToolRecord,
-    /// What placed it.
+    /// The tool that placed and routed the design.
     pub route: ToolRecord,
-    /// What was reached; nothing where the device is too small.
+    /// The resources and the clock; `None` if the device is too small.
     pub placed: Option<Placed>,
-    /// What the device has too few of; nothing where the design fits.
+    /// The resources that the device lacks; empty if the design fits.
     pub over: Vec<Over>,
 }
 
-/// What a design takes of a device, and the clock that it reaches there.
+/// The resources that a design takes, and the clock that it reaches on a device.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Placed {
-    /// Look-up tables of four inputs (ECP5: those for carry and distributed RAM too), or logic cells (iCE40:
-    /// such a table and a flip-flop).
+    /// The look-up tables of four inputs (for ECP5, including those for carry and distributed RAM),
+    /// or the logic cells (iCE40: such a table and a flip-flop).
     pub logic: Used,
-    /// Flip-flops.
+    /// The flip-flops.
     pub ff: Used,
-    /// Block RAM.
+    /// The block RAM.
     pub block_ram: Used,
-    /// Large single-port RAM.
+    /// The large single-port RAM.
     pub spram: Used,
-    /// Multipliers.
+    /// The multipliers.
     pub dsp: Used,
-    /// The flip-flops at the ports, which are not in the figures above.
+    /// The number of flip-flops at the ports, which the figures above do not include.
     pub port_ff: u64,
-    /// The clock.
+    /// The clock that was reached.
     pub fmax: Fmax,
-    /// What the netlist alone lets expect, where cells of the family have delays; see [`ClockEstimate`].
+    /// The clock estimated from the netlist alone, if the delays of the family's cells are known;
+    /// see [`ClockEstimate`].
     pub estimate: Option<ClockEstimate>,
-    /// The longest path of the seed whose clock is the median.
+    /// The longest path of the seed with the median clock.
     pub critical: Option<CriticalPath>,
 }
 
-/// How many there are, and how many of them are taken.
+/// The used and the available number of a resource.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Used {
-    /// Taken.
+    /// The number that the design uses.
     pub used: u64,
-    /// There.
+    /// The number that the device has.
     pub available: u64,
 }
 
-/// The clock in MHz over seeds.
+/// The clock in MHz over the seeds.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 pub struct Fmax {
-    /// Of an even number of seeds, the lower one of the two in the middle: it was reached.
+    /// The median; of an even number of seeds, the lower of the two in the middle, which was
+    /// reached.
     pub median_mhz: f64,
-    /// The slowest seed.
+    /// The clock of the slowest seed.
     pub min_mhz: f64,
-    /// The fastest seed.
+    /// The clock of the fastest seed.
     pub max_mhz: f64,
-    /// Each seed, from 1 on.
+    /// The clock of each seed, from seed 1 on.
     pub seeds_mhz: Vec<f64>,
 }
 
 impl Fmax {
-    /// Of at least one seed; and which of them is the median.
+    /// Makes the statistics, and returns them with the index of the median seed; `None` without
+    /// seeds.
     pub(super) fn of(seeds_mhz: Vec<f64>) -> Option<(Self, usize)> {
         let mut order: Vec<usize> = (0..seeds_mhz.len()).collect();
         order.sort_by(|&a, &b| seeds_mhz[a].total_cmp(&seeds_mhz[b]));
@@ -100,7 +103,7 @@ impl Fmax {
 }
 
 impl RouteReport {
-    /// A sentence for each device that is too small.
+    /// Returns a sentence for each device that is too small.
     #[must_use]
     pub fn misfits(&self) -> Vec<String> {
         self.devices.iter().filter_map(Routed::misfit).collect()

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What nextpnr reports where it came to an end.
+//! The report of nextpnr after a complete run.
 
 use std::collections::BTreeMap;
 
@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::error::EstimateError;
 
-/// The report that nextpnr writes; only what is needed.
+/// The needed part of the report that nextpnr writes.
 #[derive(Debug, Deserialize)]
 pub(super) struct NextpnrReport {
     fmax: BTreeMap<String, Clock>,
@@ -26,7 +26,7 @@ struct Taken {
     available: u64,
 }
 
-/// A path from clock edge to clock edge, or from or to what has no clock.
+/// A path between clock edges, or from or to an unclocked end.
 #[derive(Debug, Deserialize)]
 pub(super) struct Path {
     from: String,
@@ -64,19 +64,21 @@ impl NextpnrReport {
             .map_err(|error| EstimateError::Placed { reason: error.to_string() })
     }
 
-    /// The clock that is reached, in MHz: that of the slowest clock, of which designs have one.
+    /// Returns the clock that is reached, in MHz: the slowest one, although designs have only one
+    /// clock.
     pub(super) fn fmax_mhz(&self) -> Result<f64, EstimateError> {
         let clocks = self.fmax.values().map(|clock| clock.achieved);
         let slowest = clocks.min_by(f64::total_cmp);
         slowest.ok_or_else(|| EstimateError::Placed { reason: "it names no clock".to_owned() })
     }
 
-    /// How many of a kind of place are taken, and how many there are; none of what the device lacks.
+    /// Returns the used and the available number of a resource; 0 for a resource that the device
+    /// lacks.
     pub(super) fn used(&self, place: &str) -> (u64, u64) {
         self.utilization.get(place).map_or((0, 0), |taken| (taken.used, taken.available))
     }
 
-    /// The longest path between two edges of the clock.
+    /// Returns the longest path between two edges of the clock.
     pub(super) fn longest(&self) -> Option<&Path> {
         let is_clocked =
             |path: &&Path| ![&path.from, &path.to].iter().any(|end| end.contains("async"));

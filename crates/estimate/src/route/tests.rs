@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small netlists and reports, written down as Yosys and nextpnr would.
+//! Tests on small netlists and reports in the formats of Yosys and nextpnr.
 
 use serde_json::{Value, json};
 
@@ -33,8 +33,8 @@ fn netlist(ports: &Value, cells: &Value) -> Netlist {
     Netlist::parse(file.as_bytes(), "rpu").unwrap().0
 }
 
-/// Nothing between Yosys and nextpnr improves a design: a user has no such step. A block RAM with a register behind it
-/// that could be its own stays as it is.
+/// No step between Yosys and nextpnr improves a design, because a user has no such step. A block
+/// RAM stays unchanged even if a register behind it could be its own.
 #[test]
 fn what_is_placed_is_what_yosys_wrote_and_registers_at_the_ports() {
     let cells = json!({
@@ -96,7 +96,7 @@ fn ports_are_registers_but_for_the_clock() {
             "a net that nobody reads"
         );
     }
-    // A core on a bus has another name for its clock.
+    // A core on AXI has another name for its clock.
     let mut core = netlist(&all, &json!({}));
     let error = ports::become_registers(&mut core, "aclk", Family::Ecp5);
     assert!(error.unwrap_err().to_string().contains("`aclk`"));
@@ -193,7 +193,8 @@ fn devices_have_names_of_their_own() {
     assert_eq!(RouteDevice::named("vcu118"), None);
 }
 
-/// A generated core places itself as we do: its scripts tell Yosys and nextpnr the same of every device.
+/// A generated core is placed as by this crate: its scripts pass the same options to Yosys and
+/// nextpnr for every device.
 #[test]
 fn the_scripts_of_a_core_have_the_same_devices() {
     let design = foveate_design::Config::default().validate().unwrap();
@@ -203,7 +204,7 @@ fn the_scripts_of_a_core_have_the_same_devices() {
         let (script, ram) = match device.family {
             Family::Ecp5 => (script("synth/ecp5.sh"), false),
             Family::Ice40Up | Family::Ice40Hx => (script("synth/ice40.sh"), true),
-            // A board has a script for these.
+            // Boards have their own script for this family.
             Family::Gowin => continue,
         };
         let start = format!("{}) ", device.name);
