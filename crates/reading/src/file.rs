@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Small files, whole.
+//! Reads small files as a whole.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -7,31 +7,33 @@ use std::path::Path;
 
 use crate::LimitedReader;
 
-/// The largest file of settings, in bytes; one has a few KiB.
+/// The largest size of a settings file in bytes; a typical one has a few KiB.
 pub const SETTINGS_LIMIT: u64 = 1 << 20;
 
-/// Reads a file of at most `limit` bytes. The file may be a pipe or a device, whose length is not known before.
+/// Reads a file of at most `limit` bytes. The file may be a pipe or a device, whose length is not
+/// known in advance.
 ///
 /// # Errors
-/// When it cannot be read, or holds more bytes ([`io::ErrorKind::FileTooLarge`]).
+/// Fails if the file cannot be read or has more bytes ([`io::ErrorKind::FileTooLarge`]).
 pub fn bytes(path: &Path, limit: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     LimitedReader::new(File::open(path)?, limit).read_to_end(&mut bytes)?;
     Ok(bytes)
 }
 
-/// Reads a file of settings: a configuration, space, board, sensor or accelerator of at most [`SETTINGS_LIMIT`] bytes.
+/// Reads a settings file of at most [`SETTINGS_LIMIT`] bytes: a configuration, space, board, sensor
+/// or accelerator.
 ///
 /// # Errors
-/// As [`text`].
+/// Fails like [`text`].
 pub fn settings(path: &Path) -> io::Result<String> {
     text(path, SETTINGS_LIMIT)
 }
 
-/// Reads a text in UTF-8 of at most `limit` bytes.
+/// Reads a UTF-8 text of at most `limit` bytes.
 ///
 /// # Errors
-/// As [`bytes`], and when the file is not text ([`io::ErrorKind::InvalidData`]).
+/// Fails like [`bytes`], and if the file is not text ([`io::ErrorKind::InvalidData`]).
 pub fn text(path: &Path, limit: u64) -> io::Result<String> {
     String::from_utf8(bytes(path, limit)?).map_err(|error| {
         let place = error.utf8_error().valid_up_to();

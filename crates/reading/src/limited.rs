@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A reader that gives up at a limit.
+//! A reader that fails at a limit.
 
 use std::io::{self, Read};
 
 use crate::size::in_words;
 
-/// A reader that ends with an error of the kind [`io::ErrorKind::FileTooLarge`] where its source has more bytes than the limit.
-/// [`Read::take`] in its place would end the document there, as if it were complete.
+/// A reader that fails with [`io::ErrorKind::FileTooLarge`] if its source has more bytes than the
+/// limit. In its place, [`Read::take`] would end the document there as if it were complete.
 #[derive(Debug)]
 pub struct LimitedReader<R> {
     source: R,
@@ -15,7 +15,7 @@ pub struct LimitedReader<R> {
 }
 
 impl<R: Read> LimitedReader<R> {
-    /// A reader of at most `limit` bytes.
+    /// Makes a reader of at most `limit` bytes.
     pub fn new(source: R, limit: u64) -> Self {
         Self { source, limit, left: limit }
     }
@@ -27,7 +27,7 @@ impl<R: Read> Read for LimitedReader<R> {
             return Ok(0);
         }
         if self.left == 0 {
-            // The source may end exactly here.
+            // The source may end exactly at the limit.
             return match self.source.read(&mut [0])? {
                 0 => Ok(0),
                 _ => Err(self.too_large()),

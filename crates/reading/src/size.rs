@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers of bytes in words.
+//! Numbers of bytes as words.
 
-/// A number of bytes in the largest binary unit that divides it: `1 MiB`, `1500 bytes`.
+/// Returns a number of bytes in the largest binary unit that divides it, such as `1 MiB` or
+/// `1500 bytes`.
 pub(crate) fn in_words(bytes: u64) -> String {
     let units = [(30, "GiB"), (20, "MiB"), (10, "KiB")];
     let unit = units.into_iter().find(|(shift, _)| bytes > 0 && bytes.trailing_zeros() >= *shift);

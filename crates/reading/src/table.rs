@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tables of any length, of records that have a limit.
+//! Reads tables of any length whose records have a limit.
 
 use std::cell::Cell;
 use std::io::{self, Read};
@@ -9,17 +9,19 @@ use csv::{Reader, ReaderBuilder, StringRecord};
 
 use crate::size::in_words;
 
-/// The largest record of a table, in bytes. A row of the widest format that is read has nine numbers.
+/// The largest record of a table in bytes. A row of the widest format that is read has nine
+/// numbers.
 pub const RECORD_LIMIT: u64 = 1 << 20;
 
-/// A CSV reader whose records have at most [`RECORD_LIMIT`] bytes, a few more by what is read ahead.
+/// A CSV reader whose records have at most [`RECORD_LIMIT`] bytes, or a few more because of
+/// buffering.
 #[derive(Debug)]
 pub struct TableReader<R> {
     reader: Reader<RecordReader<R>>,
     since: Rc<Cell<u64>>,
 }
 
-/// Makes a reader of a table. A record also ends the count of blank lines before it.
+/// Makes a reader of a table. Blank lines count towards the record that follows them.
 pub fn table<R: Read>(builder: &ReaderBuilder, source: R) -> TableReader<R> {
     let since = Rc::new(Cell::new(0));
     let source = RecordReader { source, since: Rc::clone(&since) };
@@ -27,23 +29,25 @@ pub fn table<R: Read>(builder: &ReaderBuilder, source: R) -> TableReader<R> {
 }
 
 impl<R: Read> TableReader<R> {
-    /// The names of the columns; the first record, where the builder has no other.
+    /// Returns the names of the columns; these are the first record unless the builder sets other
+    /// names.
     ///
     /// # Errors
-    /// When it cannot be read, or is longer than the limit.
+    /// Fails if the record cannot be read or is longer than the limit.
     pub fn headers(&mut self) -> csv::Result<&StringRecord> {
         let headers = self.reader.headers();
         self.since.set(0);
         headers
     }
 
-    /// The records in their order.
+    /// Returns the records in order.
     pub fn records(&mut self) -> Records<'_, R> {
         Records { table: self }
     }
 }
 
-/// The records of a table in their order. Each is an error that cannot be read, is not text, or is longer than the limit.
+/// The records of a table in order. A record that cannot be read, is not text, or is longer than
+/// the limit is an error.
 #[derive(Debug)]
 pub struct Records<'a, R> {
     table: &'a mut TableReader<R>,
@@ -64,7 +68,7 @@ impl<R: Read> Iterator for Records<'_, R> {
     }
 }
 
-/// Counts the bytes that were read since the last record was complete.
+/// Counts the bytes that were read since the last complete record.
 #[derive(Debug)]
 struct RecordReader<R> {
     source: R,
@@ -90,7 +94,7 @@ impl<R: Read> Read for RecordReader<R> {
 mod tests {
     use super::*;
 
-    /// The number of records, or the error.
+    /// Returns the number of records, or the error.
     fn count(source: impl Read) -> Result<usize, String> {
         let mut table = table(ReaderBuilder::new().flexible(true), source);
         table.headers().map_err(|error| error.to_string())?;

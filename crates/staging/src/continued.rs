@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A folder in which some files are written again whenever a command goes on: only those that it has listed, and that nobody has
-//! changed since.
+//! A folder in which a continued command writes some files again. It overwrites only files that it
+//! has listed and that have not been changed since.
 
 use std::fs;
 use std::io;
@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 use crate::list::{FileList, NAME, some_of, sum, sum_of_file};
 use crate::{StagingError, write_file};
 
-/// The folder with its list.
+/// A folder with the list of its files.
 #[derive(Debug)]
 pub struct ContinuedFolder {
     folder: PathBuf,
@@ -17,10 +17,10 @@ pub struct ContinuedFolder {
 }
 
 impl ContinuedFolder {
-    /// Reads the list of a folder; it is empty where there is none.
+    /// Reads the list of a folder; the list is empty if there is none.
     ///
     /// # Errors
-    /// When it cannot be read.
+    /// Fails if the list cannot be read.
     pub fn open(folder: &Path) -> Result<Self, StagingError> {
         let list = match FileList::read(folder) {
             Err(error) if error.kind() == io::ErrorKind::NotADirectory => None,
@@ -29,15 +29,16 @@ impl ContinuedFolder {
         Ok(Self { folder: folder.to_owned(), list: list.unwrap_or_default() })
     }
 
-    /// Takes a file with these contents for one that was written, too.
+    /// Treats a file with these contents as one that was written.
     pub fn expect(&mut self, name: &str, contents: &[u8]) {
         self.list.add(name.as_bytes().to_owned(), sum(contents));
     }
 
-    /// Refuses to go on where one of these files is somebody else's. It may be missing.
+    /// Refuses to continue if one of these files was not written by the command. A file may be
+    /// missing.
     ///
     /// # Errors
-    /// When there is one, which is named.
+    /// Fails if there is such a file; the error names it.
     pub fn check<'a>(&self, names: impl IntoIterator<Item = &'a str>) -> Result<(), StagingError> {
         let objection = |name: &str| {
             let path = self.folder.join(name);
@@ -51,7 +52,7 @@ impl ContinuedFolder {
         Err(StagingError::Mixed { path: self.folder.clone(), names: some_of(&foreign) })
     }
 
-    /// The names of the files that were written, if they are still there and unchanged.
+    /// Returns the names of the written files that are still there and unchanged.
     #[must_use]
     pub fn written(&self) -> Vec<String> {
         let is_there = |name: &&str| self.list.holds(name.as_bytes(), &self.folder.join(name));
@@ -59,15 +60,18 @@ impl ContinuedFolder {
         names.filter(|name| is_plain(name)).filter(is_there).map(str::to_owned).collect()
     }
 
-    /// Writes all of these files, in their order, and removes those that were written before and are no more among them.
+    /// Writes all of these files in order, and removes the files that were written before and are
+    /// no longer among them.
     ///
     /// # Errors
-    /// When one of them is somebody else's, and nothing is written then; or when one cannot be written.
+    /// Fails if one of them was not written by the command, in which case nothing is written, or if
+    /// a file cannot be written.
     pub fn write(&mut self, files: &[(String, Vec<u8>)]) -> Result<(), StagingError> {
         self.check(files.iter().map(|(name, _)| name.as_str()))?;
         let surplus = self.written();
         let surplus = surplus.iter().filter(|name| files.iter().all(|(other, _)| other != *name));
-        // If the process ends in between, both the old and the new contents are known.
+        // The list has both the old and the new contents, in case the process ends before all files
+        // are written.
         for (name, contents) in files {
             self.list.add(name.as_bytes().to_owned(), sum(contents));
         }
@@ -90,10 +94,10 @@ impl ContinuedFolder {
         self.save()
     }
 
-    /// Lists files that are there, as they are: a program has made them for us.
+    /// Lists files that another program has made for this command, with their present contents.
     ///
     /// # Errors
-    /// When one cannot be read, or the list cannot be written.
+    /// Fails if a file cannot be read or the list cannot be written.
     pub fn note(&mut self, names: impl IntoIterator<Item = String>) -> Result<(), StagingError> {
         for name in names {
             let path = self.folder.join(&name);
@@ -110,7 +114,7 @@ impl ContinuedFolder {
     }
 }
 
-/// Whether a name of a list stays in its folder.
+/// Returns whether a name of a list stays in its folder.
 fn is_plain(name: &str) -> bool {
     use std::path::Component;
     Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))

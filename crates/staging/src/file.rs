@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One file, whole or as it was.
+//! Writes one file completely, or leaves it unchanged.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Seek as _, Write};
@@ -11,14 +11,15 @@ use crate::StagingError;
 use crate::leftover::{TEMPORARY, sweep_once};
 use crate::lock::{LETTERS, is_same_file, plain};
 
-/// Links that are followed from one to the next.
+/// The largest number of links that are followed.
 const LINKS: usize = 40;
 
-/// Writes `contents` beside `path` and renames it into place; a file that is there is replaced, and keeps its mode, owner and
-/// links. A link keeps pointing where it points; what is no file, such as `/dev/stdout`, is written to.
+/// Writes `contents` into a temporary file next to `path` and renames it into place. An existing
+/// file is replaced and keeps its mode, owner and hard links. A symbolic link keeps its target.
+/// Special files such as `/dev/stdout` are written directly.
 ///
 /// # Errors
-/// When the folder does not exist or cannot be written.
+/// Fails if the folder does not exist or cannot be written.
 pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), StagingError> {
     let place = followed(path);
     let written = match fs::metadata(&place) {
@@ -29,11 +30,11 @@ pub fn write_file(path: &Path, contents: &[u8]) -> Result<(), StagingError> {
     written.map_err(StagingError::write(path))
 }
 
-/// Whether [`write_file`] can write there, as far as can be told before: to refuse it before hours of
-/// work.
+/// Checks whether [`write_file`] can write to a path, as far as this is known in advance, so that a
+/// run can fail before hours of work.
 ///
 /// # Errors
-/// When the folder does not exist or is none, or `path` is a folder.
+/// Fails if the folder does not exist or is not a folder, or if `path` is a folder.
 pub fn check_file(path: &Path) -> Result<(), StagingError> {
     let refused = |kind: io::ErrorKind| Err(StagingError::write(path)(kind.into()));
     if path.is_dir() {
@@ -46,7 +47,7 @@ fn folder_of(path: &Path) -> &Path {
     path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."))
 }
 
-/// Where a path leads, also to a file that is not there yet.
+/// Returns the target of a path after following links, even if the target does not exist yet.
 fn followed(path: &Path) -> PathBuf {
     let mut place = path.to_owned();
     for _ in 0..LINKS {
@@ -59,13 +60,14 @@ fn followed(path: &Path) -> PathBuf {
     place
 }
 
-/// A new file is as readable as what other programs write.
+/// Writes a new file, with the same permissions as files of other programs.
 fn create(place: &Path, contents: &[u8]) -> io::Result<()> {
     const MODE: u32 = 0o666;
     filled(place, contents, MODE)?.persist(place).map(drop).map_err(|error| plain(&error.error))
 }
 
-/// A file that is there keeps what it is to others. Where that takes its own place on the disk, it is written over.
+/// Replaces an existing file and keeps its owner, mode and links. If that requires the same inode,
+/// the file is overwritten in place.
 fn replace(place: &Path, contents: &[u8], earlier: &fs::Metadata) -> io::Result<()> {
     const MODE: u32 = 0o600;
     let whole = filled(place, contents, MODE).and_then(|beside| {
@@ -84,12 +86,13 @@ fn replace(place: &Path, contents: &[u8], earlier: &fs::Metadata) -> io::Result<
     }
 }
 
-/// Whether a folder cannot be written, which says nothing of the files in it.
+/// Returns whether a folder cannot be written, which does not imply that its files cannot.
 fn is_refused(error: &io::Error) -> bool {
     matches!(error.kind(), io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem)
 }
 
-/// A complete file beside its place, which this process has locked: nobody takes it for one that was left.
+/// Makes a complete file next to its place. This process locks the file, so that no other process
+/// removes it as a leftover.
 fn filled(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile> {
     let folder = folder_of(place);
     sweep_once(folder);
@@ -101,7 +104,7 @@ fn filled(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile>
     let _ = mode;
     loop {
         let mut beside = builder.tempfile_in(folder).map_err(|error| plain(&error))?;
-        // Where files cannot be locked nobody removes it either.
+        // If files cannot be locked, no other process removes this file either.
         let _ = beside.as_file().lock();
         if is_same_file(beside.as_file(), beside.path()) {
             beside.as_file_mut().write_all(contents)?;
@@ -110,7 +113,7 @@ fn filled(place: &Path, contents: &[u8], mode: u32) -> io::Result<NamedTempFile>
     }
 }
 
-/// Writes over a file in its place. If there is no room, what was there is there again.
+/// Overwrites a file in place. If the disk is full, the previous contents are restored.
 fn write_over(place: &Path, contents: &[u8]) -> io::Result<()> {
     let earlier = fs::read(place)?;
     let mut file = OpenOptions::new().write(true).open(place)?;
@@ -120,13 +123,14 @@ fn write_over(place: &Path, contents: &[u8]) -> io::Result<()> {
         file.set_len(bytes.len() as u64)
     };
     put(contents).inspect_err(|_| {
-        // It takes no more room than it did.
+        // The previous contents need no more room than before.
         let _ = put(&earlier);
     })
 }
 
-/// Gives a file the owner and the mode of another. Whether a file in its place is the same to others: it is not if that has
-/// further names, or if its owner cannot be kept.
+/// Gives a file the owner and the mode of another. Returns whether the file can replace the other
+/// without a difference to other users: it cannot if the other has further hard links, or if its
+/// owner cannot be kept.
 #[cfg(unix)]
 fn keep_owner_and_mode(file: &File, earlier: &fs::Metadata) -> io::Result<bool> {
     use std::os::unix::fs::{MetadataExt as _, fchown};
@@ -134,7 +138,7 @@ fn keep_owner_and_mode(file: &File, earlier: &fs::Metadata) -> io::Result<bool> 
     let is_other = |own: u32, earlier: u32| (own != earlier).then_some(earlier);
     let (user, group) = (is_other(own.uid(), earlier.uid()), is_other(own.gid(), earlier.gid()));
     let is_kept = (user.is_none() && group.is_none()) || fchown(file, user, group).is_ok();
-    // After the owner, whose change takes some bits of the mode away.
+    // The mode is set after the owner, because a change of the owner clears some bits of the mode.
     file.set_permissions(earlier.permissions())?;
     Ok(is_kept && earlier.nlink() == 1)
 }

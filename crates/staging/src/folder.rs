@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A folder, whole or not there.
+//! A folder that appears complete or not at all.
 
 use std::fs;
 use std::io;
@@ -10,20 +10,21 @@ use crate::leftover::{EARLIER, partial, restore, sweep_once};
 use crate::list::{self, FileList, some_of};
 use crate::lock::LockedFolder;
 
-/// The kind of folder that is written, to recognize one that may be replaced. A folder of any kind is replaced only if every file in it
-/// is on its list, `.foveate`, and unchanged.
+/// The kind of an output folder, which identifies folders that may be replaced. A folder of any
+/// kind is replaced only if every file in it is on its list, `.foveate`, and unchanged.
 #[derive(Clone, Copy, Debug)]
 pub struct FolderKind {
-    /// With its article, for messages: `a simulation (summary.json)`.
+    /// The description with its article, for messages: `a simulation (summary.json)`.
     pub what: &'static str,
-    /// Whether a folder that is there is of this kind.
+    /// Returns whether an existing folder is of this kind.
     pub is: fn(&Path) -> bool,
 }
 
-/// A folder in the making; dropped before [`StagedFolder::commit`] it is removed.
+/// An output folder that is being written. It is removed if it is dropped before
+/// [`StagedFolder::commit`].
 #[derive(Debug)]
 pub struct StagedFolder {
-    /// As the user knows it.
+    /// The path as the user gave it.
     given: PathBuf,
     target: PathBuf,
     place: LockedFolder,
@@ -32,11 +33,12 @@ pub struct StagedFolder {
 }
 
 impl StagedFolder {
-    /// Checks that `target` may be written and makes the folder beside it; folders above it that
-    /// are missing are made too. A folder of the same kind makes way if `replace` is set.
+    /// Checks that `target` may be written and creates the working folder next to it. Missing
+    /// parent folders are created, too. An existing folder of the same kind is replaced if
+    /// `replace` is set.
     ///
     /// # Errors
-    /// When `target` holds something that does not make way, or cannot be written.
+    /// Fails if `target` has contents that may not be replaced, or cannot be written.
     pub fn new(target: &Path, kind: FolderKind, replace: bool) -> Result<Self, StagingError> {
         let unnamed = || StagingError::NoName { path: target.to_owned() };
         let absolute = std::path::absolute(target).map_err(|_| unnamed())?;
@@ -44,7 +46,7 @@ impl StagedFolder {
         let (Some(parent), Some(name)) = (place.parent(), place.file_name()) else {
             return Err(unnamed());
         };
-        // A run that was killed may have left the folder there.
+        // A killed run may have moved the existing folder away; it is restored first.
         sweep_once(parent);
         refuse_occupied(&place, target, kind, replace)?;
         fs::create_dir_all(parent).map_err(StagingError::write(target))?;
@@ -53,19 +55,19 @@ impl StagedFolder {
         Ok(Self { given: target.to_owned(), target: place, place: locked, kind, replace })
     }
 
-    /// Whether [`StagedFolder::new`] would accept `target`, without making anything: to refuse it
-    /// before hours of work.
+    /// Checks whether [`StagedFolder::new`] would accept `target`, without creating anything, so
+    /// that a run can fail before hours of work.
     ///
     /// # Errors
-    /// When `target` holds something that does not make way.
+    /// Fails if `target` has contents that may not be replaced.
     pub fn check(target: &Path, kind: FolderKind, replace: bool) -> Result<(), StagingError> {
         refuse_occupied(target, target, kind, replace)
     }
 
-    /// Removes a folder that [`StagedFolder::new`] would replace, if it is there.
+    /// Removes a folder that [`StagedFolder::new`] would replace, if it exists.
     ///
     /// # Errors
-    /// When `target` holds something that does not make way, or cannot be removed.
+    /// Fails if `target` has contents that may not be removed, or cannot be removed.
     pub fn remove(target: &Path, kind: FolderKind) -> Result<(), StagingError> {
         refuse_occupied(target, target, kind, true)?;
         if !target.is_dir() {
@@ -74,13 +76,13 @@ impl StagedFolder {
         list::remove(target).map(drop).map_err(StagingError::write(target))
     }
 
-    /// Where to write.
+    /// Returns the working folder.
     #[must_use]
     pub fn folder(&self) -> &Path {
         self.place.work()
     }
 
-    /// A path in [`StagedFolder::folder`] as the user will know it.
+    /// Converts a path in [`StagedFolder::folder`] to the path that the user will see.
     #[must_use]
     pub fn shown(&self, path: &Path) -> PathBuf {
         match path.strip_prefix(self.folder()) {
@@ -90,13 +92,13 @@ impl StagedFolder {
         }
     }
 
-    /// The message of a program, with paths as the user will know them.
+    /// Converts the paths in a program's message to those that the user will see.
     #[must_use]
     pub fn shown_text(&self, text: &str) -> String {
         text.replace(&*self.folder().to_string_lossy(), &self.given.to_string_lossy())
     }
 
-    /// An error about a path in the folder, as one about the path that the user will know.
+    /// Converts the path in an error to the path that the user will see.
     #[must_use]
     pub fn named(&self, error: StagingError) -> StagingError {
         match error {
@@ -107,10 +109,10 @@ impl StagedFolder {
         }
     }
 
-    /// Writes a file of the folder, and the folders above it.
+    /// Writes a file of the folder, and creates the folders above it.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// Fails if the file cannot be written.
     pub fn write(&self, name: &str, contents: &[u8]) -> Result<(), StagingError> {
         let path = self.folder().join(name);
         let shown = self.given.join(name);
@@ -124,7 +126,8 @@ impl StagedFolder {
     /// Moves the folder to its place.
     ///
     /// # Errors
-    /// When something has come to that place meanwhile, or it cannot be written.
+    /// Fails if another folder has appeared in that place meanwhile, or if the place cannot be
+    /// written.
     pub fn commit(self) -> Result<(), StagingError> {
         let Self { given, target, place, kind, replace } = self;
         list::write(place.work());
@@ -133,7 +136,8 @@ impl StagedFolder {
             return fs::rename(place.work(), &target).map_err(failed);
         };
         fs::set_permissions(place.work(), earlier_mode).map_err(&failed)?;
-        // The earlier folder is looked at where nobody else writes any more, and goes last, so that one of the two is always there.
+        // The previous folder is checked after it was moved away, where no other program writes,
+        // and is removed last, so that one of the two folders always exists.
         let earlier = place.beside(EARLIER);
         fs::rename(&target, &earlier).map_err(&failed)?;
         let put = refuse_occupied(&earlier, &given, kind, replace)
@@ -150,8 +154,9 @@ impl StagedFolder {
     }
 }
 
-/// An empty folder may be written; any other only when asked, and only if it is of the same kind and nobody else's files are in
-/// it. `shown` is what the user calls it.
+/// Fails if a folder may not be written. An empty folder may be written. Any other folder may be
+/// written only on request, if it is of the same kind and has no files of the user. `shown` is the
+/// path for messages.
 fn refuse_occupied(
     folder: &Path,
     shown: &Path,
@@ -241,7 +246,7 @@ mod tests {
         assert_eq!(names(dir.path()), ["out"]);
     }
 
-    /// Writes a marker and a file whose name needs care.
+    /// Writes a marker and a file whose name needs escaping.
     fn write_listed(target: &Path) -> Result<(), StagingError> {
         let staged = StagedFolder::new(target, KIND, true)?;
         staged.write("marker", b"contents")?;
@@ -255,7 +260,7 @@ mod tests {
         let target = dir.path().join("out");
         write_listed(&target).unwrap();
         write_listed(&target).unwrap();
-        // What is missing, and folders without a file, are no loss.
+        // Missing files and folders without files do not prevent the replacement.
         fs::remove_dir_all(target.join("deep")).unwrap();
         fs::create_dir(target.join("empty")).unwrap();
         write_listed(&target).unwrap();
@@ -285,7 +290,7 @@ mod tests {
         assert!(names(dir.path()).is_empty());
     }
 
-    /// A list that names files elsewhere, by paths and through links, touches none of them.
+    /// A list that names files elsewhere, by paths and through links, affects none of them.
     #[cfg(unix)]
     #[test]
     fn a_forged_list_deletes_nothing_elsewhere() {
@@ -317,7 +322,7 @@ mod tests {
         fs::remove_file(target.join("folder")).unwrap();
         write_listed(&target).unwrap();
         assert_eq!(fs::read(thesis.join("text")).unwrap(), b"thesis");
-        // The list itself is a link.
+        // The list itself is a link here.
         forged(&["marker"]);
         fs::rename(target.join(".foveate"), thesis.join("list")).unwrap();
         symlink(thesis.join("list"), target.join(".foveate")).unwrap();

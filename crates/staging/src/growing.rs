@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A file that grows, and loses nothing of what it was given when the disk is full: bytes gather in
-//! memory, and those that do not fit stay there until there is room for them.
+//! A file that grows, and loses no data when the disk is full: bytes are collected in memory, and
+//! those that do not fit stay there until there is room.
 
 use std::fs::{File, OpenOptions};
 use std::io::{self, Seek, SeekFrom, Write};
@@ -8,10 +8,10 @@ use std::path::{Path, PathBuf};
 
 use crate::StagingError;
 
-/// Bytes that are worth a call of the system.
+/// The number of bytes from which a system call is worthwhile.
 const ENOUGH: usize = 1 << 16;
 
-/// The file, open, and what is not written yet.
+/// An open file and the bytes that are not written yet.
 #[derive(Debug)]
 pub struct GrowingFile {
     path: PathBuf,
@@ -20,18 +20,18 @@ pub struct GrowingFile {
 }
 
 impl GrowingFile {
-    /// Creates it, or begins again one that is there.
+    /// Creates a file, or truncates an existing one.
     ///
     /// # Errors
-    /// When it cannot be written.
+    /// Fails if the file cannot be written.
     pub fn create(path: &Path) -> Result<Self, StagingError> {
         Self::open(path, OpenOptions::new().write(true).create(true).truncate(true))
     }
 
-    /// A file that is not there yet.
+    /// Creates a file that must not exist yet.
     ///
     /// # Errors
-    /// When it is there, or cannot be written.
+    /// Fails if the file exists or cannot be written.
     pub fn create_new(path: &Path) -> Result<Self, StagingError> {
         Self::open(path, OpenOptions::new().write(true).create_new(true))
     }
@@ -41,20 +41,21 @@ impl GrowingFile {
         Ok(Self { path: path.to_owned(), file, pending: Vec::new() })
     }
 
-    /// Takes bytes for its end.
+    /// Appends bytes to the file.
     pub fn append(&mut self, bytes: &[u8]) {
         self.pending.extend_from_slice(bytes);
     }
 
-    /// What is to be appended, to be written to.
+    /// Returns the pending bytes, to which more can be appended.
     pub fn end(&mut self) -> &mut Vec<u8> {
         &mut self.pending
     }
 
-    /// Writes what has gathered, once it is worth it or if `all` is to go.
+    /// Writes the pending bytes if there are many of them or if `all` is set.
     ///
     /// # Errors
-    /// When there is no room, or it cannot be written. What is not written is kept.
+    /// Fails if the disk is full or the file cannot be written. Bytes that were not written are
+    /// kept.
     pub fn write_out(&mut self, all: bool) -> Result<(), StagingError> {
         if self.pending.len() < ENOUGH && !all {
             return Ok(());
@@ -65,10 +66,10 @@ impl GrowingFile {
         result.map_err(StagingError::write(&self.path))
     }
 
-    /// Writes everything, and then over bytes that are there already.
+    /// Writes all pending bytes, and then overwrites bytes at the offset `at`.
     ///
     /// # Errors
-    /// As [`GrowingFile::write_out`].
+    /// Fails like [`GrowingFile::write_out`].
     pub fn write_over(&mut self, at: u64, bytes: &[u8]) -> Result<(), StagingError> {
         self.write_out(true)?;
         self.file
@@ -80,7 +81,7 @@ impl GrowingFile {
     }
 }
 
-/// As `write_all`, which does not tell how far it came.
+/// Writes all bytes like `write_all`, and counts those that were written even if it fails.
 fn write_counting(file: &mut File, bytes: &[u8], written: &mut usize) -> io::Result<()> {
     while let Some(rest) = bytes.get(*written..).filter(|rest| !rest.is_empty()) {
         match file.write(rest) {

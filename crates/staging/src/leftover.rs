@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The leftovers of killed processes, beside the files that they wrote. The next command that writes there removes a leftover if its
-//! lock says that its process is gone and if it belongs to the same user.
+//! The leftovers of killed processes next to their outputs. The next command that writes there
+//! removes a leftover if its lock shows that its process has ended and if it belongs to the same
+//! user.
 
 use std::collections::BTreeSet;
 use std::ffi::{OsStr, OsString};
@@ -11,16 +12,17 @@ use std::sync::{Mutex, PoisonError};
 use crate::list;
 use crate::lock::{LETTERS, LockedFolder, is_own, is_same_file};
 
-/// The beginning of the names of files that [`write_file`](crate::write_file) has not finished.
+/// The prefix of the names of unfinished files of [`write_file`](crate::write_file).
 pub const TEMPORARY: &str = ".foveate-";
-/// The beginning of the names of folders for intermediate results.
+/// The prefix of the names of folders for intermediate results.
 pub(crate) const SCRATCH: &str = "foveate-";
-/// The part between the name of an output folder and the letters, while the folder is written.
+/// The part between the name of an output folder and the random letters, while the folder is
+/// written.
 const PARTIAL: &str = ".partial-";
-/// The folder that is being replaced, beside the work.
+/// The name of the folder that is being replaced, next to the work folder.
 pub(crate) const EARLIER: &str = "earlier";
 
-/// The beginning of the name of the folder in which the output `name` is written.
+/// Returns the prefix of the name of the folder in which the output `name` is written.
 pub(crate) fn partial(name: &OsStr) -> OsString {
     let mut prefix = OsString::from(".");
     prefix.push(name);
@@ -28,7 +30,8 @@ pub(crate) fn partial(name: &OsStr) -> OsString {
     prefix
 }
 
-/// Removes what killed processes have left in `folder`; once, as this process leaves nothing while it lives.
+/// Removes the leftovers of killed processes in `folder`. This is done once per folder, because
+/// this process leaves nothing while it lives.
 pub(crate) fn sweep_once(folder: &Path) {
     static SWEPT: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
     let is_new = SWEPT.lock().unwrap_or_else(PoisonError::into_inner).insert(folder.to_owned());
@@ -53,18 +56,18 @@ fn sweep(folder: &Path) {
     }
 }
 
-/// The kind of a leftover by its name.
+/// A kind of leftover, which follows from its name.
 #[derive(Debug, PartialEq)]
 enum Leftover {
     File,
     Scratch,
-    /// The name of the output.
+    /// The folder of an unfinished output, with the name of the output.
     Partial(OsString),
 }
 
 impl Leftover {
     fn named(name: &OsStr) -> Option<Self> {
-        // Names that are no text stay.
+        // Names that are not text are not leftovers.
         let (stem, letters) = name.to_str()?.rsplit_once('-')?;
         if letters.len() != LETTERS || !letters.bytes().all(|byte| byte.is_ascii_alphanumeric()) {
             return None;
@@ -80,7 +83,8 @@ impl Leftover {
     }
 }
 
-/// An earlier folder that was on its way out goes back to its place if that is free, or the rest of it goes.
+/// Moves a previous folder that was about to be replaced back to its place if that is free;
+/// otherwise removes the rest of it.
 pub(crate) fn restore(left: &LockedFolder, target: &Path) {
     let earlier = left.beside(EARLIER);
     if !earlier.is_dir() {
@@ -94,7 +98,7 @@ pub(crate) fn restore(left: &LockedFolder, target: &Path) {
     }
 }
 
-/// A temporary file is locked by the process that writes it.
+/// Removes a temporary file unless the process that writes it still holds its lock.
 fn remove_file(path: &Path) {
     if !fs::symlink_metadata(path).is_ok_and(|about| about.is_file() && is_own(&about)) {
         return;
@@ -136,7 +140,7 @@ mod tests {
         }
     }
 
-    /// A folder as a process leaves it that is killed: everything is there but the lock.
+    /// Makes a folder as a killed process leaves it: everything is there except the lock.
     fn killed(parent: &Path, name: &str) -> PathBuf {
         let left = LockedFolder::create(parent, &partial(OsStr::new(name))).unwrap();
         fs::write(left.work().join("half"), "half").unwrap();
@@ -155,7 +159,8 @@ mod tests {
         let living = LockedFolder::create(parent, &partial(OsStr::new("out"))).unwrap();
         let root = killed(parent, "out");
         assert!(root.join("work/half").is_file());
-        // Folders that a user made: without the lock, with another file of its name, as a link.
+        // These folders belong to the user: one without a lock, one with another file of that name,
+        // and one that is a link.
         for name in [".mine.partial-0123456789", ".other.partial-0123456789"] {
             fs::create_dir_all(parent.join(name).join("work")).unwrap();
         }
@@ -180,7 +185,7 @@ mod tests {
         sweep(dir.path());
         assert_eq!(names(dir.path()), ["out"]);
         assert_eq!(fs::read(dir.path().join("out/result")).unwrap(), b"result");
-        // The new folder is in its place; what of the earlier one is listed goes.
+        // The new folder is in its place, so the listed files of the previous one are removed.
         let root = killed(dir.path(), "out");
         let earlier = root.join(EARLIER);
         fs::create_dir(&earlier).unwrap();

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Folders and files that appear complete or not at all. They are written beside their place and
+//! Folders and files that appear complete or not at all. They are written next to their place and
 //! renamed when they are complete.
 //!
-//! A folder with contents is replaced only if the caller asks for it, if the same kind of run wrote it, and if every file in it is
-//! on the list of that run and unchanged. So a flag cannot delete other files. What a killed process has left beside its
-//! output goes when the next one writes there.
+//! A folder with contents is replaced only if the caller requests it, if the same kind of run wrote
+//! it, and if every file in it is on the list of that run and unchanged. So the request cannot
+//! delete other files. The leftovers of a killed process next to its output are removed when the
+//! next process writes there.
 
 mod continued;
 mod error;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The list of the files that were written into a folder, in the folder, with the hash of each, as `sha256sum -c` reads it.
-//! A file that is not on the list, or that has changed, is somebody else's.
+//! The list of the files that were written into a folder. It is a file in the folder with the hash
+//! of each file, in the format of `sha256sum -c`. A file that is not on the list, or that has
+//! changed, belongs to the user.
 
 use std::collections::BTreeMap;
 use std::fs::{self, File};
@@ -9,25 +10,27 @@ use std::path::{Path, PathBuf};
 
 use sha2::{Digest, Sha256};
 
-/// The list itself, which is not on it.
+/// The name of the list, which does not list itself.
 pub(crate) const NAME: &str = ".foveate";
 const HEAD: &[u8] = b"# Foveate wrote these files and replaces them as long as they are unchanged (sha256sum -c .foveate).\n";
 
-/// The hash of a file in hexadecimal digits, as bytes.
+/// The hash of a file as ASCII hexadecimal digits.
 type Sum = Vec<u8>;
 
-/// Names of files, as paths from the folder with `/` between their parts, with the contents that they may have.
+/// The names of files, as paths relative to the folder with `/` as separator, and the hashes of
+/// their allowed contents.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct FileList(BTreeMap<Vec<u8>, Vec<Sum>>);
 
-/// A file below a folder. A link is a file, too, and is not followed.
+/// A file below a folder. A link counts as a file and is not followed.
 pub(crate) struct FolderFile {
     pub(crate) name: Vec<u8>,
     pub(crate) path: PathBuf,
 }
 
 impl FileList {
-    /// The list of a folder; `None` where there is none. Lines that are no entries are ignored: a file is then not listed.
+    /// Returns the list of a folder; `None` if there is none. Invalid lines are ignored, so their
+    /// files are not listed.
     pub(crate) fn read(folder: &Path) -> io::Result<Option<Self>> {
         let path = folder.join(NAME);
         match fs::symlink_metadata(&path) {
@@ -44,7 +47,7 @@ impl FileList {
         Ok(Some(list))
     }
 
-    /// Every file that is in a folder.
+    /// Lists every file in a folder.
     pub(crate) fn of(folder: &Path) -> io::Result<Self> {
         let mut list = Self::default();
         for FolderFile { name, path } in files(folder)? {
@@ -53,7 +56,7 @@ impl FileList {
         Ok(list)
     }
 
-    /// Lists a file with these contents, beside others that it may have.
+    /// Lists a file with these contents, in addition to other contents that are allowed.
     pub(crate) fn add(&mut self, name: Vec<u8>, sum: Sum) {
         let sums = self.0.entry(name).or_default();
         if !sums.contains(&sum) {
@@ -61,12 +64,12 @@ impl FileList {
         }
     }
 
-    /// The names.
+    /// Returns the names of the listed files.
     pub(crate) fn names(&self) -> impl Iterator<Item = &[u8]> {
         self.0.keys().map(Vec::as_slice)
     }
 
-    /// Whether a file is listed and has contents that it may have. What is no plain file is not.
+    /// Returns whether a file is listed and has allowed contents; false if it is not a plain file.
     pub(crate) fn holds(&self, name: &[u8], path: &Path) -> bool {
         let is_file = || fs::symlink_metadata(path).is_ok_and(|about| about.is_file());
         let is_unchanged =
@@ -74,7 +77,7 @@ impl FileList {
         self.0.get(name).is_some_and(is_unchanged)
     }
 
-    /// How people are told of a file that is not as the list says; `None` if it is.
+    /// Returns the description of a file that differs from the list; `None` if it does not differ.
     pub(crate) fn objection(&self, name: &[u8], path: &Path) -> Option<String> {
         if self.holds(name, path) {
             return None;
@@ -83,7 +86,7 @@ impl FileList {
         Some(format!("{}{changed}", shown(name)))
     }
 
-    /// The text of the list, sorted by name.
+    /// Returns the text of the list, sorted by name.
     pub(crate) fn text(&self) -> Vec<u8> {
         let mut text = HEAD.to_owned();
         for (name, sums) in &self.0 {
@@ -95,7 +98,7 @@ impl FileList {
     }
 }
 
-/// Lists every file of a folder. The list is a help for later: where it cannot be written there is none.
+/// Writes the list of a folder. If it cannot be written, the folder has no list.
 pub(crate) fn write(folder: &Path) {
     let path = folder.join(NAME);
     let written = FileList::of(folder).and_then(|list| fs::write(&path, list.text()));
@@ -104,7 +107,7 @@ pub(crate) fn write(folder: &Path) {
     }
 }
 
-/// Every file below a folder but the list itself, sorted.
+/// Returns every file below a folder except the list itself, sorted by name.
 pub(crate) fn files(folder: &Path) -> io::Result<Vec<FolderFile>> {
     let mut found = Vec::new();
     let mut open = vec![(folder.to_owned(), Vec::new())];
@@ -125,8 +128,8 @@ pub(crate) fn files(folder: &Path) -> io::Result<Vec<FolderFile>> {
     Ok(found)
 }
 
-/// Removes the files of a folder that are as its list says, the list, and the folders that are empty then. Whether nothing
-/// is left.
+/// Removes the files of a folder that match its list, the list if no other file is left, and the
+/// folders that are then empty. Returns whether nothing is left.
 pub(crate) fn remove(folder: &Path) -> io::Result<bool> {
     let list = FileList::read(folder)?.unwrap_or_default();
     let mut is_all = true;
@@ -146,7 +149,7 @@ pub(crate) fn remove(folder: &Path) -> io::Result<bool> {
     Ok(remove_empty(folder))
 }
 
-/// Removes a folder if there is no file in it, whatever has come meanwhile.
+/// Removes a folder with its subfolders if there is no file in it, even one that was just added.
 fn remove_empty(folder: &Path) -> bool {
     let inside = fs::read_dir(folder).into_iter().flatten().flatten();
     for entry in inside.filter(|entry| entry.file_type().is_ok_and(|kind| kind.is_dir())) {
@@ -155,19 +158,19 @@ fn remove_empty(folder: &Path) -> bool {
     fs::remove_dir(folder).is_ok()
 }
 
-/// The hash of contents.
+/// Returns the hash of contents.
 pub(crate) fn sum(contents: &[u8]) -> Sum {
     hexadecimal(&Sha256::digest(contents))
 }
 
-/// The hash of the contents of a file.
+/// Returns the hash of the contents of a file.
 pub(crate) fn sum_of_file(path: &Path) -> io::Result<Sum> {
     let mut hasher = Hasher(Sha256::new());
     io::copy(&mut File::open(path)?, &mut hasher)?;
     Ok(hexadecimal(&hasher.0.finalize()))
 }
 
-/// Takes bytes as a file does.
+/// A writer that hashes its bytes.
 struct Hasher(Sha256);
 
 impl io::Write for Hasher {
@@ -187,7 +190,7 @@ fn hexadecimal(bytes: &[u8]) -> Sum {
     bytes.iter().flat_map(|byte| [digit(byte >> 4), digit(byte & 15)]).collect()
 }
 
-/// A line as `sha256sum` writes it.
+/// Returns a line in the format of `sha256sum`.
 fn line(sum: &[u8], name: &[u8]) -> Vec<u8> {
     let escaped: Vec<u8> = name
         .iter()
@@ -202,7 +205,7 @@ fn line(sum: &[u8], name: &[u8]) -> Vec<u8> {
     [mark, sum, b"  ", &escaped, b"\n"].concat()
 }
 
-/// The hash and the name of a line.
+/// Parses the hash and the name in a line.
 fn entry(line: &[u8]) -> Option<(Sum, Vec<u8>)> {
     const DIGITS: usize = 64;
     let (is_escaped, line) = match line.strip_prefix(b"\\") {
@@ -232,7 +235,7 @@ fn unescaped(name: &[u8]) -> Option<Vec<u8>> {
     Some(plain)
 }
 
-/// A name as text on one line.
+/// Returns a name as text on one line.
 fn shown(name: &[u8]) -> String {
     let plain = |letter: char| {
         if letter.is_control() { letter.escape_default().to_string() } else { letter.to_string() }
@@ -240,7 +243,7 @@ fn shown(name: &[u8]) -> String {
     String::from_utf8_lossy(name).chars().map(plain).collect()
 }
 
-/// The first of these names, and how many there are more.
+/// Returns the first of these names, and the number of further ones.
 pub(crate) fn some_of(names: &[String]) -> String {
     const SHOWN: usize = 3;
     let mut text = names[..names.len().min(SHOWN)].join(", ");

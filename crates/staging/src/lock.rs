@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A private folder for work in progress. Its lock tells other processes whether its process still lives: the system gives up
-//! the locks of a process that ends, however it ends, on this machine and on others that share the file system.
+//! A private folder for work in progress. Its lock tells other processes whether its process still
+//! lives. The system releases the locks of a process that ends, in whatever way it ends, on this
+//! machine and on others that share the file system.
 
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, Read as _, Write as _};
 use std::path::{Path, PathBuf};
 
-/// The file that is locked.
+/// The name of the locked file.
 pub(crate) const LOCK: &str = ".foveate-lock";
-/// The text in the lock. A folder without it is not ours.
+/// The content of the locked file. A folder without it was not made by this crate.
 const MAGIC: &[u8] = b"Foveate works in this folder while this file is locked.\n";
-/// Where the work is.
+/// The name of the folder for the work.
 const WORK: &str = "work";
-/// Letters and digits at the end of its name.
+/// The number of random letters and digits at the end of a name.
 pub(crate) const LETTERS: usize = 10;
 
-/// The folder; dropped, it is removed with the work in it.
+/// A locked folder. It is removed with the work in it when it is dropped.
 #[derive(Debug)]
 pub(crate) struct LockedFolder {
     root: PathBuf,
@@ -24,7 +25,7 @@ pub(crate) struct LockedFolder {
 }
 
 impl LockedFolder {
-    /// Makes a folder in `parent` whose name begins with `prefix`. Only its owner can enter it.
+    /// Creates a folder in `parent` whose name begins with `prefix`. Only its owner can enter it.
     pub(crate) fn create(parent: &Path, prefix: &std::ffi::OsStr) -> io::Result<Self> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(prefix).rand_bytes(LETTERS);
@@ -32,8 +33,8 @@ impl LockedFolder {
         builder.permissions(std::os::unix::fs::PermissionsExt::from_mode(0o700));
         let root = builder.tempdir_in(parent).map_err(|error| plain(&error))?;
         let mut lock = File::create_new(root.path().join(LOCK))?;
-        // It waits for whoever is just looking. Where files cannot be locked nobody takes this for a leftover, because nobody
-        // gets the lock.
+        // This waits while another process inspects the folder. If files cannot be locked, no
+        // process treats this folder as a leftover, because none gets the lock.
         let _ = lock.lock();
         lock.write_all(MAGIC)?;
         let work = root.path().join(WORK);
@@ -41,7 +42,8 @@ impl LockedFolder {
         Ok(Self { root: root.keep(), work, lock: Some(lock) })
     }
 
-    /// The folder of a process that has ended, if `root` is one and belongs to this user. It is ours from then on.
+    /// Takes over the folder of a process that has ended, if `root` is such a folder and belongs to
+    /// this user.
     pub(crate) fn take_over(root: &Path) -> Option<Self> {
         let path = root.join(LOCK);
         let own = |about: &fs::Metadata| is_own(about);
@@ -54,7 +56,7 @@ impl LockedFolder {
         lock.try_lock().ok()?;
         let mut text = Vec::new();
         (&lock).take(MAGIC.len() as u64 + 1).read_to_end(&mut text).ok()?;
-        // Its holder may have removed it while we opened it.
+        // Its holder may have removed the file between the checks and the lock.
         let is_same = is_same_file(&lock, &path);
         (text == MAGIC && is_same).then(|| Self {
             root: root.to_owned(),
@@ -63,12 +65,12 @@ impl LockedFolder {
         })
     }
 
-    /// Where to work.
+    /// Returns the folder for the work.
     pub(crate) fn work(&self) -> &Path {
         &self.work
     }
 
-    /// A place beside the work.
+    /// Returns a path next to the folder for the work.
     pub(crate) fn beside(&self, name: &str) -> PathBuf {
         self.root.join(name)
     }
@@ -77,7 +79,7 @@ impl LockedFolder {
 impl Drop for LockedFolder {
     fn drop(&mut self) {
         let _ = fs::remove_dir_all(&self.work);
-        // Other files in it stay, and the lock with them, so that the next run sees to them.
+        // Other files keep the folder and its lock, so that the next run handles them.
         let others = fs::read_dir(&self.root).into_iter().flatten().flatten();
         if others.filter(|entry| entry.file_name() != LOCK).count() == 0 {
             let _ = fs::remove_file(self.root.join(LOCK));
@@ -87,7 +89,8 @@ impl Drop for LockedFolder {
     }
 }
 
-/// The error of a temporary file names that file, which nobody has asked for.
+/// Returns the error of a temporary file without the name of that file, which the user did not
+/// choose.
 pub(crate) fn plain(error: &io::Error) -> io::Error {
     let inner = error.get_ref().and_then(|inner| inner.source());
     let code = error.raw_os_error().or_else(|| {
@@ -96,19 +99,19 @@ pub(crate) fn plain(error: &io::Error) -> io::Error {
     code.map_or_else(|| io::Error::from(error.kind()), io::Error::from_raw_os_error)
 }
 
-/// Whether a file belongs to the user of this process.
+/// Returns whether a file belongs to the user of this process.
 #[cfg(unix)]
 pub(crate) fn is_own(about: &fs::Metadata) -> bool {
     std::os::unix::fs::MetadataExt::uid(about) == rustix::process::geteuid().as_raw()
 }
 
-/// Elsewhere it is not known, and nothing is taken for a leftover.
+/// Other systems do not tell, and nothing is treated as a leftover.
 #[cfg(not(unix))]
 pub(crate) fn is_own(_: &fs::Metadata) -> bool {
     false
 }
 
-/// Whether an open file still stands under this name.
+/// Returns whether an open file still has this name.
 #[cfg(unix)]
 pub(crate) fn is_same_file(file: &File, path: &Path) -> bool {
     use std::os::unix::fs::MetadataExt as _;
@@ -119,7 +122,7 @@ pub(crate) fn is_same_file(file: &File, path: &Path) -> bool {
     }
 }
 
-/// Elsewhere an open file cannot be removed.
+/// On other systems an open file cannot be removed.
 #[cfg(not(unix))]
 pub(crate) fn is_same_file(_: &File, path: &Path) -> bool {
     path.exists()

@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Room that is kept free for the end: on a full disk what was written can still be completed.
+//! Disk space that is reserved for the end of a run, so that an output can be completed on a full
+//! disk.
 
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
-/// A file that takes up room, and gives it back when it is dropped.
+/// A file that occupies disk space, and frees it when it is dropped.
 #[derive(Debug)]
 pub struct Reserve {
     path: PathBuf,
 }
 
 impl Reserve {
-    /// Takes up `bytes` in `folder`, under a name of its own, or half of the room where there are not as many.
+    /// Occupies `bytes` in `folder` with a file of this name, or half of the free space if there is
+    /// less.
     #[must_use]
     pub fn new(folder: &Path, name: &str, bytes: u64) -> Self {
         let reserve = Self { path: folder.join(name) };
-        // Room that cannot be taken is no loss: the end is then tried without it.
+        // A failure is ignored; the run then ends without reserved space.
         let _ = fill(&reserve.path, bytes);
         reserve
     }
 }
 
-/// Whether there are so many bytes of room in a folder.
+/// Returns whether a folder has room for this number of bytes.
 #[must_use]
 pub fn has_room(folder: &Path, bytes: u64) -> bool {
     let probe = Reserve { path: folder.join(".probe") };
@@ -31,12 +33,12 @@ pub fn has_room(folder: &Path, bytes: u64) -> bool {
 
 impl Drop for Reserve {
     fn drop(&mut self) {
-        // It goes with its folder otherwise.
+        // If this fails, the file is removed with its folder.
         let _ = fs::remove_file(&self.path);
     }
 }
 
-/// A file that is not written to takes up no room.
+/// Fills a new file with zeros, because a file without data occupies no space.
 fn fill(path: &Path, bytes: u64) -> io::Result<()> {
     let mut file = File::create_new(path)?;
     match zeros(&mut file, bytes) {
@@ -45,7 +47,7 @@ fn fill(path: &Path, bytes: u64) -> io::Result<()> {
     }
 }
 
-/// Writes so many zeros or a few more, and tells how far it came.
+/// Writes at least this number of zeros. Returns the number of bytes that were written.
 fn zeros(file: &mut File, bytes: u64) -> (u64, io::Result<()>) {
     static BLOCK: [u8; 1 << 14] = [0; 1 << 14];
     let mut written = 0;

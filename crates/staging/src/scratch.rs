@@ -8,22 +8,23 @@ use std::path::Path;
 use crate::leftover::{SCRATCH, sweep_once};
 use crate::lock::LockedFolder;
 
-/// The folder, which goes with this value; that of a process that was killed goes when the next one is made.
+/// A temporary folder that is removed when it is dropped. The folder of a killed process is removed
+/// when the next one is created.
 #[derive(Debug)]
 pub struct ScratchFolder(LockedFolder);
 
 impl ScratchFolder {
-    /// Makes it in the folder of temporary files.
+    /// Creates the folder in the system's folder of temporary files.
     ///
     /// # Errors
-    /// When that cannot be written.
+    /// Fails if that folder cannot be written.
     pub fn new() -> io::Result<Self> {
         let parent = std::env::temp_dir();
         sweep_once(&parent);
         LockedFolder::create(&parent, OsStr::new(SCRATCH)).map(Self)
     }
 
-    /// Where to work.
+    /// Returns the path of the folder.
     #[must_use]
     pub fn path(&self) -> &Path {
         self.0.work()

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the values of an array are.
+//! The type of the values of an array.
 
-/// A type of elements that NumPy knows, little-endian.
+/// A little-endian type of elements that NumPy supports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Element {
-    /// Also truth values, 0 and 1.
+    /// An unsigned integer of one byte, also used for truth values, 0 and 1.
     Unsigned8,
-    /// Two bytes.
+    /// An unsigned integer of two bytes.
     Unsigned16,
-    /// Four bytes.
+    /// An unsigned integer of four bytes.
     Unsigned32,
-    /// Eight bytes.
+    /// An unsigned integer of eight bytes.
     Unsigned64,
-    /// Eight bytes, two's complement.
+    /// A signed integer of eight bytes, in two's complement.
     Signed64,
-    /// Four bytes, IEEE 754.
+    /// A floating-point number of four bytes (IEEE 754).
     Float32,
 }
 
 impl Element {
-    /// The smallest unsigned type that holds `0..=max`.
+    /// Returns the smallest unsigned type that holds `0..=max`.
     #[must_use]
     pub fn up_to(max: u64) -> Self {
         match max {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! NumPy arrays as files: written as they grow frame by frame, and read. Knows nothing of what the values are.
+//! NumPy arrays as files, which are written frame by frame and read as a whole. The module does not
+//! depend on the meaning of the values.
 
 mod element;
 mod reader;

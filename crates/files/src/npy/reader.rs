@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! NumPy files (NPY 1.0 to 3.0) as `numpy.save` writes them, which may come from a stranger.
+//! Reads NumPy files (NPY 1.0 to 3.0) as `numpy.save` writes them. A file may come from an
+//! untrusted source.
 
 use std::fs::File;
 use std::io::{self, Read};
@@ -7,23 +8,23 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
-/// Bytes of the largest header. NumPy itself reads no longer ones of strangers.
+/// The largest header in bytes. NumPy itself reads no longer headers of untrusted files.
 const HEADER_LIMIT: usize = 10_000;
-/// Bytes of the largest array.
+/// The largest array in bytes.
 const ARRAY_LIMIT: u64 = 1 << 31;
 
-/// An array of a file.
+/// An array that was read from a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct NpyArray {
     /// The type of a value as NumPy writes it, such as `<f4`.
     pub dtype: String,
     /// The length of every axis.
     pub shape: Vec<usize>,
-    /// The values, the last axis first.
+    /// The bytes of the values in row-major (C) order.
     pub bytes: Vec<u8>,
 }
 
-/// An array that cannot be read.
+/// The error of an array that cannot be read.
 #[derive(Debug, Error)]
 #[error("cannot read the array `{}`: {problem}", path.display())]
 pub struct NpyError {
@@ -34,7 +35,8 @@ pub struct NpyError {
 /// Reads a file of one array.
 ///
 /// # Errors
-/// When the file cannot be read or is damaged, or when its array is larger than 2 GiB, or of values that are not plain numbers.
+/// Fails if the file cannot be read or is damaged, if its array is larger than 2 GiB, or if its
+/// values are not plain numbers.
 pub fn read(path: &Path) -> Result<NpyArray, NpyError> {
     let wrong = |problem| NpyError { path: path.to_owned(), problem };
     // Opening a FIFO would wait for a writer.
@@ -71,7 +73,7 @@ fn read_from(file: &mut impl Read) -> Result<NpyArray, String> {
     }
 }
 
-/// The words of a header.
+/// Returns the text of a header.
 fn header(file: &mut impl Read) -> Result<String, String> {
     let ends = |error: io::Error| match error.kind() {
         io::ErrorKind::UnexpectedEof => "it ends in its header".to_owned(),
@@ -102,10 +104,10 @@ fn header(file: &mut impl Read) -> Result<String, String> {
     String::from_utf8(words).map_err(|_| "its header is no text".to_owned())
 }
 
-/// The type, whether the first axis comes first, and the shape.
+/// Parses a header to the type, whether the array is in Fortran order, and the shape.
 fn parse(header: &str) -> Option<(String, bool, Vec<usize>)> {
     let of = |key: &str| Some(header.split_once(&format!("'{key}':"))?.1.trim_start());
-    // A structured type is a list, and is refused by its first letter.
+    // A structured type is a list, and is rejected because of its first letter.
     let dtype = of("descr")?;
     let dtype = match dtype.strip_prefix('\'') {
         Some(text) => text.split_once('\'')?.0,
@@ -122,7 +124,7 @@ fn parse(header: &str) -> Option<(String, bool, Vec<usize>)> {
     Some((dtype.to_owned(), is_fortran, shape.collect::<Option<_>>()?))
 }
 
-/// Bytes of a value of a type.
+/// Returns the number of bytes of a value of a type.
 fn width(dtype: &str) -> Result<usize, String> {
     match dtype {
         "|b1" | "|u1" | "|i1" => Ok(1),
@@ -137,7 +139,7 @@ fn width(dtype: &str) -> Result<usize, String> {
     }
 }
 
-/// Values of which the first axis comes first, with the last axis first.
+/// Converts values from Fortran order to row-major (C) order.
 fn turned(bytes: &[u8], shape: &[usize], width: usize) -> Vec<u8> {
     let steps: Vec<usize> = shape
         .iter()

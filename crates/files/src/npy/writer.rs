@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A NumPy file (NPY 1.0) that grows frame by frame: the header has room for any number of frames and
-//! gets the real one at the end.
+//! A NumPy file (NPY 1.0) that grows frame by frame. Its header has room for any number of frames,
+//! and gets the real number at the end.
 
 use std::path::Path;
 
@@ -8,28 +8,29 @@ use foveate_staging::{GrowingFile, StagingError};
 
 use super::Element;
 
-/// Least bytes of a header; it stands in steps of 64.
+/// The smallest header in bytes; headers grow in steps of 64.
 const HEADER: usize = 128;
-/// Bytes before the words of a header.
+/// The number of bytes before the text of a header.
 const PREFIX: usize = 10;
 
-/// An array of frames, each with values of one shape.
+/// A file of an array of frames that all have the same shape.
 #[derive(Debug)]
 pub struct NpyWriter {
     file: GrowingFile,
     element: Element,
-    /// The other dimensions, as they are written.
+    /// The other dimensions, as they are written in the header.
     shape: String,
-    /// Bytes of the header, which has room for any number of frames.
+    /// The number of bytes of the header, which has room for any number of frames.
     header: usize,
     frames: u64,
 }
 
 impl NpyWriter {
-    /// An array of frames of this shape; of one value per frame if the shape is empty.
+    /// Creates a file for an array of frames of this shape. With an empty shape a frame is one
+    /// value.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// Fails if the file cannot be written.
     pub fn create(path: &Path, element: Element, shape: &[usize]) -> Result<Self, StagingError> {
         let file = GrowingFile::create(path)?;
         let shape = shape.iter().map(|length| format!(" {length}")).collect::<Vec<_>>().join(",");
@@ -42,8 +43,9 @@ impl NpyWriter {
         Ok(writer)
     }
 
-    /// Appends the values of one frame, row by row; the type holds all of them, as their bits: signed ones as two's
-    /// complement, those of floating point as [`f32::to_bits`].
+    /// Appends the values of one frame in row-major order. The type must hold all of them. Each
+    /// value is given by its bits: signed integers in two's complement, floating-point numbers as
+    /// by [`f32::to_bits`].
     pub fn push(&mut self, values: impl Iterator<Item = u64>) {
         let bytes = self.element.bytes();
         for value in values {
@@ -53,10 +55,11 @@ impl NpyWriter {
         self.frames += 1;
     }
 
-    /// Writes what has gathered, once it is worth it or if `all` is to go.
+    /// Writes the pending bytes if there are many of them or if `all` is set.
     ///
     /// # Errors
-    /// When there is no room, or it cannot be written. What is not written is kept.
+    /// Fails if the disk is full or the file cannot be written. Bytes that were not written are
+    /// kept.
     pub fn write_out(&mut self, all: bool) -> Result<(), StagingError> {
         self.file.write_out(all)
     }
@@ -64,7 +67,7 @@ impl NpyWriter {
     /// Writes the number of frames into the header.
     ///
     /// # Errors
-    /// As [`NpyWriter::write_out`].
+    /// Fails like [`NpyWriter::write_out`].
     pub fn finish(mut self) -> Result<(), StagingError> {
         let header = self.header();
         self.file.write_over(0, &header)
@@ -80,7 +83,8 @@ impl NpyWriter {
     }
 }
 
-/// A header of `size` bytes, a multiple of 64: a type and a shape as Python writes them.
+/// Returns a header of `size` bytes, a multiple of 64, for a type and a shape in the notation of
+/// Python.
 #[must_use]
 pub fn header(size: usize, descr: &str, shape: &str) -> Vec<u8> {
     framed(size, &words(descr, shape))
@@ -124,7 +128,7 @@ mod tests {
         }
     }
 
-    /// The bytes as the format of NumPy says, by hand.
+    /// The expected bytes follow the NPY format and are written by hand.
     #[test]
     fn frames_follow_the_header_and_are_counted_at_the_end() {
         let dir = tempfile::tempdir().unwrap();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tables as files: CSV that every reader takes, and Parquet. Knows nothing of what the rows are about.
+//! Tables as files: CSV that every reader accepts, and Parquet. The module does not depend on the
+//! meaning of the rows.
 
 mod parquet;
 mod table;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Parquet files: Snappy and signed integers, so that every reader takes them. Rows are kept in memory until
-//! their group is written.
+//! Parquet files with Snappy compression and signed integers, so that every reader accepts them.
+//! Rows are kept in memory until their group is written.
 
 use std::fmt;
 use std::io::{self, Write};
@@ -17,17 +17,17 @@ use parquet::schema::parser::parse_message_type;
 
 use super::{Column, Kind, Value};
 
-/// A Parquet file, open.
+/// An open Parquet file.
 pub struct ParquetWriter<W: Write + Send> {
     file: SerializedFileWriter<W>,
     columns: Vec<Pending>,
     rows: usize,
 }
 
-/// What is not written yet of a column.
+/// The values of a column that are not written yet.
 struct Pending {
     values: Values,
-    /// Of an optional column for each row 1 where there is a value, 0 where there is none.
+    /// The definition levels of an optional column: for each row, 1 with a value and 0 without.
     levels: Option<Vec<i16>>,
 }
 
@@ -40,10 +40,10 @@ enum Values {
 }
 
 impl<W: Write + Send> ParquetWriter<W> {
-    /// A file of rows called `message`, at its beginning.
+    /// Starts a file of rows called `message`.
     ///
     /// # Errors
-    /// When `to` cannot be written, or a column has a name that Parquet does not allow.
+    /// Fails if `to` cannot be written, or if Parquet does not allow the name of a column.
     pub fn new(to: W, message: &str, columns: &[Column]) -> io::Result<Self> {
         let properties = WriterProperties::builder()
             .set_compression(Compression::SNAPPY)
@@ -55,10 +55,10 @@ impl<W: Write + Send> ParquetWriter<W> {
         Ok(Self { file: file.map_err(failed)?, columns, rows: 0 })
     }
 
-    /// Takes a row: a value for each column, of its type.
+    /// Adds a row with a value for each column.
     ///
     /// # Panics
-    /// When a value has another type than its column, or is missing where it must not.
+    /// Panics if the type of a value is not that of its column, or if a required value is missing.
     pub fn push<'a>(&mut self, row: impl IntoIterator<Item = Value<'a>>) {
         for (column, value) in self.columns.iter_mut().zip(row) {
             column.push(value);
@@ -66,24 +66,24 @@ impl<W: Write + Send> ParquetWriter<W> {
         self.rows += 1;
     }
 
-    /// Rows that are not written yet.
+    /// Returns the number of rows that are not written yet.
     #[must_use]
     pub fn pending(&self) -> usize {
         self.rows
     }
 
-    /// Writes the rows so far, as a group.
+    /// Writes the pending rows as a group.
     ///
     /// # Errors
-    /// When the file cannot be written; it cannot be completed then.
+    /// Fails if the file cannot be written; the file then cannot be completed.
     pub fn write_group(&mut self) -> io::Result<()> {
         self.group().map_err(failed)
     }
 
-    /// Writes what is left, and the end of the file.
+    /// Writes the remaining rows and the end of the file.
     ///
     /// # Errors
-    /// As [`ParquetWriter::write_group`].
+    /// Fails like [`ParquetWriter::write_group`].
     pub fn finish(mut self) -> io::Result<W> {
         if self.rows > 0 {
             self.write_group()?;
@@ -163,7 +163,7 @@ fn write<T: DataType>(
     Ok(())
 }
 
-/// The columns in the language of Parquet.
+/// Returns the columns in the schema language of Parquet.
 fn schema(message: &str, columns: &[Column]) -> String {
     let line = |Column { name, kind, optional }: &Column| {
         let presence = if *optional { "optional" } else { "required" };
@@ -178,7 +178,7 @@ fn schema(message: &str, columns: &[Column]) -> String {
     format!("message {message} {{ {} }}", columns.iter().map(line).collect::<String>())
 }
 
-/// What the system said, if it was the system, so that a full disk is recognized.
+/// Returns the error of the system if there is one, so that a full disk is recognized.
 fn failed(error: ParquetError) -> io::Error {
     match error {
         ParquetError::External(cause) => {

@@ -1,37 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A table in memory: one list of columns for CSV and Parquet.
+//! A table in memory, whose columns serve for CSV and Parquet.
 
 use std::io;
 
 use super::{Column, Kind, ParquetWriter, Value};
 
-/// A value of the table. Numbers that are not there are empty in CSV and null in Parquet.
+/// A value of the table. A missing number is empty in CSV and null in Parquet.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Cell {
-    /// Text.
+    /// A text.
     Text(String),
-    /// A number of things.
+    /// A count.
     Count(Option<u64>),
-    /// A measure.
+    /// A real number.
     Real(Option<f64>),
-    /// Yes or no.
+    /// A truth value.
     Flag(bool),
 }
 
-/// Columns with their values, row by row.
+/// A table of named columns, stored row by row.
 #[derive(Clone, Debug, Default)]
 pub struct Table {
-    /// Their names.
+    /// The names of the columns.
     pub columns: Vec<String>,
-    /// Values of every row, in the order of the columns.
+    /// The values of every row, in the order of the columns.
     pub rows: Vec<Vec<Cell>>,
 }
 
-/// The cells of a row with their names.
+/// The cells of a row with their column names.
 pub type Cells = Vec<(String, Cell)>;
 
 impl Table {
-    /// A table of rows that have the same columns.
+    /// Makes a table from rows that have the same columns.
     #[must_use]
     pub fn of(rows: impl Iterator<Item = Cells>) -> Self {
         let mut table = Self::default();
@@ -43,17 +43,17 @@ impl Table {
         table
     }
 
-    /// CSV with a line of names.
+    /// Returns the table as CSV with a line of names.
     #[must_use]
     pub fn csv(&self) -> String {
         let row = |row: &Vec<Cell>| row.iter().map(|cell| cell.value().to_string()).collect();
         super::csv(std::iter::once(self.columns.clone()).chain(self.rows.iter().map(row)))
     }
 
-    /// Parquet: one group of rows called `message`.
+    /// Returns the table as Parquet, with one group of rows called `message`.
     ///
     /// # Errors
-    /// When a column has a name that Parquet does not allow.
+    /// Fails if Parquet does not allow the name of a column.
     pub fn parquet(&self, message: &str) -> io::Result<Vec<u8>> {
         let cells = self.rows.first().into_iter().flatten();
         let columns = self.columns.iter().zip(cells).map(|(name, cell)| cell.column(name));
@@ -66,7 +66,8 @@ impl Table {
 }
 
 impl Cell {
-    /// The column of cells like this one. In the names of Parquet, points are for columns inside columns.
+    /// Returns the column for cells of this variant. Points are replaced in the name, because
+    /// Parquet uses them for nested columns.
     fn column(&self, name: &str) -> Column {
         let (kind, optional) = match self {
             Self::Text(_) => (Kind::Text, false),

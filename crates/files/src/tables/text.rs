@@ -3,10 +3,11 @@
 
 use std::fmt::Write as _;
 
-/// A CSV file (RFC 4180). All records have the same number of fields; those that need quotes get them.
+/// Returns a CSV file (RFC 4180). All records have the same number of fields; fields are quoted
+/// where necessary.
 ///
 /// # Panics
-/// When a record has another number of fields than the first.
+/// Panics if the number of fields of a record differs from that of the first.
 #[must_use]
 pub fn csv<R>(records: impl IntoIterator<Item = R>) -> String
 where
@@ -20,8 +21,9 @@ where
     String::from_utf8(bytes).expect("fields are text")
 }
 
-/// A name that every reader takes as it is, those too that know neither quotes nor that a `#` can be
-/// part of a name: the characters `,` `#` `"` `%` and control characters as in a URL (`%2C`).
+/// Escapes a name so that every reader accepts it unchanged, even one that supports neither quotes
+/// nor a `#` in a name. The characters `,` `#` `"` `%` and control characters are written as in a
+/// URL (`%2C`).
 #[must_use]
 pub fn plain(name: &str) -> String {
     let mut text = String::with_capacity(name.len());

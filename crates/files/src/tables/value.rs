@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What stands in a table.
+//! The columns and values of a table.
 
 use std::fmt;
 
 /// A column of a table.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Column {
-    /// Its name.
+    /// The name of the column.
     pub name: String,
     /// The type of its values.
     pub kind: Kind,
@@ -19,30 +19,30 @@ pub struct Column {
 pub enum Kind {
     /// A signed integer of 64 bits.
     Long,
-    /// One of 32 bits.
+    /// A signed integer of 32 bits.
     Int,
-    /// A number in floating point.
+    /// A floating-point number of 64 bits.
     Real,
-    /// Yes or no.
+    /// A truth value.
     Flag,
-    /// Text.
+    /// A text.
     Text,
 }
 
 /// A value of a row.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Value<'a> {
-    /// No value: null in Parquet, nothing as text.
+    /// No value: null in Parquet, and empty as text.
     None,
-    /// Of [`Kind::Long`].
+    /// A value of [`Kind::Long`].
     Long(i64),
-    /// Of [`Kind::Int`].
+    /// A value of [`Kind::Int`].
     Int(i32),
-    /// Of [`Kind::Real`].
+    /// A value of [`Kind::Real`].
     Real(f64),
-    /// Of [`Kind::Flag`].
+    /// A value of [`Kind::Flag`].
     Flag(bool),
-    /// Of [`Kind::Text`].
+    /// A value of [`Kind::Text`].
     Text(&'a str),
 }
 
