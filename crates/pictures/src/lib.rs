@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How results are shown: colours by meaning, charts as files, and pages. Knows nothing of what is shown.
+//! Presents results: colours by meaning, charts as files, and pages. The crate does not depend on
+//! the meaning of the data.
 
 pub mod chart;
 pub mod page;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Text in XML where no template escapes it: comments, and characters that no escape makes right.
+//! Makes text valid in XML where no template escapes it: in comments, and for characters that
+//! cannot be escaped.
 
-/// Text inside a comment, which two hyphens would end.
+/// Returns text for a comment, which two hyphens would end.
 pub(crate) fn comment(text: &str) -> String {
     let mut text = text.to_owned();
-    // The first turn leaves two of three hyphens.
+    // One pass turns three hyphens into a text that still has two in a row.
     while text.contains("--") {
         text = text.replace("--", "- -");
     }
     text
 }
 
-/// A whole document, with U+FFFD for the characters that XML cannot hold in any form; names of files may have them.
+/// Returns a whole document in which U+FFFD replaces the characters that XML cannot represent.
+/// Names of files may contain them.
 pub(crate) fn document(text: String) -> String {
     let is_wrong = |letter: char| matches!(letter, '\0'..='\x08' | '\x0B' | '\x0C' | '\x0E'..='\x1F' | '\u{fffe}' | '\u{ffff}');
     if text.contains(is_wrong) { text.replace(is_wrong, "\u{fffd}") } else { text }

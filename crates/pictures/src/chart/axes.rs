@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Axes of numbers: how far they reach, their labels and their grid.
+//! The axes of a chart: their ranges, labels and grid.
 
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::{Ranged, ValueFormatter};
@@ -10,19 +10,20 @@ use super::label::plain;
 use super::paint::{GRID, GROUND, Result};
 use super::{Chart, Line};
 
-/// The most labels of an axis across.
+/// The most labels of a horizontal axis.
 pub(crate) const LABELS: u8 = 11;
 
-/// What is drawn in, once it has axes.
+/// A plot with its axes, which series are drawn into.
 pub(crate) type Plot<'a, DB, X> = ChartContext<'a, DB, Cartesian2d<X, RangedCoordf64>>;
 
-/// A little more than the largest, so that nothing touches the frame.
+/// Returns the upper end of an axis: a little more than the largest value, so that no line touches
+/// the frame.
 pub(crate) fn top(values: impl Iterator<Item = f64>) -> f64 {
     let largest = values.fold(0.0, f64::max);
     if largest > 0.0 { 1.05 * largest } else { 1.0 }
 }
 
-/// A drawing of lines up to its axes.
+/// Returns the builder of a chart of lines, before its axes are set.
 pub(crate) fn lines_on<'a, DB: DrawingBackend>(
     chart: &Chart,
     area: &'a DrawingArea<DB, Shift>,
@@ -36,7 +37,7 @@ pub(crate) fn lines_on<'a, DB: DrawingBackend>(
     builder
 }
 
-/// Axes from 0 to the largest.
+/// Draws axes from 0 to the largest value.
 pub(crate) fn plain_axes<'a, DB: DrawingBackend>(
     chart: &Chart,
     lines: &[Line],
@@ -47,19 +48,19 @@ pub(crate) fn plain_axes<'a, DB: DrawingBackend>(
     let last = if last > 0.0 { last } else { 1.0 };
     let height = top(points().map(|point| point.1));
     let mut context = lines_on(chart, area).build_cartesian_2d(0.0..last, 0.0..height)?;
-    // Where every value is whole, every label is: no more labels than whole numbers.
+    // If every value is a whole number, there are no more labels than whole numbers.
     let whole = points().all(|(x, _)| x.fract() == 0.0).then(|| whole_labels(last));
     draw_mesh(chart, &mut context, whole.unwrap_or(LABELS), &|&x| plain(x))?;
     Ok(context)
 }
 
-/// Labels from 0 to this number, at most one for each whole number.
+/// Returns the number of labels from 0 to `last`, at most one for each whole number.
 fn whole_labels(last: f64) -> u8 {
     let more = (1..LABELS).take_while(|&label| f64::from(label) <= last);
     more.last().unwrap_or(0) + 1
 }
 
-/// The grid, with labels on it.
+/// Draws the grid with labels on it.
 pub(crate) fn draw_mesh<DB: DrawingBackend, X: Ranged<ValueType = f64> + ValueFormatter<f64>>(
     chart: &Chart,
     context: &mut Plot<'_, DB, X>,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Groups of bars. Their names stand below them: level where there is room, else upwards.
+//! Draws groups of bars. The names of groups are below them: horizontal if there is room, else
+//! vertical.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -10,15 +11,17 @@ use super::label::{cut, plain};
 use super::paint::{GRID, GROUND, INK, Result, rgb};
 use super::{Bars, Chart};
 
-/// Around the plot, and left of it, in pixels.
+/// The margin around the plot in pixels.
 const MARGIN: u32 = 12;
+/// The width of the vertical axis with its labels in pixels.
 const LEFT: u32 = 64;
-/// From the axis to the names, and below them for what the axis is about.
+/// The distance from the axis to the names in pixels.
 const ABOVE: u32 = 8;
+/// The height of the axis title below the names in pixels.
 const TITLE: u32 = 28;
-/// Between two names that stand side by side.
+/// The smallest distance between two horizontal names in pixels.
 const APART: u32 = 10;
-/// Letters of a name, of which those of clips are long.
+/// The most letters of a name, because names of clips may be long.
 const LETTERS: usize = 20;
 
 pub(crate) fn draw_bars<DB: DrawingBackend>(
@@ -76,7 +79,7 @@ pub(crate) fn draw_bars<DB: DrawingBackend>(
     let style = if is_level {
         style.pos(Pos::new(HPos::Center, VPos::Top))
     } else {
-        // They end below their group.
+        // Vertical names end below their group.
         style.transform(FontTransform::Rotate270).pos(Pos::new(HPos::Right, VPos::Center))
     };
     let [above, middle, bottom] =

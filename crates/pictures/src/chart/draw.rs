@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One drawing for every backend: series on their axes, legend beside them, caption below.
+//! Draws a chart for every backend: the series on their axes, the legend on the right, and the
+//! caption below.
 
 use plotters::coord::Shift;
 use plotters::coord::ranged1d::Ranged;
@@ -15,7 +16,7 @@ use super::paint::{GROUND, Numbered, QUIET, Result, numbered, target};
 use super::{Chart, Line, Look, Shape};
 
 const CAPTION: u32 = 24;
-/// With more points than this a line has no dots.
+/// The number of points above which a line has no dots.
 const DOTS: usize = 40;
 
 pub(crate) fn draw<DB: DrawingBackend>(chart: &Chart, root: &DrawingArea<DB, Shift>) -> Result<DB> {
@@ -76,8 +77,9 @@ fn draw_series<DB: DrawingBackend, X: Ranged<ValueType = f64>>(
         let dashes = |ends: &[(f64, f64)], style| {
             DashedLineSeries::new(ends.to_vec(), 6, 4, style).into_iter()
         };
-        // Piece by piece: at a sharp corner a thick line as a whole gets a spike across the page. A gap between points that lie
-        // close together needs the line as a whole.
+        // Each segment is drawn separately, because a thick line drawn as a whole gets a spike
+        // across the page at a sharp corner. The gaps of a line whose points lie close together
+        // require the line as a whole.
         match (is_open, is_long) {
             (true, true) => context.draw_series(dashes(&line.points, colour.stroke_width(1)))?,
             (true, false) => {

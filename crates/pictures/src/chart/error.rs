@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong with a chart.
+//! The error of a chart.
 
 use thiserror::Error;
 
-/// A chart that cannot be drawn.
+/// A chart cannot be drawn.
 #[derive(Debug, Error)]
 #[error("cannot draw the chart `{name}`: {problem}")]
 pub struct ChartError {
-    /// The chart.
+    /// The name of the chart.
     pub name: String,
-    /// What is wrong.
+    /// The problem.
     pub problem: String,
 }

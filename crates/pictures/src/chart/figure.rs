@@ -1,78 +1,80 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a chart shows.
+//! The content of a chart.
 
 use crate::palette::Colour;
 
-/// Width and height of a chart in pixels.
+/// The width and height of a chart in pixels.
 pub(crate) const SIZE: (u32, u32) = (1000, 560);
 
-/// A chart.
+/// A chart with its labels and its data.
 #[derive(Clone, Debug)]
 pub struct Chart {
     /// The name of its files, without extension.
     pub file: String,
-    /// Above the chart.
+    /// The title above the chart.
     pub title: String,
-    /// With its unit, as for the other axis.
+    /// The title of the horizontal axis, with its unit.
     pub x: String,
-    /// With its unit.
+    /// The title of the vertical axis, with its unit.
     pub y: String,
-    /// Small, at the bottom: program, design and inputs.
+    /// The small text at the bottom: program, design and inputs.
     pub caption: String,
-    /// What is drawn.
+    /// The data that are drawn.
     pub shape: Shape,
 }
 
-/// What is drawn.
+/// The data of a chart, by the form in which they are drawn.
 #[derive(Clone, Debug)]
 pub enum Shape {
-    /// Lines over numbers.
+    /// Lines over a linear axis.
     Lines(Vec<Line>),
-    /// Points over numbers, without lines.
+    /// Points over a linear axis, without lines.
     Points(Vec<Line>),
-    /// Lines over numbers above 0, on a logarithmic axis.
+    /// Lines over a logarithmic axis, for positive numbers.
     LogLines(Vec<Line>),
-    /// Groups of bars, one group per name, one bar per series.
+    /// Groups of bars, with one bar per series in every group.
     Bars {
-        /// Names of the groups.
+        /// The names of the groups.
         groups: Vec<String>,
-        /// A bar in every group each.
+        /// The series.
         series: Vec<Bars>,
     },
 }
 
-/// A line, or points of one kind.
+/// A line, or a series of points.
 #[derive(Clone, Debug, Default)]
 pub struct Line {
-    /// Its name in the legend.
+    /// The name in the legend.
     pub name: String,
-    /// Its points; a line goes from one to the next.
+    /// The points; a line connects consecutive ones.
     pub points: Vec<(f64, f64)>,
-    /// How it is drawn.
+    /// The look of the line.
     pub look: Look,
 }
 
-/// How a line is drawn.
+/// The look of a line.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Look {
-    /// In the next colour.
+    /// A line in the next colour.
     #[default]
     Plain,
-    /// In the next colour, with gaps and with rings for dots, through which a line below shows.
+    /// A line in the next colour, with gaps and with rings for dots, through which a line below
+    /// shows.
     Open,
-    /// In front of all, in a form and a colour of its own: what the chart is about.
+    /// A mark in front of all lines, with a shape and a colour of its own: the subject of the
+    /// chart.
     Target,
 }
 
-/// One bar per group.
+/// A series with one bar per group.
 #[derive(Clone, Debug)]
 pub struct Bars {
-    /// Their name in the legend.
+    /// The name in the legend.
     pub name: String,
-    /// Their colour.
+    /// The colour of the bars.
     pub colour: Colour,
-    /// Their heights.
+    /// The heights of the bars, by group.
     pub values: Vec<f64>,
-    /// From and to, a whisker on every bar; or none.
+    /// The lower and the upper end of a whisker on each bar, or an empty list.
     pub ranges: Vec<(f64, f64)>,
 }

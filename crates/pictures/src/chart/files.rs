@@ -15,10 +15,10 @@ use super::{Chart, ChartError, draw};
 use crate::xml;
 
 impl Chart {
-    /// The chart as SVG, with `notes` as a comment.
+    /// Returns the chart as SVG, with `notes` as a comment.
     ///
     /// # Errors
-    /// When it cannot be drawn.
+    /// Fails if the chart cannot be drawn.
     pub fn svg(&self, notes: &[String]) -> Result<String, ChartError> {
         self.load_font()?;
         let mut text = String::new();
@@ -28,10 +28,10 @@ impl Chart {
         Ok(xml::document(format!("<!--\n{notes}\n-->\n{text}")))
     }
 
-    /// The chart as PNG.
+    /// Returns the chart as PNG.
     ///
     /// # Errors
-    /// When it cannot be drawn.
+    /// Fails if the chart cannot be drawn.
     pub fn png(&self) -> Result<Vec<u8>, ChartError> {
         self.load_font()?;
         let mut pixels = vec![0; 3 * (SIZE.0 * SIZE.1) as usize];

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers and names as a chart writes them.
+//! Formats numbers and names in a chart.
 
-/// A label with no more digits than it needs.
+/// Returns a label with no more digits than necessary.
 pub(crate) fn plain(value: f64) -> String {
-    // Steps of an axis are added up.
+    // Values of an axis are sums of steps, so rounding removes their errors.
     ((value * 1e9).round() / 1e9).to_string()
 }
 
-/// A label of a logarithmic axis, such as `20 k`.
+/// Returns a label of a logarithmic axis, such as `20 k`.
 pub(crate) fn thousands(value: f64) -> String {
     let units = [(1e9, " G"), (1e6, " M"), (1e3, " k")];
     let unit = units.into_iter().find(|&(size, _)| value >= size).unwrap_or((1.0, ""));
     format!("{}{}", (value / unit.0 * 10.0).round() / 10.0, unit.1)
 }
 
-/// A name of at most this many letters.
+/// Truncates a name to at most this many letters.
 pub(crate) fn cut(name: &str, letters: usize) -> String {
     if name.chars().count() <= letters {
         return name.to_owned();

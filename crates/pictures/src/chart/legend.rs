@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Names of series beside the plot, each with what it looks like.
+//! Draws the legend to the right of the plot: the names of series, each with its look.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
@@ -9,11 +9,12 @@ use super::label::cut;
 use super::paint::{INK, Result, numbered, rgb, target};
 use super::{Bars, Line, Look};
 
-/// Columns of pixels for the legend, and letters of a name in it.
+/// The width of the legend in pixels.
 pub(crate) const LEGEND: u32 = 210;
+/// The most letters of a name in the legend.
 const LETTERS: usize = 25;
 
-/// Heights of the rows of a legend.
+/// Returns the vertical positions of the rows of a legend in pixels.
 fn rows() -> impl Iterator<Item = i32> {
     (56..).step_by(22)
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Colours of a chart, and what tells one series from another.
+//! The colours of a chart, and the style that distinguishes one series from another.
 
 use plotters::prelude::*;
 
@@ -14,15 +14,16 @@ pub(crate) const GRID: RGBColor = rgb(LIGHT.grid);
 pub(crate) type Result<DB> =
     std::result::Result<(), DrawingAreaErrorKind<<DB as DrawingBackend>::ErrorType>>;
 
-/// How a line is told from the others.
+/// The style that distinguishes a line from the others.
 #[derive(Clone, Copy)]
 pub(crate) struct Numbered {
     pub(crate) colour: RGBColor,
-    /// Whether a line below shows through it.
+    /// Whether a line below shows through this one.
     pub(crate) is_open: bool,
 }
 
-/// Lines with their colours, of which a target needs none. When all are taken, they are drawn with gaps from the first on.
+/// Returns the lines with their colours; a target needs none. When all colours are used, they are
+/// used again from the first on, with gaps in the lines.
 pub(crate) fn numbered(lines: &[Line]) -> impl Iterator<Item = (Numbered, &Line)> {
     let colours = LIGHT.series.len();
     let mut next = 0;
@@ -37,7 +38,7 @@ pub(crate) fn numbered(lines: &[Line]) -> impl Iterator<Item = (Numbered, &Line)
     })
 }
 
-/// A disc that nothing hides, with a ring and a dot.
+/// Returns a disc with a ring and a dot, which is drawn in front of all lines.
 pub(crate) fn target<C: Clone>(at: C) -> [Circle<C, u32>; 3] {
     [
         Circle::new(at.clone(), 9, GROUND.filled()),

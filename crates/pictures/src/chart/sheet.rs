@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page of a PNG: pixels that a chart is drawn on.
+//! The canvas of a PNG: the pixels that a chart is drawn on.
 //!
-//! Lines and rectangles are those of `plotters`. Text is set here, on a baseline as in the SVG: the bitmap
-//! backend of `plotters` 0.3.7 puts every letter where its own height says, which lifts `.` and `,` off the
-//! line. Dots are round here, too.
+//! Lines and rectangles are drawn by `plotters`. Text is set here, on a baseline as in the SVG: the
+//! bitmap backend of `plotters` 0.3.7 places every letter by its own height, which lifts `.` and
+//! `,` off the line. Dots are drawn round here, too.
 
 use std::convert::Infallible;
 use std::ops::Range;
@@ -15,10 +15,11 @@ use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
 };
 
-/// The size of a text in `plotters` per em.
+/// The ratio of the text size in `plotters` to the em.
 const SIZE_OF_EM: f32 = 1.24;
 
-/// A picture in the making: red, green and blue, row by row from the top.
+/// The unfinished picture of a chart: red, green and blue of each pixel, in row-major order from
+/// the top.
 pub(crate) struct Page<'a> {
     pub(crate) pixels: &'a mut [u8],
     pub(crate) size: (u32, u32),
@@ -54,7 +55,8 @@ impl DrawingBackend for Page<'_> {
         Ok(())
     }
 
-    /// Whole pages are filled, too: what hides all below it is copied row by row, not mixed pixel by pixel.
+    /// Fills a rectangle. An opaque one is copied row by row and not mixed pixel by pixel, because
+    /// whole pages are filled, too.
     fn draw_rect<S: BackendStyle>(
         &mut self,
         from: BackendCoord,
@@ -77,7 +79,7 @@ impl DrawingBackend for Page<'_> {
         style: &S,
         fill: bool,
     ) -> Result {
-        // A ring reaches half of its line further.
+        // A ring extends half of its line width beyond its radius.
         let half = f64::from(style.stroke_width()) / 2.0;
         let reach = i32::try_from(radius + style.stroke_width()).unwrap_or(i32::MAX - 1) + 1;
         for (dx, dy) in (-reach..=reach).flat_map(|dy| (-reach..=reach).map(move |dx| (dx, dy))) {
@@ -114,7 +116,7 @@ impl DrawingBackend for Page<'_> {
 }
 
 impl Page<'_> {
-    /// Gives the pixels of a rectangle a colour, those of its corners included.
+    /// Fills a rectangle with a colour, including its corners.
     fn cover(&mut self, from: BackendCoord, to: BackendCoord, (red, green, blue): (u8, u8, u8)) {
         let (width, height) = self.size;
         let columns = within(from.0, to.0, width);
@@ -125,7 +127,7 @@ impl Page<'_> {
         }
     }
 
-    /// The letters of a text side by side on their baseline, from its anchor, as an SVG places them.
+    /// Places the letters of a text on their baseline, relative to its anchor, as in an SVG.
     fn set<S: BackendTextStyle>(&self, text: &str, style: &S) -> Vec<Glyph> {
         #[allow(clippy::cast_possible_truncation, reason = "sizes of letters")]
         let em = style.size() as f32 / SIZE_OF_EM;
@@ -155,19 +157,20 @@ impl Page<'_> {
     }
 }
 
-/// The place of a dot of a letter; bounds of letters are whole numbers.
+/// Returns the position of a dot of a letter; the bounds of letters are whole numbers.
 #[allow(clippy::cast_possible_truncation, reason = "places on the page")]
 fn along(corner: f32, step: u32) -> i32 {
     (corner.round() as i32).saturating_add_unsigned(step)
 }
 
-/// The places from one to another, either of which may be the first, of which there are `end` on the page.
+/// Returns the pixel positions between two ends in any order, limited to the `end` pixels of the
+/// canvas.
 fn within(one: i32, other: i32, end: u32) -> Range<usize> {
     let place = |at: i64| usize::try_from(at.clamp(0, end.into())).unwrap_or(usize::MAX);
     place(one.min(other).into())..place(i64::from(one.max(other)) + 1)
 }
 
-/// `above` over `below`, `alpha` of it.
+/// Returns the mix of two values, in which `above` has the weight `alpha`.
 #[allow(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "between two bytes")]
 fn mixed(below: u8, above: u8, alpha: f64) -> u8 {
     (f64::from(below) + (f64::from(above) - f64::from(below)) * alpha).round() as u8
@@ -179,7 +182,8 @@ mod tests {
 
     use super::*;
 
-    /// A rectangle over any edge of the page, its corners in any order, is what the rasterizer of `plotters` makes of it.
+    /// A rectangle over any edge of the canvas, with its corners in any order, equals that of the
+    /// rasterizer of `plotters`.
     #[test]
     fn a_rectangle_that_hides_what_is_below_has_all_its_pixels() {
         let places = [-3, -1, 0, 2, 6, 7, 8, 12];
@@ -199,7 +203,7 @@ mod tests {
         }
     }
 
-    /// Rows with ink of a text at 20, 20 on white.
+    /// Returns the rows with ink of a text at 20, 20 on white.
     fn inked(text: &str, size: u32) -> Vec<usize> {
         let (width, height) = (80, 60);
         let mut pixels = vec![255; 3 * width * height];
@@ -217,7 +221,7 @@ mod tests {
     fn points_and_commas_stand_on_the_line_of_digits() {
         for size in 11..=30 {
             let [digit, point, comma] = ["1", ".", ","].map(|text| inked(text, size));
-            // Half-covered rows may count for one and not for the other.
+            // Half-covered rows may count for one text and not for the other.
             let last = |rows: &[usize]| *rows.last().unwrap();
             assert!(last(&digit).abs_diff(last(&point)) <= 1, "size {size}");
             assert!(last(&comma) + 1 >= last(&digit), "size {size}");

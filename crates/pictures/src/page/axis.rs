@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The axis of a plot: from numbers to places, and its ticks.
+//! The axis of a plot: the conversion of numbers to positions, and its ticks.
 
 use super::number::tick;
 
-/// From this ratio of the largest to the smallest on, an axis of costs is logarithmic.
+/// The ratio of the largest to the smallest value from which an axis of costs is logarithmic.
 const WIDE: f64 = 5.0;
-/// The same for errors, which start at zero.
+/// The ratio from which an axis of errors, which start at zero, is logarithmic.
 const WIDE_FROM_ZERO: f64 = 30.0;
-/// The decades that an axis of errors shows at most.
+/// The most decades of an axis of errors.
 const DECADES: i32 = 4;
-/// How much of a decade the linear part at zero takes.
+/// The length of the linear part at zero, in decades.
 const AT_ZERO: f64 = 0.5;
 
-/// An axis.
+/// An axis of a plot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Axis {
     low: f64,
@@ -24,11 +24,11 @@ pub struct Axis {
 enum Kind {
     Linear,
     Log,
-    /// Linear from zero to this, then logarithmic.
+    /// The axis is linear from zero to this value, then logarithmic.
     Zero(f64),
 }
 
-/// A tick: where it is, from 0 to 1, and what it says.
+/// A tick with its position from 0 to 1 and its label.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Tick {
     pub(crate) at: f64,
@@ -36,7 +36,7 @@ pub(crate) struct Tick {
 }
 
 impl Axis {
-    /// For what may start anywhere; logarithmic where the range is wide.
+    /// Makes an axis for values that may start anywhere; it is logarithmic if their range is wide.
     #[must_use]
     pub fn free(values: impl Iterator<Item = f64>) -> Self {
         let Some((low, high)) = range(values) else {
@@ -48,7 +48,7 @@ impl Axis {
         Self::linear(low, high)
     }
 
-    /// For what is never logarithmic, such as numbers of frames and shares of a whole.
+    /// Makes a linear axis, for values such as numbers of frames and shares of a whole.
     #[must_use]
     pub fn even(values: impl Iterator<Item = f64>) -> Self {
         let (low, high) = range(values).unwrap_or((0.0, 1.0));
@@ -65,7 +65,8 @@ impl Axis {
         Self { low: low - around, high: low + around, kind: Kind::Linear }
     }
 
-    /// For errors, which are best at zero; logarithmic above a small one where the range is wide.
+    /// Makes an axis for errors, which are best at zero; if their range is wide, it is logarithmic
+    /// above a small error.
     #[must_use]
     pub fn from_zero(values: impl Iterator<Item = f64>) -> Self {
         let mut zero = false;
@@ -89,13 +90,14 @@ impl Axis {
         Self { low: 0.0, high: nice(high, true), kind: Kind::Zero(small) }
     }
 
-    /// Whether distances are ratios.
+    /// Returns whether distances on the axis are ratios.
     #[must_use]
     pub fn logarithmic(&self) -> bool {
         self.kind != Kind::Linear
     }
 
-    /// Where a number is: 0 at the low end, 1 at the high one. None for what is no number here.
+    /// Returns the position of a number: 0 at the low end, 1 at the high end; `None` for a number
+    /// that the axis cannot show.
     #[must_use]
     pub fn place(&self, value: f64) -> Option<f64> {
         let (low, high) = (self.stretched(self.low), self.stretched(self.high));
@@ -112,7 +114,7 @@ impl Axis {
         }
     }
 
-    /// Round numbers along the axis.
+    /// Returns ticks at round numbers along the axis.
     pub(crate) fn ticks(&self) -> Vec<Tick> {
         let values = match self.kind {
             Kind::Linear => {
@@ -135,7 +137,7 @@ impl Axis {
     }
 }
 
-/// The least and largest number.
+/// Returns the smallest and the largest finite number.
 fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     values.filter(|value| value.is_finite()).fold(None, |range, value| match range {
         None => Some((value, value)),
@@ -143,14 +145,15 @@ fn range(values: impl Iterator<Item = f64>) -> Option<(f64, f64)> {
     })
 }
 
-/// A round step of about a fifth.
+/// Returns a round step of about a fifth of a length.
 fn step(length: f64) -> f64 {
     let ten = 10.0_f64.powf((length / 5.0).log10().floor());
     let steps = [1.0, 2.0, 2.5, 5.0, 10.0].map(|factor| factor * ten);
     steps.into_iter().find(|step| length / step <= 5.5).unwrap_or(10.0 * ten)
 }
 
-/// The next number of 1, 2, 5, 10 that is not above or not below.
+/// Returns the nearest number of the form 1, 2 or 5 times a power of ten that is not below `value`,
+/// or not above it.
 fn nice(value: f64, above: bool) -> f64 {
     let ten = 10.0_f64.powf(value.log10().floor());
     let mut all = [1.0, 2.0, 5.0, 10.0].map(|factor| factor * ten).into_iter();
@@ -163,7 +166,8 @@ fn nice(value: f64, above: bool) -> f64 {
     found.unwrap_or(value)
 }
 
-/// Decades, and with few of them 2 and 5 of each.
+/// Returns powers of ten between two numbers, and if there are few decades, also 2 and 5 times
+/// each.
 fn between(low: f64, high: f64) -> Vec<f64> {
     let few = (high / low).log10() < 2.4;
     let factors: &[f64] = if few { &[1.0, 2.0, 5.0] } else { &[1.0] };

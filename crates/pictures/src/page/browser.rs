@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A page in Chromium, for tests, where there is one.
+//! Opens a page in Chromium, for tests, if Chromium is installed.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -8,7 +8,7 @@ use serde_json::Value;
 
 const NAMES: [&str; 4] = ["chromium", "chromium-browser", "google-chrome", "chrome"];
 
-/// Where Chromium is.
+/// Returns the path of Chromium.
 #[must_use]
 pub fn chromium() -> Option<PathBuf> {
     let folders: Vec<PathBuf> = std::env::split_paths(&std::env::var_os("PATH")?).collect();
@@ -16,19 +16,20 @@ pub fn chromium() -> Option<PathBuf> {
     places.into_iter().find(|place| place.is_file())
 }
 
-/// What a test expects of the marks of a page.
+/// The properties that a test expects of the marks of a page.
 #[derive(Clone, Copy, Debug)]
 pub struct Tip {
-    /// What the figures of the last mark of a plot look like, as an expression of JavaScript.
+    /// A JavaScript expression of the figures of a plot's last mark.
     pub told: &'static str,
-    /// To how many places they lead.
+    /// The number of links of these figures.
     pub links: usize,
 }
 
-/// What `probe.js` found on a page in a window of that width, which must be at least 500.
+/// Returns the findings of `probe.js` on a page in a window of this width, which must be at least
+/// 500.
 ///
 /// # Panics
-/// When Chromium does not run, or says nothing.
+/// Panics if Chromium does not run or prints nothing.
 #[must_use]
 pub fn probe(program: &Path, page: &str, width: u32, tip: Tip) -> Value {
     let folder = tempfile::tempdir().expect("a folder for the page");

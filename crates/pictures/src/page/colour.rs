@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Colours of a page: those of the palette, as variables and as classes of lines and marks.
+//! The colours of a page: those of the palette, as variables and as classes of lines and marks.
 
 use std::fmt::Write as _;
 
 use crate::palette::{Colour, SERIES, Style};
 
-/// Colours that can be told apart; after them come the same with square marks.
+/// The number of distinguishable colours; further groups have the same colours with square marks.
 pub const COLOURS: usize = SERIES.len();
 
-/// The class of the colour of a group and the shape of its marks. Beyond twice [`COLOURS`] all are grey.
+/// Returns the class of a group's colour and the shape of its marks. Groups beyond twice
+/// [`COLOURS`] are grey.
 #[must_use]
 pub fn look(group: usize) -> (String, &'static str) {
     let shape = if (COLOURS..2 * COLOURS).contains(&group) { "box" } else { "dot" };
@@ -16,7 +17,7 @@ pub fn look(group: usize) -> (String, &'static str) {
     (format!("k{class}"), shape)
 }
 
-/// The colours of a style as variables: `--k0` and on are those of the series.
+/// Returns the colours of a style as variables; those of the series begin at `--k0`.
 #[must_use]
 pub fn variables(style: &Style) -> String {
     let mut text = String::new();

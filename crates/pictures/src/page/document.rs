@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A page around what it shows: heading, style and script.
+//! The document of a page: its heading, style and script around its content.
 
 use crate::palette::{DARK, LIGHT};
 use crate::xml;
@@ -11,54 +11,55 @@ use super::colour::variables;
 /// A figure of the heading.
 #[derive(Clone, Debug)]
 pub struct Fact {
-    /// What it is.
+    /// The name of the figure.
     pub name: &'static str,
-    /// As it is read.
+    /// The value as text.
     pub value: String,
-    /// Smaller, beneath it.
+    /// A small text below the value.
     pub note: String,
 }
 
-/// Something that a reader must know first.
+/// An important message to the reader.
 #[derive(Clone, Debug)]
 pub struct Notice<'a> {
-    /// What kind of thing.
+    /// The kind of the message.
     pub title: &'static str,
-    /// Sentences.
+    /// The sentences of the message.
     pub lines: &'a [String],
 }
 
-/// Where the figures of a mark lead to: the element whose id is the mark's with this before it.
+/// A link target for the figures of a mark: the element whose id is this prefix and the id of the
+/// mark.
 #[derive(Clone, Copy, Debug)]
 pub struct Target {
-    /// Before the id.
+    /// The prefix before the id.
     pub prefix: &'static str,
-    /// What is there, such as `its row`.
+    /// The name of the target for the reader, such as `its row`.
     pub name: &'static str,
 }
 
-/// A page. What is said to be HTML comes from a template, which escapes.
+/// A page. Fields that are HTML come from a template, which escapes text.
 #[derive(Clone, Debug)]
 pub struct Page<'a> {
-    /// What kind of result it shows.
+    /// The kind of result that the page shows.
     pub kind: &'static str,
-    /// The program with its version.
+    /// The name of the program with its version.
     pub program: &'a str,
-    /// Its heading.
+    /// The heading of the page.
     pub title: &'a str,
-    /// In boxes, below the heading; those without lines are left out.
+    /// The boxes below the heading; those without lines are left out.
     pub notices: &'a [Notice<'a>],
-    /// Figures below them.
+    /// The figures below the boxes.
     pub facts: &'a [Fact],
-    /// HTML after the figures.
+    /// The HTML after the figures.
     pub about: &'a str,
-    /// HTML of the sections.
+    /// The HTML of the sections.
     pub main: &'a str,
-    /// HTML at the end.
+    /// The HTML at the end.
     pub footer: &'a str,
-    /// Where marks lead to.
+    /// The link targets of marks.
     pub targets: &'a [Target],
-    /// More of the script, which may use `all(selector, inside)`.
+    /// A further script, which may use `all(selector, inside)`.
     pub script: &'a str,
 }
 
@@ -66,16 +67,16 @@ pub struct Page<'a> {
 #[template(path = "page.html")]
 struct Whole<'a> {
     page: &'a Page<'a>,
-    /// Colours as variables, on a light ground and on a dark one.
+    /// The colours as variables, for a light and for a dark background.
     light: String,
     dark: String,
 }
 
 impl Page<'_> {
-    /// The whole page.
+    /// Renders the whole page.
     ///
     /// # Errors
-    /// When it cannot be rendered.
+    /// Fails if the page cannot be rendered.
     pub fn render(&self) -> Result<String, PageError> {
         let (light, dark) = (variables(&LIGHT), variables(&DARK));
         let whole = Whole { page: self, light, dark };

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can go wrong with a page.
+//! The error of a page.
 
 use thiserror::Error;
 
-/// A page that cannot be written.
+/// A page cannot be written.
 #[derive(Debug, Error)]
 #[error("cannot write the page `{page}`: {problem}")]
 pub struct PageError {
-    /// Its title.
+    /// The title of the page.
     pub page: String,
-    /// What is wrong.
+    /// The problem.
     pub problem: String,
 }

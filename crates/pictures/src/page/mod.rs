@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pages that show results: one file with plots, tables and numbers as people read them. No script is needed to read a page, and nothing is
-//! loaded. Knows nothing of what is shown.
+//! Pages that show results: one file with plots, tables and formatted numbers. A page can be read
+//! without scripts, and loads nothing. The module does not depend on the meaning of the data.
 
 mod axis;
 #[cfg(feature = "browser")]

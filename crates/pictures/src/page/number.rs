@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Numbers as people read them.
+//! Formats numbers for people.
 
-/// What stands where there is no number.
+/// The text in place of a missing number.
 pub const NONE: &str = "–";
 
-/// A number with commas between thousands.
+/// Formats a number with commas between thousands.
 #[must_use]
 pub fn grouped(value: u64) -> String {
     let digits = value.to_string();
@@ -13,7 +13,7 @@ pub fn grouped(value: u64) -> String {
     thousands.fold(first.to_owned(), |text, group| text + "," + &group)
 }
 
-/// A share in percent, without the sign: more digits where it is small.
+/// Formats a share in percent, without the sign; small shares have more digits.
 #[must_use]
 pub fn percent(share: f64) -> String {
     let value = share * 100.0;
@@ -27,7 +27,8 @@ pub fn percent(share: f64) -> String {
     }
 }
 
-/// A number with some digits after the point; whole with its thousands apart where it is large.
+/// Formats a number with some digits after the point; a large number is whole, with commas between
+/// thousands.
 #[must_use]
 pub fn real(value: f64, digits: usize) -> String {
     if !value.is_finite() {
@@ -40,7 +41,7 @@ pub fn real(value: f64, digits: usize) -> String {
     whole.parse().map_or_else(|_| format!("{value:.3e}"), |whole| sign.to_owned() + &grouped(whole))
 }
 
-/// The number at a tick: short, with k, M or G.
+/// Formats the number at a tick: short, with k, M or G.
 #[must_use]
 pub fn tick(value: f64) -> String {
     let size = value.abs();
@@ -55,7 +56,7 @@ pub fn tick(value: f64) -> String {
     format!("{}{unit}", if text == "-0" { "0" } else { text })
 }
 
-/// A number of things: `1 clip`, `2 clips`.
+/// Formats a count with its unit: `1 clip`, `2 clips`.
 #[must_use]
 pub fn things(count: usize, one: &str) -> String {
     format!("{} {one}{}", grouped(count as u64), if count == 1 { "" } else { "s" })

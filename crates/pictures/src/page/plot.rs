@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Plots as the template draws them: every place is a number of the picture.
+//! Plots for a template: every position is a coordinate in the picture.
 
 use std::collections::BTreeMap;
 
@@ -7,126 +7,128 @@ use askama::Template;
 
 use super::axis::{Axis, Tick};
 
-/// The frame inside a picture of 560 by 380; the template has the same numbers.
+/// The edges of the frame inside a picture of 560 by 380; the template has the same numbers.
 const LEFT: f64 = 78.0;
 const RIGHT: f64 = 540.0;
 const TOP: f64 = 14.0;
 const BOTTOM: f64 = 316.0;
-/// Between the frame and the places of numbers, so that marks do not touch it.
+/// The distance between the frame and the positions of numbers, so that marks do not touch the
+/// frame.
 const INSIDE: f64 = 12.0;
 
-/// One plot.
+/// A plot of marks and lines.
 #[derive(Clone, Debug, Default, Template)]
 #[template(path = "plot.html")]
 pub struct Plot {
-    /// What the page calls it.
+    /// The id of the plot in the page.
     pub id: String,
-    /// Above it.
+    /// The title above the plot.
     pub title: String,
-    /// A sentence about it.
+    /// A sentence about the plot.
     pub note: String,
-    /// Below the horizontal axis.
+    /// The title of the horizontal axis.
     pub x_title: String,
-    /// Beside the other.
+    /// The title of the vertical axis.
     pub y_title: String,
-    /// Along the horizontal axis.
+    /// The ticks of the horizontal axis.
     pub x_ticks: Vec<At>,
-    /// Along the other.
+    /// The ticks of the vertical axis.
     pub y_ticks: Vec<At>,
-    /// Lines across, dashed: what to compare with.
+    /// The dashed horizontal lines, for comparison.
     pub rules: Vec<At>,
-    /// Lines upwards, dashed.
+    /// The dashed vertical lines.
     pub posts: Vec<At>,
-    /// Lines through marks.
+    /// The lines through marks.
     pub lines: Vec<Line>,
-    /// What was measured.
+    /// The measured points.
     pub marks: Vec<Mark>,
-    /// Whether colours are those of the chosen axis; otherwise those of the lines.
+    /// Whether the colours depend on the chosen axis; otherwise they are those of the lines.
     pub by_axis: bool,
 }
 
-/// A place along an axis.
+/// A position along an axis.
 #[derive(Clone, Debug)]
 pub struct At {
-    /// The place, a number of the picture.
+    /// The coordinate in the picture.
     pub at: String,
-    /// What is there.
+    /// The label at this position.
     pub label: String,
 }
 
-/// A line.
+/// A line of a plot.
 #[derive(Clone, Debug)]
 pub struct Line {
-    /// As SVG has it.
+    /// The path in the syntax of SVG.
     pub path: String,
-    /// Class of its colour.
+    /// The class of its colour.
     pub class: String,
-    /// Shape of its marks.
+    /// The shape of its marks.
     pub shape: &'static str,
-    /// What it is; empty for a front.
+    /// The name of the line; empty for a front.
     pub label: String,
 }
 
-/// Something that was measured, at its place.
+/// A measured point of a plot.
 #[derive(Clone, Debug)]
 pub struct Mark {
-    /// What the page calls it; marks of one id are shown together, and lead to the row of that id.
+    /// The id in the page; marks with the same id are highlighted together and link to the row of
+    /// that id.
     pub id: String,
-    /// Its place, a number of the picture.
+    /// The horizontal coordinate in the picture.
     pub x: String,
-    /// Its place upwards.
+    /// The vertical coordinate in the picture.
     pub y: String,
-    /// Whether it is large.
+    /// Whether the mark is large.
     pub front: bool,
-    /// How much larger it is, so that marks of one place are rings around each other.
+    /// The factor of its size, which makes marks of one position rings around each other.
     pub scale: Option<String>,
-    /// Class of its colour.
+    /// The class of its colour.
     pub class: String,
-    /// `dot` or `box`.
+    /// The shape, `dot` or `box`.
     pub shape: &'static str,
-    /// Its group for every axis.
+    /// The group of the mark for every axis.
     pub groups: String,
-    /// Its figures.
+    /// The figures of the mark.
     pub title: String,
 }
 
-/// Where numbers are.
+/// The two axes of a plot.
 #[derive(Clone, Copy, Debug)]
 pub struct Field {
-    /// To the right.
+    /// The horizontal axis.
     pub x: Axis,
-    /// Upwards.
+    /// The vertical axis.
     pub y: Axis,
 }
 
 impl Field {
-    /// Where a point is; none for what is no number.
+    /// Returns the coordinates of a point; `None` if a number cannot be shown.
     #[must_use]
     pub fn place(&self, x: f64, y: f64) -> Option<(f64, f64)> {
         Some((across(self.x.place(x)?), up(self.y.place(y)?)))
     }
 
-    /// The ticks to the right.
+    /// Returns the ticks of the horizontal axis.
     #[must_use]
     pub fn x_ticks(&self) -> Vec<At> {
         let ticks = self.x.ticks().into_iter();
         spaced(ticks.map(|tick| (across(tick.at), tick)), 46.0)
     }
 
-    /// The ticks upwards.
+    /// Returns the ticks of the vertical axis.
     #[must_use]
     pub fn y_ticks(&self) -> Vec<At> {
         let ticks = self.y.ticks().into_iter();
         spaced(ticks.map(|tick| (up(tick.at), tick)), 22.0)
     }
 
-    /// A line across at `y`.
+    /// Returns a horizontal line at `y`.
     #[must_use]
     pub fn rule(&self, y: f64, label: String) -> Option<At> {
         Some(At { at: text(up(self.y.place(y)?)), label })
     }
 
-    /// A line upwards at `x`.
+    /// Returns a vertical line at `x`.
     #[must_use]
     pub fn post(&self, x: f64, label: String) -> Option<At> {
         Some(At { at: text(across(self.x.place(x)?)), label })
@@ -141,18 +143,18 @@ fn up(place: f64) -> f64 {
     BOTTOM - INSIDE - place * (BOTTOM - TOP - 2.0 * INSIDE)
 }
 
-/// A number of the picture.
+/// Formats a coordinate in the picture.
 #[must_use]
 pub fn text(value: f64) -> String {
     format!("{value:.1}")
 }
 
-/// Marks of one place that look different become rings around each other; what comes last lies above. `size` is that of the others, as a
-/// share of the usual one.
+/// Makes marks of one position that look different into rings around each other; the last one is in
+/// front. `size` is the size of marks as a share of the usual one.
 pub fn rings(marks: &mut [Mark], size: f64) {
     let place = |mark: &Mark| (mark.x.clone(), mark.y.clone());
     let drawn = |mark: &Mark| (mark.class.clone(), mark.shape);
-    // The looks of a place, from above.
+    // The looks at a position are listed from the front.
     let mut at: BTreeMap<_, Vec<_>> = BTreeMap::new();
     for mark in marks.iter().rev() {
         let looks = at.entry(place(mark)).or_default();
@@ -170,7 +172,7 @@ pub fn rings(marks: &mut [Mark], size: f64) {
     }
 }
 
-/// Ticks of which no two are too near for their labels; the lowest stays.
+/// Returns the ticks whose labels do not overlap; the first one is always included.
 fn spaced(ticks: impl Iterator<Item = (f64, Tick)>, least: f64) -> Vec<At> {
     let mut found = Vec::new();
     let mut last = f64::NEG_INFINITY;
@@ -183,7 +185,7 @@ fn spaced(ticks: impl Iterator<Item = (f64, Tick)>, least: f64) -> Vec<At> {
     found
 }
 
-/// A line through places.
+/// Returns the path of a line through points.
 #[must_use]
 pub fn through(places: &[(f64, f64)]) -> String {
     let steps = places.iter().enumerate().map(|(index, (x, y))| {
@@ -193,9 +195,9 @@ pub fn through(places: &[(f64, f64)]) -> String {
     steps.collect::<Vec<_>>().join("")
 }
 
-/// The border of what a front beats, through its places: along the cost until the next one is in
-/// reach, then to its error. `left` says that costs are best on the left, `low` that errors are best
-/// below.
+/// Returns the border of the area that a front dominates: from each point along the cost axis to
+/// the cost of the next, then to its error. `left` says that the best costs are on the left, and
+/// `low` that the best errors are below.
 #[must_use]
 pub fn staircase(places: &[(f64, f64)], left: bool, low: bool) -> String {
     let mut places = places.to_vec();

@@ -5,92 +5,94 @@ use askama::Template;
 
 use super::number::{NONE, grouped, percent};
 
-/// A heading.
+/// A column of a table.
 #[derive(Clone, Debug)]
 pub struct Column {
-    /// What is below.
+    /// The heading of the column.
     pub name: String,
-    /// Its unit, small.
+    /// The unit, in small letters.
     pub unit: &'static str,
-    /// Said in full.
+    /// The full description of the column, for its tooltip.
     pub title: String,
-    /// Whether it holds numbers.
+    /// Whether the column has numbers.
     pub numbers: bool,
 }
 
-/// A value.
+/// A value of a table.
 #[derive(Clone, Debug)]
 pub struct Cell {
-    /// As it is read.
+    /// The text of the cell.
     pub text: String,
-    /// What it is sorted by; empty for what comes last.
+    /// The sort key; cells with an empty key come last.
     pub sort: String,
-    /// Class of the cell.
+    /// The class of the cell.
     pub class: &'static str,
 }
 
 impl Cell {
-    /// Words.
+    /// Makes a cell of text.
     #[must_use]
     pub fn words(text: String) -> Self {
         Self { sort: text.clone(), text, class: "" }
     }
 
-    /// A number, or none, which is sorted last.
+    /// Makes a cell of a number, or of a missing number, which comes last in any order.
     #[must_use]
     pub fn number(text: String, value: Option<f64>) -> Self {
         let sort = value.filter(|value| value.is_finite()).map(|value| value.to_string());
         Self { text, sort: sort.unwrap_or_default(), class: "number" }
     }
 
-    /// A share in percent.
+    /// Makes a cell of a share in percent.
     #[must_use]
     pub fn share(value: f64) -> Self {
         Self::number(percent(value), Some(value))
     }
 
-    /// A number of things.
+    /// Makes a cell of a count.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "an order")]
     pub fn count(value: u64) -> Self {
         Self::number(grouped(value), Some(value as f64))
     }
 
-    /// No number.
+    /// Makes a cell without a number.
     #[must_use]
     pub fn none() -> Self {
         Self::number(NONE.to_owned(), None)
     }
 }
 
-/// A row.
+/// A row of a table.
 #[derive(Clone, Debug)]
 pub struct Row {
-    /// What the marks of plots that belong to it are called; one row of the page has it.
+    /// The id that the marks of this row have in plots; one row of the page has it.
     pub id: String,
-    /// In the first column.
+    /// The number in the first column.
     pub number: u64,
-    /// Whether it stands out.
+    /// Whether the row is highlighted.
     pub best: bool,
-    /// As many as there are headings after the number.
+    /// The cells after the number, one for each column.
     pub cells: Vec<Cell>,
 }
 
-/// A table.
+/// A table of rows.
 #[derive(Debug, Template)]
 #[template(path = "table.html")]
 pub struct Table<'a> {
-    /// Before the ids of its rows, to tell them from those of other tables: `p` is what marks lead to.
+    /// The prefix of the ids of its rows, which distinguishes them from those of other tables;
+    /// marks link to the prefix `p`.
     pub prefix: &'static str,
-    /// What the numbers of the first column are.
+    /// The meaning of the numbers in the first column, for the tooltip of its heading.
     pub number: &'static str,
-    /// What a number leads to, the element of that id with `c` before it; empty for nothing.
+    /// The tooltip of a link from the number to the element with the prefix `c` before its id;
+    /// empty for no link.
     pub link: &'static str,
-    /// Whether it scrolls in a window of its own.
+    /// Whether the table scrolls in a window of its own.
     pub tall: bool,
-    /// Whether rows that stand out are drawn so.
+    /// Whether highlighted rows are drawn as such.
     pub marks_best: bool,
-    /// The headings after the number.
+    /// The columns after the number.
     pub columns: &'a [Column],
     /// The rows.
     pub rows: Vec<&'a Row>,

@@ -1,46 +1,47 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Colours by meaning: active regions have the same colour in pictures, charts and pages.
 //!
-//! The colours are those of Okabe and Ito, which can be distinguished with any colour vision. Yellow is
-//! left out, because it is hard to see on white. [`vision`] simulates colour vision, for tests.
+//! The colours are those of Okabe and Ito, which can be distinguished with any colour vision.
+//! Yellow is left out, because it is hard to see on white. [`vision`] simulates colour vision, for
+//! tests.
 
 pub mod vision;
 
-/// Red, green and blue, 0 to 255 each (sRGB).
+/// A colour as red, green and blue, 0 to 255 each (sRGB).
 pub type Colour = [u8; 3];
 
-/// Relevant and changed (SRS and TRS): bluish green.
+/// The colour of relevant and changed regions (SRS and TRS): bluish green.
 pub const ACTIVE: Colour = [0, 158, 115];
-/// A brighter green, for outlines of active regions and for their share on a dark ground.
+/// A brighter green, for outlines of active regions and for their share on a dark background.
 pub const ACTIVE_BRIGHT: Colour = [70, 230, 180];
-/// Relevant (SRS); of a single region: relevant, but unchanged. Orange.
+/// The colour of relevance (SRS): orange. A single region in it is relevant but unchanged.
 pub const RELEVANT: Colour = [230, 159, 0];
-/// Changed (TRS); of a single region: changed, but not relevant. Sky blue.
+/// The colour of change (TRS): sky blue. A single region in it changed but is not relevant.
 pub const CHANGED: Colour = [86, 180, 233];
 
-/// Series without a meaning of their own, such as clips or designs, in order. Colours that mean something
-/// come last.
+/// The colours of series without a meaning of their own, such as clips or designs, in order.
+/// Colours with a meaning come last.
 pub const SERIES: [Colour; 7] =
     [[0, 114, 178], [213, 94, 0], [204, 121, 167], [0, 0, 0], ACTIVE, RELEVANT, CHANGED];
 
-/// What a chart is drawn with, on paper, in a picture or on a page.
+/// The colours of a chart in a file or on a page.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Style {
-    /// Below everything.
+    /// The background.
     pub ground: Colour,
-    /// Titles, axes and outlines.
+    /// The colour of titles, axes and outlines.
     pub ink: Colour,
-    /// What is said beside them.
+    /// The colour of secondary text.
     pub quiet: Colour,
-    /// Lines across, behind everything.
+    /// The colour of the grid, behind everything.
     pub grid: Colour,
-    /// Of each series, in order.
+    /// The colour of each series, in order.
     pub series: [Colour; SERIES.len()],
-    /// Of all series beyond those that can be told apart.
+    /// The colour of all further series, which cannot be distinguished.
     pub rest: Colour,
 }
 
-/// On a light ground: files, print, and pages by day.
+/// The style on a light background: for files, print, and pages in light mode.
 pub const LIGHT: Style = Style {
     ground: [255, 255, 255],
     ink: [0, 0, 0],
@@ -50,7 +51,8 @@ pub const LIGHT: Style = Style {
     rest: [160, 164, 169],
 };
 
-/// On a dark ground: pages by night. The series are those of [`LIGHT`], and what is black there is white.
+/// The style on a dark background, for pages in dark mode. The series are those of [`LIGHT`],
+/// except that black becomes white.
 pub const DARK: Style = Style {
     ground: [27, 30, 33],
     ink: [230, 228, 223],

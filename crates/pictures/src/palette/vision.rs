@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Colours as they are seen without one kind of cone.
+//! Simulates how colours appear without one kind of cone.
 
 use super::Colour;
 
 /// A colour vision as a matrix on linear RGB.
 pub type Vision = [[f64; 3]; 3];
 
-/// Protanopia, deuteranopia and tritanopia (Machado et al. 2009).
+/// The matrices of protanopia, deuteranopia and tritanopia (Machado et al. 2009).
 pub const VISIONS: [Vision; 3] = [
     [
         [0.152_286, 1.052_583, -0.204_868],
@@ -25,7 +25,7 @@ pub const VISIONS: [Vision; 3] = [
     ],
 ];
 
-/// How a colour is seen, 0 to 255 each.
+/// Returns how a colour appears, with values from 0 to 255.
 #[must_use]
 pub fn seen(colour: Colour, vision: Vision) -> [f64; 3] {
     let linear = colour.map(|value| (f64::from(value) / 255.0).powf(2.2));
@@ -35,7 +35,7 @@ pub fn seen(colour: Colour, vision: Vision) -> [f64; 3] {
     })
 }
 
-/// How far apart two colours are seen, as a distance in RGB; black and white are 442 apart.
+/// Returns the distance of two colours as they appear, in RGB; that of black and white is 442.
 #[must_use]
 pub fn distance(first: Colour, second: Colour, vision: Vision) -> f64 {
     let pairs = seen(first, vision).into_iter().zip(seen(second, vision));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be seen on a chart: lines that lie on each other, what the chart is about, and axes that say no more than
-//! is known.
+//! Tests of the visible properties of charts: lines that overlap, the subject of the chart, and
+//! axes with no more precision than the data.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 use foveate_pictures::chart::{Bars, Chart, Line, Look, Shape};
@@ -16,13 +16,13 @@ fn line(name: &str, points: &[(f64, f64)], look: Look) -> Line {
     Line { name: name.to_owned(), points: points.to_vec(), look }
 }
 
-/// Dots of exactly this colour left of the legend.
+/// Counts the pixels of exactly this colour left of the legend.
 fn dots(chart: &Chart, colour: Colour) -> usize {
     let picture = image::load_from_memory(&chart.png().unwrap()).unwrap().into_rgb8();
     picture.enumerate_pixels().filter(|(x, _, dot)| *x < 780 && dot.0 == colour).count()
 }
 
-/// The texts of a chart as SVG.
+/// Returns the texts of a chart as SVG.
 fn texts(chart: &Chart) -> Vec<String> {
     let svg = chart.svg(&[]).unwrap();
     let lines: Vec<&str> = svg.lines().collect();
@@ -42,7 +42,7 @@ fn a_line_shows_through_an_open_one_on_it() {
             ]))
         };
         let (covered, open) = (of(Look::Plain), of(Look::Open));
-        // Even where lines lie on each other, each of the two is to be seen, a fifth of it or more.
+        // Even where lines overlap, at least a fifth of each is visible.
         for colour in [SERIES[0], SERIES[1]] {
             let alone =
                 dots(&chart(Shape::Lines(vec![line("one", points, Look::Plain)])), SERIES[0]);
@@ -56,20 +56,22 @@ fn a_line_shows_through_an_open_one_on_it() {
 fn what_the_chart_is_about_is_in_front_and_like_nothing_else() {
     let curve = [(1e4, 20.0), (1e5, 30.0), (1e6, 40.0)];
     let names = ["a", "b", "c", "d", "e", "f", "g"];
-    // Behind every line, if it were drawn in its turn.
+    // The target is first, so it would be hidden by every line if it were drawn in order.
     let target = line("this design", &curve[1..2], Look::Target);
     let lines: Vec<Line> =
         std::iter::once(target).chain(names.map(|name| line(name, &curve, Look::Plain))).collect();
     let drawn = chart(Shape::LogLines(lines.clone()));
     let svg = drawn.svg(&[]).unwrap();
     let circles: Vec<&str> = svg.lines().filter(|line| line.starts_with("<circle")).collect();
-    // Behind the curves' dots comes the target, and then that of the legend.
+    // The circles of the target follow those of the curves, and precede those of the target in the
+    // legend.
     let [.., disc, ring, dot, _, _, _] = circles.as_slice() else { panic!("{circles:?}") };
     for (circle, radius) in [(disc, 9), (ring, 7), (dot, 3)] {
         assert!(circle.contains(&format!("r=\"{radius}\"")), "{circles:?}");
     }
     assert!(ring.contains("fill=\"none\"") && ring.contains("stroke=\"#000000\""), "{ring}");
-    // It takes no colour from the lines: all seven are solid, and the first has the first colour.
+    // The target takes no colour from the lines: all seven are solid, and the first has the first
+    // colour.
     let without = chart(Shape::LogLines(lines[1..].to_vec()));
     let lines_of = |svg: &str| svg.lines().filter(|line| line.starts_with("<polyline")).count();
     assert_eq!(lines_of(&svg), lines_of(&without.svg(&[]).unwrap()));
@@ -82,7 +84,7 @@ fn axes_of_whole_numbers_count_whole_numbers() {
         let points: Vec<(f64, f64)> = (1..=last).map(|x| (f64::from(x), 1.0)).collect();
         let drawn = chart(Shape::Lines(vec![line("layers", &points, Look::Plain)]));
         let svg = drawn.svg(&[]).unwrap();
-        // Labels across stand below the plot.
+        // The labels of the horizontal axis are below the plot.
         let below = |text: &str| {
             let y = text.split_once(" y=\"").and_then(|(_, rest)| rest.split_once('"'));
             y.is_some_and(|(y, _)| (480..510).contains(&y.parse().unwrap_or(0)))
@@ -96,14 +98,14 @@ fn axes_of_whole_numbers_count_whole_numbers() {
         assert!(labels.len() >= 2 && labels.len() <= 11, "{last}: {labels:?}");
         assert!(labels.iter().all(|label| label.parse::<u32>().is_ok()), "{last}: {labels:?}");
     }
-    // Between whole numbers there are as many digits as are needed.
+    // Between whole numbers there are as many digits as necessary.
     let points = [(0.0, 0.0), (0.3, 0.7)];
     let texts = texts(&chart(Shape::Lines(vec![line("seconds", &points, Look::Plain)])));
     assert!(texts.iter().any(|text| text == "0.1"), "{texts:?}");
     assert!(texts.iter().all(|text| text.len() < 12), "{texts:?}");
 }
 
-/// A chart of bars that all reach 100, with its highest bar in pixels.
+/// Returns a chart of bars that all reach 100, and the height of its highest bar in pixels.
 fn bars(groups: &[&str]) -> (Chart, u32) {
     let series = Bars {
         name: "share".to_owned(),
@@ -129,7 +131,7 @@ fn bars_take_the_page_that_their_names_leave() {
         (0..30).map(|number| format!("a clip of the street {number}")).collect();
     let of = |names: &[String]| bars(&names.iter().map(String::as_str).collect::<Vec<_>>());
     let ((upright, shorter), (_, longer)) = (of(&short), of(&long));
-    // Many names stand upright, and take as much as the longest needs.
+    // Many names are vertical, and take as much room as the longest needs.
     assert!(highest > shorter - 10 && shorter > longer + 60, "{highest}, {shorter}, {longer}");
     assert!(longer > 260, "{longer}");
     assert!(!upright.png().unwrap().is_empty());
