@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Cycles of layers on a systolic array, for `scripts/compare_scalesim.py`.
+//! Prints the cycles of layers on a systolic array, for `scripts/compare_scalesim.py`.
 //!
-//! `cycles ws|os ROWS COLUMNS TOPOLOGY.csv` reads a topology as SCALE-Sim takes it (name, input height and width with padding, kernel height
-//! and width, channels, filters, stride; a name with `DP` is a depthwise layer) and prints a line `name,cycles` for each layer, cycles
-//! counted as SCALE-Sim does. The buffers hold everything, so no layer is cut.
+//! `cycles ws|os ROWS COLUMNS TOPOLOGY.csv` reads a topology in the format of SCALE-Sim (name,
+//! input height and width with padding, kernel height and width, channels, filters, stride; a name
+//! with `DP` marks a depthwise layer). It prints a line `name,cycles` for each layer, with cycles
+//! counted as in SCALE-Sim. The buffers hold everything, so no layer is cut.
 
 use foveate_accelerator::{Accelerator, Dataflow, Layer, Shape, Systolic, Window};
 
@@ -44,8 +45,9 @@ fn accelerator(dataflow: &str, rows: u64, columns: u64) -> Result<Accelerator, F
     Ok(Accelerator { array, ..Accelerator::preset(name)? })
 }
 
-/// How many layers SCALE-Sim makes of one: it runs the channels of a depthwise layer alone. It says the number of the last cycle of each, counted
-/// from 0, which is one less than there are.
+/// Returns the number of layers that SCALE-Sim makes of one: it runs each channel of a depthwise
+/// layer as a layer. For each it prints the number of the last cycle, counted from 0, which is one
+/// less than the number of cycles.
 fn runs(name: &str, record: &csv::StringRecord) -> Result<u64, Failure> {
     if is_depthwise(name) { number(name, record, 5) } else { Ok(1) }
 }
@@ -59,7 +61,8 @@ fn number(name: &str, record: &csv::StringRecord, at: usize) -> Result<u64, Fail
     Ok(text.parse().map_err(|error| format!("{name}: `{text}`: {error}"))?)
 }
 
-/// A layer of the topology. SCALE-Sim's rows without padding: the output holds the places where the kernel fits.
+/// Parses a layer of the topology. SCALE-Sim's rows have no padding: the output has the positions
+/// at which the kernel fits.
 fn layer(name: &str, record: &csv::StringRecord) -> Result<Layer, Failure> {
     let number = |at: usize| number(name, record, at);
     let (inputs, kernel) = ([number(1)?, number(2)?], [number(3)?, number(4)?]);

@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An accelerator as a TOML file describes it.
+//! The description of an accelerator, which is read from a TOML file.
 
 use crate::{AcceleratorError, Preset};
 use serde::Deserialize;
 
-/// An accelerator: an array of multipliers, its buffers, and what an access costs.
+/// An accelerator: an array of multipliers, its buffers, and the energy of an access.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Accelerator {
-    /// Clock in MHz.
+    /// The clock frequency in MHz.
     pub clock_mhz: f64,
-    /// Bits of an input, a weight, or an output.
+    /// The number of bits of an input, a weight, or an output.
     pub value_bits: u32,
-    /// Bits of an unfinished sum.
+    /// The number of bits of an unfinished sum.
     pub sum_bits: u32,
-    /// Rows and columns of a tile: positions of an output that are computed together.
+    /// The rows and columns of a tile: the positions of an output that are computed together.
     pub tile: [u32; 2],
-    /// What the DRAM delivers or takes per cycle; without it the DRAM is never waited for.
+    /// The bytes that the DRAM delivers or takes per cycle; without this, the DRAM causes no wait.
     pub dram_bytes_per_cycle: Option<f64>,
     /// The array and its buffers.
     pub array: Dataflow,
-    /// What an access costs.
+    /// The energy of a multiplication and of each access.
     pub energy: Energy,
 }
 
-/// What stays in the array while the rest streams through.
+/// The dataflow of the array: the values that stay in the array while the others stream through.
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(tag = "dataflow", rename_all = "kebab-case")]
 pub enum Dataflow {
-    /// Weights.
+    /// Weights stay in the array.
     WeightStationary(Systolic),
-    /// Sums.
+    /// Sums stay in the array.
     OutputStationary(Systolic),
-    /// Rows of weights, inputs and sums, as on Eyeriss.
+    /// Rows of weights, inputs and sums stay in the array, as on Eyeriss.
     RowStationary(RowStationary),
 }
 
@@ -40,15 +40,15 @@ pub enum Dataflow {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Systolic {
-    /// Rows of the array.
+    /// The number of rows of the array.
     pub rows: u64,
-    /// Columns of the array.
+    /// The number of columns of the array.
     pub columns: u64,
-    /// Bytes of the buffer of inputs.
+    /// The size of the buffer of inputs in bytes.
     pub input_bytes: u64,
-    /// Bytes of the buffer of weights.
+    /// The size of the buffer of weights in bytes.
     pub weight_bytes: u64,
-    /// Bytes of the buffer of sums and outputs.
+    /// The size of the buffer of sums and outputs in bytes.
     pub output_bytes: u64,
 }
 
@@ -56,55 +56,56 @@ pub struct Systolic {
 #[derive(Clone, Debug, PartialEq, Eq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct RowStationary {
-    /// Rows of the array.
+    /// The number of rows of the array.
     pub rows: u64,
-    /// Columns of the array.
+    /// The number of columns of the array.
     pub columns: u64,
-    /// Bytes of the buffer of inputs and sums.
+    /// The size of the buffer of inputs and sums in bytes.
     pub buffer_bytes: u64,
-    /// Inputs that an element holds.
+    /// The number of inputs that an element holds.
     pub element_inputs: u64,
-    /// Weights that an element holds.
+    /// The number of weights that an element holds.
     pub element_weights: u64,
-    /// Sums that an element holds.
+    /// The number of sums that an element holds.
     pub element_sums: u64,
-    /// Inputs that enter the array per cycle.
+    /// The number of inputs that enter the array per cycle.
     pub inputs_per_cycle: u64,
-    /// Weights that enter the array per cycle.
+    /// The number of weights that enter the array per cycle.
     pub weights_per_cycle: u64,
-    /// Sums that enter the array per cycle, and that leave it.
+    /// The number of sums that enter the array per cycle, and of those that leave it.
     pub sums_per_cycle: u64,
-    /// Which mapping of a layer is taken.
+    /// The objective by which the mapping of a layer is chosen.
     pub mapping: Objective,
 }
 
-/// What a mapping is chosen for.
+/// The objective of a mapping.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Objective {
-    /// The fewest accesses to the DRAM; of several such mappings the one with the fewest cycles.
+    /// The fewest accesses to the DRAM; of several such mappings, the one with the fewest cycles.
     LeastDram,
-    /// The least product of energy and cycles.
+    /// The smallest product of energy and cycles.
     LeastEnergyDelay,
 }
 
-/// Picojoules of a multiplication with addition, and of an access to a value of `value_bits`.
+/// The energy of a multiplication with its addition, and of an access to a value of `value_bits`,
+/// in picojoules.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Energy {
-    /// A multiplication with its addition.
+    /// The energy of a multiplication with its addition.
     pub mac_pj: f64,
-    /// A register of an element of the array.
+    /// The energy of an access to a register of an element of the array.
     pub register_pj: f64,
-    /// From one element of the array to the next.
+    /// The energy of a transfer from one element of the array to the next.
     pub array_pj: f64,
-    /// The buffer on the chip.
+    /// The energy of an access to the buffer on the chip.
     pub buffer_pj: f64,
-    /// The memory off the chip.
+    /// The energy of an access to the memory outside the chip.
     pub dram_pj: f64,
 }
 
-/// What is wrong with a value, without the names that types have in programs.
+/// Replaces the type names of the program in the description of a problem by words.
 fn in_words(problem: &str) -> String {
     let number = "expected a number";
     let whole = "expected a whole number from 1 on";
@@ -114,10 +115,11 @@ fn in_words(problem: &str) -> String {
 }
 
 impl Accelerator {
-    /// Reads an accelerator.
+    /// Parses an accelerator.
     ///
     /// # Errors
-    /// When the text is no TOML, or a key is unknown, missing, of the wrong type, or out of range.
+    /// Fails if the text is not valid TOML, or if a key is unknown, missing, of the wrong type, or
+    /// out of range.
     pub fn from_toml(text: &str) -> Result<Self, AcceleratorError> {
         let table: toml::Table = text.parse().map_err(|error: toml::de::Error| {
             AcceleratorError::Syntax(error.message().to_owned())
@@ -131,22 +133,23 @@ impl Accelerator {
         Ok(accelerator)
     }
 
-    /// A preset by its name.
+    /// Returns a preset by its name.
     ///
     /// # Errors
-    /// When there is none of that name; the message lists those that exist.
+    /// Fails if there is no preset of that name; the message lists the existing ones.
     pub fn preset(name: &str) -> Result<Self, AcceleratorError> {
         Self::from_toml(Preset::find(name)?.toml)
     }
 
-    /// Seconds of so many cycles.
+    /// Returns the duration of a number of cycles in seconds.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "a time")]
     pub fn seconds(&self, cycles: u64) -> f64 {
         cycles as f64 / (1e6 * self.clock_mhz)
     }
 
-    /// Elements of the array: multiplications in a cycle at best.
+    /// Returns the number of elements of the array, which is the largest number of multiplications
+    /// in a cycle.
     #[must_use]
     pub fn elements(&self) -> u64 {
         match &self.array {
@@ -157,12 +160,12 @@ impl Accelerator {
         }
     }
 
-    /// Bytes of so many values, rounded up.
+    /// Returns the number of bytes of a number of values, rounded up.
     pub(crate) fn value_bytes(&self, values: u64) -> u64 {
         (values * u64::from(self.value_bits)).div_ceil(8)
     }
 
-    /// Bytes of so many sums, rounded up.
+    /// Returns the number of bytes of a number of sums, rounded up.
     pub(crate) fn sum_bytes(&self, sums: u64) -> u64 {
         (sums * u64::from(self.sum_bits)).div_ceil(8)
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which positions of an output are computed, and which inputs they see.
+//! The positions of an output that are computed, and the inputs that they depend on.
 
 use crate::layer::{Layer, Window};
 use std::ops::Range;
@@ -8,17 +8,18 @@ use std::ops::Range;
 #[derive(Clone, Debug)]
 pub(crate) struct Computed<'a> {
     layer: &'a Layer,
-    /// Row by row.
+    /// Whether each position is computed, in row-major order.
     is_computed: Vec<bool>,
 }
 
 impl<'a> Computed<'a> {
-    /// All positions.
+    /// Selects all positions.
     pub(crate) fn all(layer: &'a Layer) -> Self {
         Self { layer, is_computed: vec![true; index(layer.outputs.positions())] }
     }
 
-    /// The positions of all tiles in which one is needed. A tile has rows and columns; `is_needed` takes column and row.
+    /// Selects the positions of all tiles in which at least one position is needed. `tile` has rows
+    /// and columns; `is_needed` takes column and row.
     pub(crate) fn tiles(
         layer: &'a Layer,
         tile: [u32; 2],
@@ -41,17 +42,18 @@ impl<'a> Computed<'a> {
         Self { layer, is_computed }
     }
 
-    /// How many they are in these rows.
+    /// Returns the number of computed positions in these rows.
     pub(crate) fn positions(&self, rows: Range<u64>) -> u64 {
         rows.map(|row| self.in_row(row)).sum()
     }
 
-    /// How many they are in that of these rows which has most.
+    /// Returns the largest number of computed positions in one of these rows.
     pub(crate) fn longest_row(&self, rows: Range<u64>) -> u64 {
         rows.map(|row| self.in_row(row)).max().unwrap_or_default()
     }
 
-    /// How many positions of the input the computed outputs of these rows see, each counted once.
+    /// Returns the number of input positions that the computed outputs of these rows depend on,
+    /// each counted once.
     pub(crate) fn inputs(&self, rows: Range<u64>) -> u64 {
         let [down, across] = self.layer.windows;
         let (height, width) = (self.layer.inputs.height, self.layer.inputs.width);
@@ -67,7 +69,8 @@ impl<'a> Computed<'a> {
         is_seen.iter().flatten().map(|&seen| u64::from(seen)).sum()
     }
 
-    /// Which columns of the input the computed outputs of a row see; none if there are no such outputs.
+    /// Returns which columns of the input the computed outputs of a row depend on; `None` if there
+    /// are no such outputs.
     fn columns_seen(&self, row: u64, across: Window, width: u64) -> Option<Vec<bool>> {
         let outputs = self.row(row);
         outputs.contains(&true).then(|| {
@@ -89,7 +92,8 @@ impl<'a> Computed<'a> {
     }
 }
 
-/// A place in memory. Layers are checked to have fewer positions than a `usize` counts.
+/// Converts a position to an index. Layers are checked to have fewer positions than a `usize` can
+/// count.
 fn index(value: u64) -> usize {
     usize::try_from(value).expect("a layer has fewer positions than memory has bytes")
 }

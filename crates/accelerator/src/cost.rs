@@ -1,85 +1,88 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a layer costs: cycles, accesses, energy. Costs of layers and frames can be added.
+//! The cost of a layer: cycles, accesses, energy. Costs of layers and frames can be added.
 
 use crate::Accelerator;
 use serde::Serialize;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign};
 
-/// Accesses of one level of the memory, each to one value. A read counts one, a write counts one.
+/// The accesses to one level of the memory, each to one value. A read counts as one, and a write
+/// counts as one.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Traffic {
-    /// Of the layer's inputs.
+    /// The accesses to inputs of the layer.
     pub inputs: u64,
-    /// Of its weights.
+    /// The accesses to weights.
     pub weights: u64,
-    /// Of sums that are not finished; they have `sum_bits`.
+    /// The accesses to unfinished sums, which have `sum_bits`.
     pub sums: u64,
-    /// Of its outputs.
+    /// The accesses to outputs of the layer.
     pub outputs: u64,
 }
 
 impl Traffic {
-    /// All accesses.
+    /// Returns the number of all accesses.
     #[must_use]
     pub fn accesses(&self) -> u64 {
         self.inputs + self.weights + self.sums + self.outputs
     }
 }
 
-/// What one or more layers cost.
+/// The cost of one or more layers.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Cost {
-    /// Cycles until layer after layer is done: in each, the longer of `array_cycles` and `dram_cycles`, because both go on at once.
+    /// The cycles until all layers are done, one after the other. A layer takes the longer of
+    /// `array_cycles` and `dram_cycles`, because array and DRAM work in parallel.
     pub cycles: u64,
-    /// Cycles in which the array is busy, with filling and draining it.
+    /// The cycles in which the array is busy, including those that fill and drain it.
     pub array_cycles: u64,
-    /// Cycles in which the DRAM is busy; 0 if it is never waited for.
+    /// The cycles in which the DRAM is busy; 0 if it causes no wait.
     pub dram_cycles: u64,
-    /// Multiplications of the computed positions.
+    /// The multiplications of the computed positions.
     pub macs: u64,
-    /// Accesses to registers in the array.
+    /// The accesses to registers in the array.
     pub register: Traffic,
-    /// Transfers into an element of the array from the one beside it, or, in a row-stationary array, from the network.
+    /// The transfers into an element of the array from a neighbouring element or, in a
+    /// row-stationary array, from the network.
     pub array: Traffic,
-    /// Accesses to the buffer on the chip.
+    /// The accesses to the buffer on the chip.
     pub buffer: Traffic,
-    /// Accesses to the memory off the chip.
+    /// The accesses to the memory outside the chip.
     pub dram: Traffic,
-    /// Energy.
+    /// The energy.
     pub energy: Picojoules,
 }
 
-/// Energy in picojoules, without clock, control and leakage.
+/// The energy in picojoules, without clock, control and leakage.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct Picojoules {
-    /// Of the multiplications and additions.
+    /// The energy of the multiplications and additions.
     pub mac: f64,
-    /// Of the registers in the array.
+    /// The energy of the registers in the array.
     pub register: f64,
-    /// Of transfers in the array.
+    /// The energy of transfers in the array.
     pub array: f64,
-    /// Of the buffer.
+    /// The energy of the buffer.
     pub buffer: f64,
-    /// Of the DRAM.
+    /// The energy of the DRAM.
     pub dram: f64,
 }
 
 impl Picojoules {
-    /// Of the chip.
+    /// Returns the energy of the chip, without the DRAM.
     #[must_use]
     pub fn chip(&self) -> f64 {
         self.mac + self.register + self.array + self.buffer
     }
 
-    /// Of chip and DRAM.
+    /// Returns the energy of the chip and the DRAM.
     #[must_use]
     pub fn total(&self) -> f64 {
         self.chip() + self.dram
     }
 }
 
-/// What is counted of a layer.
+/// The counts of a layer.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Counts {
     pub(crate) array_cycles: u64,
@@ -91,7 +94,8 @@ pub(crate) struct Counts {
 }
 
 impl Cost {
-    /// Share of the array's multiplications that are used while it is busy; 0 if it is not.
+    /// Returns the share of the array's multipliers that are used while the array is busy; 0 if it
+    /// is never busy.
     #[must_use]
     #[allow(clippy::cast_precision_loss, reason = "a share")]
     pub fn utilization(&self, accelerator: &Accelerator) -> f64 {
@@ -117,7 +121,7 @@ impl Cost {
     }
 }
 
-/// Cycles in which the DRAM moves so much.
+/// Returns the cycles in which the DRAM moves these values.
 #[allow(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -133,7 +137,7 @@ fn dram_cycles(dram: &Traffic, accelerator: &Accelerator) -> u64 {
 #[allow(clippy::cast_precision_loss, reason = "an energy")]
 fn energy(counts: &Counts, accelerator: &Accelerator) -> Picojoules {
     let table = &accelerator.energy;
-    // A wider value costs as many times more as it has more bits.
+    // The energy of an access grows in proportion to the bits of the value.
     let wider = f64::from(accelerator.sum_bits) / f64::from(accelerator.value_bits);
     let of = |traffic: &Traffic, access: f64| {
         let values = (traffic.inputs + traffic.weights + traffic.outputs) as f64;

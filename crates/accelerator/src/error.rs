@@ -1,47 +1,47 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What can be wrong with an accelerator or a layer.
+//! The errors of accelerators and layers.
 
-/// Why there is no such accelerator, no such layer, or no way to run the one on the other.
+/// An accelerator or a layer is invalid, or the layer cannot run on the accelerator.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[non_exhaustive]
 pub enum AcceleratorError {
-    /// The text is not TOML.
+    /// The text is not valid TOML.
     #[error("the accelerator is not valid TOML: {}", one_line(.0))]
     Syntax(String),
-    /// A key that is missing, unknown, or has a value of the wrong type.
+    /// A key is missing, is unknown, or has a value of the wrong type.
     #[error("accelerator, `{}`: {}", one_line(key), one_line(problem))]
     Key {
-        /// Dotted path of the key, or of the table that holds it.
+        /// The dotted path of the key, or of the table that contains it.
         key: String,
-        /// What is wrong and what would be valid.
+        /// The problem and the valid values.
         problem: String,
     },
-    /// A value outside its range.
+    /// A value is outside its range.
     #[error("accelerator, `{key}` = {value} is out of range; the valid range is {valid}")]
     Range {
-        /// Dotted path of the key.
+        /// The dotted path of the key.
         key: &'static str,
         /// The value.
         value: String,
         /// The valid range.
         valid: &'static str,
     },
-    /// A preset that does not exist.
+    /// The preset does not exist.
     #[error("unknown accelerator `{}`; presets are {known}", one_line(name))]
     UnknownPreset {
         /// The name as given.
         name: String,
-        /// The names that exist.
+        /// The names of the existing presets.
         known: String,
     },
-    /// A layer whose shapes contradict each other.
+    /// The shapes of a layer contradict each other.
     #[error("the layer's {what} is {value}, but must be {valid}")]
     Layer {
-        /// Which number.
+        /// The name of the number.
         what: &'static str,
-        /// What it is.
+        /// The value of the number.
         value: u128,
-        /// What would be valid.
+        /// The valid values.
         valid: String,
     },
     /// The buffer is too small for the layer.
@@ -49,14 +49,15 @@ pub enum AcceleratorError {
         "`array.buffer_bytes` = {buffer} is too small for this layer; its smallest pass needs {needed} bytes"
     )]
     Room {
-        /// Bytes of the buffer.
+        /// The size of the buffer in bytes.
         buffer: u64,
-        /// Bytes of the smallest pass.
+        /// The size of the smallest pass in bytes.
         needed: u64,
     },
 }
 
-/// What a user wrote, with control characters made visible: a message stays one line and cannot steer the terminal.
+/// Escapes the control characters in a user's text, so that a message stays on one line and cannot
+/// control the terminal.
 fn one_line(text: &str) -> String {
     let shown = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.into() };
     text.trim_end().chars().map(shown).collect()

@@ -4,65 +4,65 @@
 use crate::AcceleratorError;
 use std::ops::RangeInclusive;
 
-/// The most multiplications of a layer: with this limit no count can overflow.
+/// The most multiplications of a layer; with this limit no count can overflow.
 const MOST_MACS: u128 = 1_000_000_000_000_000;
 /// The most values along an axis.
 const LONGEST: u64 = 1 << 20;
 /// The most images that run together.
 const MOST_IMAGES: u64 = 1024;
-/// The most positions of a tensor: masks of them stay in memory.
+/// The most positions of a tensor, whose masks are kept in memory.
 const MOST_POSITIONS: u64 = 1 << 28;
 
-/// Channels, rows and columns of a tensor.
+/// The channels, rows and columns of a tensor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Shape {
-    /// Values of a position.
+    /// The number of values of a position.
     pub channels: u64,
-    /// Rows.
+    /// The number of rows.
     pub height: u64,
-    /// Columns.
+    /// The number of columns.
     pub width: u64,
 }
 
 impl Shape {
-    /// Rows times columns.
+    /// Returns the number of positions: rows times columns.
     #[must_use]
     pub fn positions(&self) -> u64 {
         self.height * self.width
     }
 
-    /// Values.
+    /// Returns the number of values.
     #[must_use]
     pub fn values(&self) -> u64 {
         self.channels * self.positions()
     }
 }
 
-/// Which inputs an output sees along one axis: output `o` sees the inputs `o * stride - before + k * dilation`, for `k` below `kernel`, as far
-/// as they exist.
+/// The inputs that an output depends on along one axis: output `o` depends on the inputs
+/// `o * stride - before + k * dilation`, for `k` below `kernel`, as far as they exist.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Window {
-    /// Inputs that an output sees.
+    /// The number of inputs of an output.
     pub kernel: u64,
-    /// Inputs from one output to the next.
+    /// The distance between the inputs of consecutive outputs.
     pub stride: u64,
-    /// Inputs from one tap to the next.
+    /// The distance between consecutive taps, in inputs.
     pub dilation: u64,
-    /// Padding before the first input.
+    /// The padding before the first input.
     pub before: u64,
 }
 
 impl Window {
-    /// The window in which an output sees the input of its own position alone.
+    /// The window of one tap, in which an output depends only on the input of its own position.
     pub const SAME: Self = Self { kernel: 1, stride: 1, dilation: 1, before: 0 };
 
-    /// A window of neighboring inputs.
+    /// Makes a window of adjacent inputs.
     #[must_use]
     pub const fn of(kernel: u64, stride: u64, before: u64) -> Self {
         Self { kernel, stride, dilation: 1, before }
     }
 
-    /// The inputs that an output sees of so many.
+    /// Returns the inputs, of `inputs` in all, that an output depends on.
     pub(crate) fn taps(self, output: u64, inputs: u64) -> impl Iterator<Item = u64> {
         let first = output * self.stride;
         (0..self.kernel)
@@ -71,33 +71,34 @@ impl Window {
     }
 }
 
-/// A layer.
+/// The shapes of a layer of a network.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Layer {
     pub(crate) inputs: Shape,
     pub(crate) outputs: Shape,
-    /// Of the rows, and of the columns.
+    /// The windows along the rows axis and along the columns axis.
     pub(crate) windows: [Window; 2],
     pub(crate) products: Option<Products>,
     pub(crate) images: u64,
 }
 
-/// What is special about a layer whose outputs are sums of products.
+/// The groups of channels of a layer whose outputs are sums of products.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Products {
-    /// Parts of the channels that do not see each other.
+    /// The number of groups of channels, which are independent of each other.
     pub(crate) groups: u64,
-    /// Input channels of a group.
+    /// The number of input channels of a group.
     pub(crate) inputs: u64,
-    /// Output channels of a group.
+    /// The number of output channels of a group.
     pub(crate) outputs: u64,
 }
 
 impl Layer {
-    /// A convolution. A depthwise one has as many groups as input channels.
+    /// Makes a convolution. A depthwise one has as many groups as input channels.
     ///
     /// # Errors
-    /// When a number is 0 or beyond what the model counts, or the groups do not divide the channels.
+    /// Fails if a number is 0 or exceeds its limit, or if the number of channels is not a multiple
+    /// of the number of groups.
     pub fn convolution(
         inputs: Shape,
         outputs: Shape,
@@ -123,20 +124,22 @@ impl Layer {
         Self { inputs, outputs, windows, products: Some(products), images: 1 }.within_limits()
     }
 
-    /// A product of `rows` vectors of `inner` values with a matrix of `inner` x `columns` weights. A fully connected layer has one row.
+    /// Makes the product of `rows` vectors of `inner` values with a matrix of `inner` x `columns`
+    /// weights. A fully connected layer has one row.
     ///
     /// # Errors
-    /// When a number is 0 or beyond what the model counts.
+    /// Fails if a number is 0 or exceeds its limit.
     pub fn product(rows: u64, inner: u64, columns: u64) -> Result<Self, AcceleratorError> {
         let inputs = Shape { channels: inner, height: rows, width: 1 };
         let outputs = Shape { channels: columns, height: rows, width: 1 };
         Self::convolution(inputs, outputs, [Window::SAME; 2], 1)
     }
 
-    /// A layer without sums of products, such as pooling, activation or addition. The channels of several inputs are counted together.
+    /// Makes a layer without sums of products, such as pooling, activation or addition. The
+    /// channels of several inputs are counted together.
     ///
     /// # Errors
-    /// When a number is 0 or beyond what the model counts.
+    /// Fails if a number is 0 or exceeds its limit.
     pub fn transfer(
         inputs: Shape,
         outputs: Shape,
@@ -146,42 +149,43 @@ impl Layer {
         Self { inputs, outputs, windows, products: None, images: 1 }.within_limits()
     }
 
-    /// The same layer for so many images, which share what is fetched of the weights where the array can. Its cost is that of all of them.
+    /// Returns the same layer for several images, which share fetched weights where the array
+    /// allows it. Its cost is that of all images.
     ///
     /// # Errors
-    /// When there is no image, or more than the model counts.
+    /// Fails if the number of images is 0 or exceeds its limit.
     pub fn with_images(mut self, images: u64) -> Result<Self, AcceleratorError> {
         check("number of images", images, 1..=MOST_IMAGES)?;
         self.images = images;
         self.within_limits()
     }
 
-    /// The output of one image.
+    /// Returns the shape of the output of one image.
     #[must_use]
     pub fn outputs(&self) -> Shape {
         self.outputs
     }
 
-    /// Multiplications of all images.
+    /// Returns the number of multiplications of all images.
     #[must_use]
     pub fn macs(&self) -> u64 {
         self.images * self.outputs.positions() * self.macs_per_position()
     }
 
-    /// Weights, without biases.
+    /// Returns the number of weights, without biases.
     #[must_use]
     pub fn weights(&self) -> u64 {
         self.macs_per_position()
     }
 
-    /// Multiplications of a position: each weight is used once.
+    /// Returns the number of multiplications of a position, in which each weight is used once.
     pub(crate) fn macs_per_position(&self) -> u64 {
         self.products.map_or(0, |products| {
             products.groups * products.outputs * self.inputs_per_sum(&products)
         })
     }
 
-    /// Inputs of one sum.
+    /// Returns the number of inputs of one sum.
     pub(crate) fn inputs_per_sum(&self, products: &Products) -> u64 {
         products.inputs * self.windows[0].kernel * self.windows[1].kernel
     }

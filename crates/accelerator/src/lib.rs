@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the layers of a neural network cost on an accelerator: cycles, accesses to registers, array, buffer and DRAM, and energy.
+//! The cost of the layers of a neural network on an accelerator: cycles, accesses to registers,
+//! array, buffer and DRAM, and energy.
 //!
-//! An [`Accelerator`] is read from TOML, or is one of the [`PRESETS`]. A [`Layer`] has the shapes of a convolution or of a matrix product.
-//! [`Accelerator::plan`] maps the layer onto the array, once. The [`Plan`] then says the [`Cost`] of the whole layer ([`Plan::whole`]), or of
-//! the output positions that a mask needs ([`Plan::masked`]).
+//! An [`Accelerator`] is read from TOML, or is one of the [`PRESETS`]. A [`Layer`] has the shapes
+//! of a convolution or of a matrix product. [`Accelerator::plan`] maps the layer onto the array,
+//! once. The [`Plan`] then computes the [`Cost`] of the whole layer ([`Plan::whole`]), or of the
+//! output positions that a mask needs ([`Plan::masked`]).
 //!
-//! What is counted, with T computed positions of the output, K inputs of each sum, M channels of the output, and an array of R x C:
+//! The counts depend on the number T of computed positions of the output, the number K of inputs of
+//! each sum, the number M of channels of the output, and an array of R x C elements:
 //!
-//! * **Weight-stationary**: an array holds R x C weights, T positions stream through. A fold takes `2R + C + T - 2` cycles, and there are
-//!   `ceil(K / R) * ceil(M / C)` folds.
-//! * **Output-stationary**: an array holds the sums of R positions and C channels. A fold takes `K + R + C - 2` cycles, and there are
-//!   `ceil(T / R) * ceil(M / C)` folds.
-//!   Both are as in SCALE-Sim 3.0, which says the number of the last cycle, counted from 0: one less.
+//! * **Weight-stationary**: the array holds R x C weights, and T positions stream through. A fold
+//!   takes `2R + C + T - 2` cycles, and there are `ceil(K / R) * ceil(M / C)` folds.
+//! * **Output-stationary**: the array holds the sums of R positions and C channels. A fold takes
+//!   `K + R + C - 2` cycles, and there are `ceil(T / R) * ceil(M / C)` folds.
 //! * **Row-stationary**, as on Eyeriss (Chen et al., JSSC 2017): see the module `row_stationary`.
 //!
-//! Positions that a mask needs are rounded up to tiles of the accelerator. Weights are fetched whole as soon as one position is computed, and
-//! not at all if none is. Inputs are fetched where a computed position sees them, so the halo is counted; row-stationary, once for each strip.
+//! The first two agree with SCALE-Sim 3.0, which prints the number of the last cycle, counted from
+//! 0: one less.
 //!
-//! A layer that has no sums of products (pooling, activation, addition) costs accesses to DRAM and buffer, and no cycles of the array.
+//! The positions that a mask needs are rounded up to tiles of the accelerator. All weights are
+//! fetched if any position is computed, and none otherwise. The inputs that computed positions
+//! depend on are fetched, so the halo is counted; a row-stationary array fetches them once for each
+//! strip.
+//!
+//! A layer without sums of products (pooling, activation, addition) costs accesses to DRAM and
+//! buffer, and no cycles of the array.
 //!
 //! ```
 //! use foveate_accelerator::{Accelerator, Layer, Shape, Window};

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A layer on an accelerator: the mapping is chosen once, for the whole layer, and serves for every mask.
+//! A layer on an accelerator. The mapping is chosen once for the whole layer, and is used for every
+//! mask.
 
 use crate::accelerator::{Accelerator, Dataflow, RowStationary, Systolic};
 use crate::computed::Computed;
@@ -8,7 +9,7 @@ use crate::layer::{Layer, Products};
 use crate::row_stationary::{self, Mapping};
 use crate::{AcceleratorError, systolic};
 
-/// A layer on an accelerator.
+/// A layer that is mapped onto an accelerator.
 #[derive(Clone, Debug)]
 pub struct Plan<'a> {
     accelerator: &'a Accelerator,
@@ -16,13 +17,13 @@ pub struct Plan<'a> {
     way: Way<'a>,
 }
 
-/// How a layer runs.
+/// The way in which a layer runs.
 #[derive(Clone, Copy, Debug)]
 enum Way<'a> {
     WeightStationary(&'a Systolic, Products),
     OutputStationary(&'a Systolic, Products),
     RowStationary(&'a RowStationary, Products, Mapping),
-    /// Without the array.
+    /// The layer runs without the array.
     Transfer,
 }
 
@@ -30,8 +31,8 @@ impl Accelerator {
     /// Maps a layer onto the array.
     ///
     /// # Errors
-    /// When the buffer of a row-stationary array is too small for any mapping, or the accelerator was changed into one that
-    /// [`Accelerator::from_toml`] refuses.
+    /// Fails if the buffer of a row-stationary array is too small for any mapping, or if the
+    /// accelerator was changed to values that [`Accelerator::from_toml`] rejects.
     pub fn plan(&self, layer: Layer) -> Result<Plan<'_>, AcceleratorError> {
         self.validate()?;
         let way = match (layer.products, &self.array) {
@@ -52,20 +53,20 @@ impl Accelerator {
 }
 
 impl Plan<'_> {
-    /// The layer.
+    /// Returns the layer.
     #[must_use]
     pub fn layer(&self) -> &Layer {
         &self.layer
     }
 
-    /// The cost of the whole layer.
+    /// Returns the cost of the whole layer.
     #[must_use]
     pub fn whole(&self) -> Cost {
         self.cost(&Computed::all(&self.layer))
     }
 
-    /// The cost of the positions of the output that are needed, rounded up to tiles. `is_needed` takes column and row. If the layer has several
-    /// images, the mask is that of each.
+    /// Returns the cost of the needed positions of the output, rounded up to tiles. `is_needed`
+    /// takes column and row. If the layer has several images, the mask applies to each of them.
     #[must_use]
     pub fn masked(&self, is_needed: impl Fn(usize, usize) -> bool) -> Cost {
         self.cost(&Computed::tiles(&self.layer, self.accelerator.tile, is_needed))
@@ -92,7 +93,8 @@ impl Plan<'_> {
     }
 }
 
-/// Inputs come from the DRAM through the buffer, and outputs go back.
+/// Counts a layer without products: inputs come from the DRAM through the buffer, and outputs go
+/// back.
 fn transfer(layer: &Layer, computed: &Computed<'_>) -> Counts {
     let rows = 0..layer.outputs.height;
     let dram = Traffic {

@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Accelerators by name. Their files hold the source of every figure.
+//! Named accelerators, whose files state the source of every figure.
 
 use crate::AcceleratorError;
 
 /// A named accelerator.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Preset {
-    /// Its name on the command line.
+    /// The name on the command line.
     pub name: &'static str,
-    /// What it is, in one line.
+    /// A description in one line.
     pub summary: &'static str,
-    /// Its file, to start an own one from.
+    /// The text of its file, which a user can start from.
     pub toml: &'static str,
 }
 
-/// Every preset.
+/// All presets.
 pub const PRESETS: &[Preset] = &[
     Preset {
         name: "systolic-ws",
@@ -34,10 +34,10 @@ pub const PRESETS: &[Preset] = &[
 ];
 
 impl Preset {
-    /// The preset of that name.
+    /// Returns the preset of that name.
     ///
     /// # Errors
-    /// When there is none; the message lists those that exist.
+    /// Fails if there is no such preset; the message lists the existing ones.
     pub fn find(name: &str) -> Result<&'static Self, AcceleratorError> {
         PRESETS.iter().find(|preset| preset.name == name).ok_or_else(|| {
             AcceleratorError::UnknownPreset {

@@ -1,21 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A row-stationary array, as Eyeriss has it (Chen et al., ISCA 2016 and JSSC 2017).
+//! Counts the cost of a layer on a row-stationary array, as in Eyeriss (Chen et al., ISCA 2016 and
+//! JSSC 2017).
 //!
-//! An element convolves one row of inputs with one row of weights. A *set* of elements, as high as the kernel, computes a *strip* of `strip`
-//! rows of the output, one per column of elements: inputs go through it along diagonals, sums upwards. What runs at once is a *pass*: `filters`
-//! filters and `channels` channels in each element, `filter_sets` times as many filters and `channel_sets` times as many channels in several
-//! sets. The buffer keeps the inputs of a pass, and the unfinished sums of `kept` filters of a strip, for `images` images.
+//! An element convolves one row of inputs with one row of weights. A *set* of elements, as high as
+//! the kernel, computes a *strip* of `strip` rows of the output, one per column of elements: inputs
+//! pass through it along diagonals, sums upwards. The part of a layer that runs at once is a
+//! *pass*: `filters` filters and `channels` channels in each element, `filter_sets` times as many
+//! filters and `channel_sets` times as many channels in several sets. The buffer keeps the inputs
+//! of a pass, and the unfinished sums of `kept` filters of a strip, for `images` images.
 //!
-//! For each `kept` filters, each strip, each part of the channels, each `filters * filter_sets` filters, a pass takes, with L the computed
-//! positions of the strip's longest row:
+//! There is a pass for each `kept` filters, each strip, each part of the channels, and each
+//! `filters * filter_sets` filters. With L the number of computed positions of the strip's longest
+//! row, a pass takes:
 //!
-//! * to load its weights, once for `images` images, at `weights_per_cycle`; the array waits for them;
-//! * for each image the longest of: `L * columns of the kernel * filters * channels` multiplications in an element, its inputs at
-//!   `inputs_per_cycle`, its sums at `sums_per_cycle` (they come in and go out at once).
+//! * the cycles that load its weights at `weights_per_cycle`, once for `images` images; the array
+//!   waits for them;
+//! * for each image, the longest of these: `L * columns of the kernel * filters * channels`
+//!   multiplications in an element, its inputs at `inputs_per_cycle`, and its sums at
+//!   `sums_per_cycle` (they enter and leave at once).
 //!
-//! A strip without a computed position is left out. Strips lie where they lie in a whole layer.
+//! A strip without a computed position is left out. A mask does not move the strips of a layer.
 //!
-//! The mapping is chosen for the whole layer, and for every mask the same: a mask never costs more than a larger one.
+//! The mapping is chosen for the whole layer and is the same for every mask, so a mask never costs
+//! more than a larger one.
 
 mod mapping;
 
@@ -27,19 +34,19 @@ use crate::cost::{Counts, Traffic};
 use crate::layer::{Layer, Products};
 use std::ops::Range;
 
-/// What is computed of a strip in one image.
+/// The computed part of a strip in one image.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Strip {
-    /// Positions of the output.
+    /// The number of computed positions of the output.
     positions: u64,
-    /// Positions of the row that has most.
+    /// The number of computed positions in the row that has most.
     longest: u64,
-    /// Positions of the input that they see.
+    /// The number of input positions that they depend on.
     inputs: u64,
 }
 
 impl Strip {
-    /// The strips in which something is computed.
+    /// Returns the strips with at least one computed position.
     fn all(layer: &Layer, height: u64, computed: &Computed<'_>) -> Vec<Self> {
         let rows = layer.outputs.height;
         (0..rows.div_ceil(height))
@@ -57,7 +64,7 @@ impl Strip {
     }
 }
 
-/// What the array does for a layer.
+/// Counts the cycles and accesses of a layer.
 pub(crate) fn count(
     array: &RowStationary,
     layer: &Layer,
@@ -89,7 +96,8 @@ fn count_strips(
         // In each multiplication an element reads an input, a weight and a sum, and writes the sum.
         register: Traffic { inputs: macs, weights: macs, sums: 2 * macs, outputs: 0 },
         array: Traffic {
-            // An element uses an input for every filter and every column of the kernel, or for fewer of these if it strides.
+            // An element uses an input for every filter and every column of the kernel, or for
+            // fewer columns if the stride is larger than 1.
             inputs: images
                 * positions
                 * groups
@@ -103,7 +111,8 @@ fn count_strips(
         },
         buffer: Traffic {
             inputs: dram.inputs + images * groups * products.inputs * inputs * cuts.filters,
-            // They go past the buffer of inputs and sums, through one that only holds the next of them.
+            // Weights do not pass through the buffer of inputs and sums, but through one that only
+            // holds the next weights.
             weights: 2 * dram.weights,
             sums: sums * 2 * (cuts.channels - 1),
             outputs: 2 * sums,
@@ -112,30 +121,30 @@ fn count_strips(
     }
 }
 
-/// How often a group is cut, and the most that a pass holds.
+/// The number of parts that a group is cut into, and the largest amounts of a pass.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Cuts {
-    /// Parts of the filters of which the sums are kept.
+    /// The number of parts of the filters whose sums are kept.
     kept: u64,
-    /// Parts of the filters that run at once.
+    /// The number of parts of the filters that run at once.
     filters: u64,
-    /// Parts of the channels, and of a kernel that is larger than the array.
+    /// The number of parts of the channels, and of a kernel that is larger than the array.
     channels: u64,
-    /// Parts of the images.
+    /// The number of parts of the images.
     images: u64,
-    /// Cycles in which a pass loads its weights.
+    /// The cycles in which a pass loads its weights.
     loading: u64,
-    /// Cycles of a position in an element.
+    /// The cycles of a position in an element.
     busy: u64,
-    /// Sums of a position.
+    /// The number of sums of a position.
     sums: u64,
-    /// Channels of a pass.
+    /// The number of channels of a pass.
     inputs: u64,
     inputs_per_cycle: u64,
     sums_per_cycle: u64,
 }
 
-/// Cycles of all passes of a strip.
+/// Returns the cycles of all passes of a strip.
 fn cycles(layer: &Layer, products: &Products, strip: &Strip, cuts: &Cuts) -> u64 {
     let busy = strip.longest * cuts.busy;
     let inputs = (strip.inputs * cuts.inputs).div_ceil(cuts.inputs_per_cycle);
@@ -144,7 +153,8 @@ fn cycles(layer: &Layer, products: &Products, strip: &Strip, cuts: &Cuts) -> u64
     products.groups * cuts.filters * cuts.channels * pass
 }
 
-/// Inputs come once for each `kept` filters, weights once for each strip, outputs go once.
+/// Returns the accesses to the DRAM: inputs are read once for each `kept` filters, weights once for
+/// each strip, and outputs are written once.
 fn dram(layer: &Layer, products: &Products, strips: &[Strip], cuts: &Cuts) -> Traffic {
     let inputs: u64 = strips.iter().map(|strip| strip.inputs).sum();
     let positions: u64 = strips.iter().map(|strip| strip.positions).sum();

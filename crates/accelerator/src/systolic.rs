@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Systolic arrays, as SCALE-Sim (Samajdar et al., ISPASS 2020) counts their cycles.
+//! Counts the cost of a layer on a systolic array, with the cycles of SCALE-Sim (Samajdar et al.,
+//! ISPASS 2020).
 //!
-//! A layer is a product of a matrix of T positions by K inputs with a matrix of K inputs by M channels, for each group. An array of R x C
-//! holds a part of it, a fold. A part of a fold costs as much as a whole one, so an array that is larger than a group of channels is
-//! mostly idle: a depthwise layer has a fold for every channel.
+//! For each group, a layer is a product of a matrix of T positions by K inputs with a matrix of K
+//! inputs by M channels. An array of R x C elements holds a part of it, a fold. A part of a fold
+//! costs as much as a whole one, so an array that is larger than a group of channels is mostly
+//! idle: a depthwise layer has a fold for every channel.
 //!
-//! DRAM: inputs and weights that their buffer holds are fetched once. Otherwise those of one are fetched again for each part of the other. There are
-//! two orders, and the one with less traffic is taken:
+//! Inputs and weights are fetched once from the DRAM if their buffer holds them. Otherwise those of
+//! one kind are fetched again for each part of the other kind. There are two orders, and the one
+//! with less traffic is used:
 //!
-//! * channels outside: for each C channels, all positions. Weights are fetched once if those of C channels fit.
-//! * positions outside: for each part of the positions, all channels. Inputs are fetched once if those of a part fit.
+//! * Channels are the outer loop: for each C channels, all positions are computed. Weights are
+//!   fetched once if those of C channels fit.
+//! * Positions are the outer loop: for each part of the positions, all channels are computed.
+//!   Inputs are fetched once if those of a part fit.
 //!
-//! A part of the positions is, output-stationary, R of them; weight-stationary, as many as the buffer holds sums of, so that no sum goes to the
-//! DRAM. Cutting the positions costs `2R + C - 2` cycles for each further part, in which SCALE-Sim, which cuts nothing, differs.
+//! A part of the positions is R of them in an output-stationary array. In a weight-stationary one
+//! it is as many as the buffer holds sums of, so that no sum goes to the DRAM. Cutting the
+//! positions costs `2R + C - 2` cycles for each further part; SCALE-Sim does not cut them.
 
 use crate::accelerator::{Accelerator, Systolic};
 use crate::computed::Computed;
@@ -21,30 +27,30 @@ use crate::layer::{Layer, Products};
 
 /// A layer as a product of matrices, once for each group.
 struct Product {
-    /// Positions of all images.
+    /// The number of positions of all images.
     positions: u64,
-    /// Inputs of a sum.
+    /// The number of inputs of a sum.
     inner: u64,
-    /// Output channels of a group.
+    /// The number of output channels of a group.
     channels: u64,
     groups: u64,
-    /// Values of the input of all images that are seen, of a group.
+    /// The number of input values of all images that computed positions depend on, for one group.
     seen: u64,
-    /// Multiplications.
+    /// The number of multiplications.
     macs: u64,
 }
 
-/// How often a layer is cut.
+/// The number of parts that a layer is cut into.
 struct Cuts {
-    /// Parts of the output channels of a group.
+    /// The number of parts of the output channels of a group.
     channels: u64,
-    /// Parts of the positions.
+    /// The number of parts of the positions.
     positions: u64,
     /// Whether the inputs of a part of the positions fit into their buffer.
     part_fits: bool,
 }
 
-/// What a weight-stationary array does for a layer.
+/// Counts the cycles and accesses of a layer on a weight-stationary array.
 pub(crate) fn weight_stationary(
     accelerator: &Accelerator,
     array: &Systolic,
@@ -81,7 +87,7 @@ pub(crate) fn weight_stationary(
     }
 }
 
-/// What an output-stationary array does for a layer.
+/// Counts the cycles and accesses of a layer on an output-stationary array.
 pub(crate) fn output_stationary(
     accelerator: &Accelerator,
     array: &Systolic,
@@ -135,12 +141,13 @@ impl Product {
         self.positions * self.groups * self.channels
     }
 
-    /// Inputs that enter the array: each position's, once for each part of the channels.
+    /// Returns the number of inputs that enter the array: those of each position, once for each
+    /// part of the channels.
     fn streamed(&self, cuts: &Cuts) -> u64 {
         self.groups * self.positions * self.inner * cuts.channels
     }
 
-    /// Accesses to the DRAM in the better of the two orders.
+    /// Returns the accesses to the DRAM in the better of the two orders.
     fn dram(&self, accelerator: &Accelerator, array: &Systolic, cuts: &Cuts) -> Traffic {
         let weights_fit =
             |channels| accelerator.value_bytes(self.inner * channels) <= array.weight_bytes;
@@ -169,8 +176,8 @@ impl Product {
     }
 }
 
-/// Whether the buffer holds the inputs of so many positions, when all are computed. It does not depend on a mask, so that a smaller mask never
-/// costs more.
+/// Returns whether the buffer holds the inputs of this number of positions if all positions are
+/// computed. The result does not depend on a mask, so that a smaller mask never costs more.
 fn share_fits(
     accelerator: &Accelerator,
     array: &Systolic,

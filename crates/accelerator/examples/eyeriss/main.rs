@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The convolutions of AlexNet and VGG-16 on the preset `eyeriss`, beside what was measured on the chip, as `docs/accelerators.md` shows them.
-//! With `--layers` also every layer.
+//! Compares the convolutions of AlexNet and VGG-16 on the preset `eyeriss` with the measurements of
+//! the chip, as in `docs/accelerators.md`. With `--layers` it also prints every layer.
 
 mod networks;
 mod table;

@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The convolutions of AlexNet and VGG-16, and what Chen et al., JSSC 2017, measured of them on Eyeriss.
+//! The convolutions of AlexNet and VGG-16, and the measurements on Eyeriss by Chen et al., JSSC
+//! 2017.
 
 use foveate_accelerator::{AcceleratorError, Layer, Shape, Window};
 
-/// A network, and what was measured of its convolutions.
+/// A network and the measurements of its convolutions.
 pub(crate) struct Published {
     pub(crate) name: &'static str,
-    /// Images that ran together.
+    /// The number of images that ran together.
     pub(crate) images: u64,
     pub(crate) frames_per_second: f64,
-    /// With compression of zeros on the way to and from the DRAM.
+    /// The accesses to the DRAM per multiplication, with compression of zeros on the way to and
+    /// from the DRAM.
     pub(crate) accesses_per_mac: f64,
-    /// Of the chip, without the DRAM.
+    /// The power of the chip, without the DRAM.
     pub(crate) milliwatts: f64,
     pub(crate) layers: Vec<(String, Layer)>,
 }

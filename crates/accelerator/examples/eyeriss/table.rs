@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The tables of the page `docs/accelerators.md` on Eyeriss, in Markdown.
+//! The tables on Eyeriss in `docs/accelerators.md`, in Markdown.
 
 use super::networks::{Published, alexnet, vgg16};
 use foveate_accelerator::{Accelerator, Cost, Dataflow, Objective};
@@ -7,7 +7,8 @@ use std::fmt::Write;
 
 type Failure = Box<dyn std::error::Error>;
 
-/// A figure of a whole network: its name, its digits, what was measured, what the model says.
+/// A figure of a whole network: its name, its digits after the point, the measured value and the
+/// values of the model.
 struct Figure {
     name: &'static str,
     digits: usize,
@@ -15,7 +16,8 @@ struct Figure {
     model: [f64; 2],
 }
 
-/// Each figure of the chip, and of the model with either way to choose a mapping.
+/// Returns the table of each figure of the chip, and of the model with either objective of a
+/// mapping.
 pub(crate) fn totals() -> Result<String, Failure> {
     let mut table =
         "| network | figure | chip | least DRAM | ratio | least energy x delay | ratio |\n\
@@ -35,7 +37,7 @@ pub(crate) fn totals() -> Result<String, Failure> {
     Ok(table)
 }
 
-/// Each layer of the model with the mapping of the preset.
+/// Returns the table of each layer of the model with the mapping of the preset.
 pub(crate) fn layers() -> Result<String, Failure> {
     let accelerator = Accelerator::preset("eyeriss")?;
     let mut table = "| layer | ms per image | utilization | DRAM accesses per MAC |\n| --- | ---: | ---: | ---: |\n".to_owned();

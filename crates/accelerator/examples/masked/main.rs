@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is left of multiplications, cycles and energy where only a square of a layer is computed, on every preset: in
-//! Markdown what `docs/data/accelerators-masked.csv` holds.
+//! Prints the share of multiplications, cycles and energy that remains if only a square of a layer
+//! is computed, on every preset. The Markdown table has the data of
+//! `docs/data/accelerators-masked.csv`.
 
 mod table;
 

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The table to which the page `docs/accelerators.md` links on masks, in Markdown.
+//! The table on masks to which `docs/accelerators.md` links, in Markdown.
 
 use foveate_accelerator::{Accelerator, Cost, Layer, PRESETS, Shape, Window};
 use std::fmt::Write;
 
-/// Three layers of ResNet-18 for 224 x 224 pixels: name, channels in and out, side.
+/// Three layers of ResNet-18 for 224 x 224 pixels: name, channels in and out, and side.
 const LAYERS: [(&str, u64, u64); 3] =
     [("conv2_x", 64, 56), ("conv4_x", 256, 14), ("conv5_x", 512, 7)];
 
-/// Sides of the squares, as shares of the side of the layer in sevenths.
+/// The sides of the squares, in sevenths of the side of the layer.
 const SQUARES: [u64; 2] = [1, 3];
 
-/// For each preset, layer and square, what is left of each cost.
+/// Returns the share of each cost that remains, for each preset, layer and square.
 pub(crate) fn shares() -> Result<String, Box<dyn std::error::Error>> {
     let mut table =
         "| accelerator | layer | needed, % | MACs, % | cycles, % | DRAM accesses, % | energy, % |\n\
@@ -25,7 +25,7 @@ pub(crate) fn shares() -> Result<String, Box<dyn std::error::Error>> {
             let plan = accelerator.plan(layer)?;
             let whole = plan.whole();
             for sevenths in SQUARES {
-                // In the middle of the layer.
+                // The square is in the middle of the layer.
                 let (from, to) = ((7 - sevenths) / 2 * side / 7, (7 + sevenths) / 2 * side / 7);
                 let square = from..to;
                 let part = plan
@@ -40,7 +40,7 @@ pub(crate) fn shares() -> Result<String, Box<dyn std::error::Error>> {
     Ok(table)
 }
 
-/// Multiplications, cycles, accesses to the DRAM, and energy.
+/// Returns the percentages of multiplications, cycles, accesses to the DRAM, and energy.
 #[allow(clippy::cast_precision_loss, reason = "shares")]
 fn percentages(part: &Cost, whole: &Cost) -> [f64; 4] {
     let of = |cost: &Cost| {

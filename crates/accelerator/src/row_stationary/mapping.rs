@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which part of a layer runs at once in a row-stationary array.
+//! Chooses the part of a layer that runs at once in a row-stationary array.
 
 use super::{Cuts, Strip, count_strips};
 use crate::accelerator::{Accelerator, Objective, RowStationary};
@@ -8,33 +8,33 @@ use crate::cost::Counts;
 use crate::layer::{Layer, Products};
 use crate::{AcceleratorError, Cost};
 
-/// What runs at once, and what the buffer keeps.
+/// The part of a layer that runs at once, and the values that the buffer keeps.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) struct Mapping {
-    /// Rows of the output.
+    /// The number of rows of the output.
     pub(crate) strip: u64,
-    /// Filters in an element.
+    /// The number of filters in an element.
     pub(crate) filters: u64,
-    /// Channels in an element.
+    /// The number of channels in an element.
     pub(crate) channels: u64,
-    /// Sets of elements that have other filters.
+    /// The number of sets of elements with different filters.
     pub(crate) filter_sets: u64,
-    /// Sets of elements that have other channels.
+    /// The number of sets of elements with different channels.
     pub(crate) channel_sets: u64,
-    /// Filters of which the buffer keeps the sums.
+    /// The number of filters whose sums the buffer keeps.
     pub(crate) kept: u64,
-    /// Images that share a load of weights.
+    /// The number of images that share a load of weights.
     pub(crate) images: u64,
 }
 
 /// A kernel in parts that fit into the array and its elements.
 #[derive(Clone, Copy, Debug)]
 struct Parts {
-    /// Rows of a part.
+    /// The number of rows of a part.
     rows: u64,
-    /// Columns of a part.
+    /// The number of columns of a part.
     columns: u64,
-    /// How many parts there are.
+    /// The number of parts.
     count: u64,
 }
 
@@ -47,7 +47,7 @@ impl Parts {
 }
 
 impl Mapping {
-    /// How a group is cut by it.
+    /// Returns the parts into which this mapping cuts a group.
     pub(crate) fn cuts(&self, array: &RowStationary, layer: &Layer, products: &Products) -> Cuts {
         let parts = Parts::of(array, layer);
         let (filters, channels) =
@@ -68,7 +68,7 @@ impl Mapping {
     }
 }
 
-/// The mapping that serves its objective best for a whole layer.
+/// Returns the mapping that is best for its objective on a whole layer.
 pub(crate) fn search(
     accelerator: &Accelerator,
     array: &RowStationary,
@@ -96,7 +96,7 @@ pub(crate) fn search(
     best.map(|(_, mapping)| mapping).ok_or(too_small)
 }
 
-/// What is to be small; the second number decides between equal first ones.
+/// Returns the quantity to minimize; the second number decides between equal first ones.
 #[allow(clippy::cast_precision_loss, reason = "compared, not counted")]
 fn price(accelerator: &Accelerator, objective: Objective, counts: &Counts) -> [f64; 2] {
     match objective {
@@ -108,13 +108,15 @@ fn price(accelerator: &Accelerator, objective: Objective, counts: &Counts) -> [f
     }
 }
 
-/// The heights of strips that can run at once: of those that need equally many strips, the lowest.
+/// Returns the heights of strips that can run at once: of those that need the same number of
+/// strips, the lowest.
 fn strip_heights(height: u64, array: &RowStationary, parts: Parts) -> impl Iterator<Item = u64> {
     let most = (array.rows / parts.rows * array.columns).min(height);
     (1..=most).filter(move |&strip| strip == height.div_ceil(height.div_ceil(strip)))
 }
 
-/// How many sets of elements the array has room for. A set that is wider than the array goes on below.
+/// Returns the number of sets of elements that fit into the array. A set that is wider than the
+/// array continues below.
 fn sets(array: &RowStationary, parts: Parts, strip: u64) -> u64 {
     let below = array.rows / parts.rows;
     if strip <= array.columns {
@@ -124,7 +126,8 @@ fn sets(array: &RowStationary, parts: Parts, strip: u64) -> u64 {
     }
 }
 
-/// Passes that fit into the array and its elements; what the buffer keeps is open.
+/// Returns the passes that fit into the array and its elements, without the number of filters that
+/// the buffer keeps.
 fn passes(
     array: &RowStationary,
     layer: &Layer,
@@ -133,7 +136,7 @@ fn passes(
     strip: u64,
 ) -> Vec<Mapping> {
     let sets = sets(array, parts, strip);
-    // Each of them leaves room for another number of channel sets.
+    // Each of these numbers leaves room for a different number of channel sets.
     let all_filter_sets = (1..=sets).filter(|&filters| filters == sets / (sets / filters));
     let mut all = Vec::new();
     for filter_sets in all_filter_sets.filter(|&filters| filters <= products.outputs) {
@@ -161,13 +164,13 @@ fn passes(
     all
 }
 
-/// What the buffer of inputs and sums has room for.
+/// The capacity of the buffer of inputs and sums.
 struct Room<'a> {
     accelerator: &'a Accelerator,
     bytes: u64,
-    /// Of a channel and an image, in the strip that sees most.
+    /// The number of inputs of a channel and an image, in the strip that has most.
     inputs: u64,
-    /// Of a filter and an image, in the strip that has most.
+    /// The number of sums of a filter and an image, in the strip that has most.
     sums: u64,
 }
 
@@ -182,14 +185,15 @@ impl<'a> Room<'a> {
         }
     }
 
-    /// Bytes of so many channels and filters.
+    /// Returns the number of bytes for these channels, filters and images.
     fn needed(&self, channels: u64, filters: u64, images: u64) -> u64 {
         images
             * (self.accelerator.value_bytes(channels * self.inputs)
                 + self.accelerator.sum_bytes(filters * self.sums))
     }
 
-    /// The pass with as many filters kept as there is room for; none if there is none for one pass.
+    /// Returns the pass with as many kept filters as the buffer can hold; `None` if it cannot hold
+    /// those of one pass.
     fn fill(&self, pass: Mapping, products: &Products) -> Option<Mapping> {
         let at_once = pass.filters * pass.filter_sets;
         let channels = pass.channels * pass.channel_sets;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The page shows what the model says of the chip, and the magnitude is right.
+//! The documentation shows the results of the model for the chip, and their magnitude is right.
 
 #[path = "../../examples/eyeriss/networks.rs"]
 mod networks;
@@ -27,7 +27,8 @@ fn every_figure_is_right_in_magnitude() {
     }
 }
 
-/// Eyeriss, ISSCC 2016: 666 million MACs and 2.3 million weights in AlexNet, 15.3 billion and 14.7 million in VGG-16.
+/// The sizes are those of Eyeriss, ISSCC 2016: 666 million MACs and 2.3 million weights in AlexNet,
+/// 15.3 billion and 14.7 million in VGG-16.
 #[test]
 fn the_networks_have_the_published_sizes() {
     for (network, macs, weights) in [

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Accelerators as files: presets are valid, and every mistake has one clear line.
+//! Accelerators as files: presets are valid, and every mistake has a message of one clear line.
 
 use foveate_accelerator::{Accelerator, AcceleratorError, Layer, PRESETS, Shape, Window};
 
@@ -16,7 +16,7 @@ fn every_preset_is_valid_and_found_by_its_name() {
     );
 }
 
-/// What replaces what in which preset, and what the message holds.
+/// The preset, the replaced text, its replacement, and a part of the expected message.
 const MISTAKES: &[(&str, &str, &str, &str)] = &[
     ("systolic-ws", "[array]", "[array", "not valid TOML"),
     ("systolic-ws", "clock_mhz = 400", "", "missing field `clock_mhz`"),
@@ -116,7 +116,7 @@ fn a_buffer_that_is_too_small_is_named_with_what_is_needed() {
     let shape = Shape { channels: 1, height: 8, width: 8 };
     let layer = Layer::convolution(shape, shape, [Window::of(3, 1, 1); 2], 1).unwrap();
     let message = accelerator.plan(layer).unwrap_err().to_string();
-    // A strip of one row: three rows of inputs and one of sums, 16 bits each.
+    // The smallest strip has one row: three rows of inputs and one of sums, with 16 bits each.
     assert_eq!(
         message,
         "`array.buffer_bytes` = 20 is too small for this layer; its smallest pass needs 64 bytes"

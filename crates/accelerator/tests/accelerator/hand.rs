@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Costs computed by hand.
+//! Costs that are computed by hand.
 
 use foveate_accelerator::{
     Accelerator, Cost, Dataflow, Layer, Objective, RowStationary, Shape, Systolic, Traffic, Window,
@@ -17,7 +17,8 @@ pub(crate) fn systolic(rows: u64, columns: u64) -> Systolic {
     }
 }
 
-/// 8 bits, sums of 16; a MAC costs 1 pJ, the other accesses 2, 3, 4 and 5.
+/// Returns an accelerator with values of 8 bits and sums of 16. A MAC costs 1 pJ, and the other
+/// accesses cost 2, 3, 4 and 5 pJ.
 pub(crate) fn accelerator(array: Dataflow) -> Accelerator {
     let text = "clock_mhz = 1\nvalue_bits = 8\nsum_bits = 16\ntile = [1, 1]\n\
         [array]\ndataflow = \"weight-stationary\"\nrows = 1\ncolumns = 1\ninput_bytes = 1\nweight_bytes = 1\noutput_bytes = 1\n\
@@ -25,7 +26,8 @@ pub(crate) fn accelerator(array: Dataflow) -> Accelerator {
     Accelerator { array, ..Accelerator::from_toml(text).unwrap() }
 }
 
-/// 3 x 3 inputs, 2 x 2 taps, 2 filters: 4 positions, 4 inputs of a sum.
+/// Returns a layer of 3 x 3 inputs, 2 x 2 taps and 2 filters, which has 4 positions and 4 inputs
+/// per sum.
 fn small() -> Layer {
     let inputs = Shape { channels: 1, height: 3, width: 3 };
     let outputs = Shape { channels: 2, height: 2, width: 2 };
@@ -49,7 +51,7 @@ fn weight_stationary_by_hand() {
     let accelerator = accelerator(Dataflow::WeightStationary(systolic(2, 2)));
     let plan = accelerator.plan(small()).unwrap();
     let cost = plan.whole();
-    // Two folds of 2 x 2 + 2 + 4 - 2 cycles.
+    // There are two folds of 2 x 2 + 2 + 4 - 2 cycles.
     assert_eq!((cost.cycles, cost.array_cycles, cost.dram_cycles, cost.macs), (16, 16, 0, 32));
     assert_eq!(cost.dram, traffic(9, 8, 0, 8));
     // Each position streams its 4 inputs. The sums of the first fold are written and read.
@@ -62,7 +64,7 @@ fn weight_stationary_by_hand() {
 
     let one = plan.masked(|x, y| (x, y) == (1, 0));
     assert_eq!((one.cycles, one.macs), (2 * 5, 8));
-    // The weights whole, and the 4 inputs below the window.
+    // All weights are fetched, and the 4 inputs in the window.
     assert_eq!(one.dram, traffic(4, 8, 0, 2));
     assert_eq!(plan.masked(|_, _| false), Cost::default());
 }
@@ -72,7 +74,7 @@ fn output_stationary_by_hand() {
     let accelerator = accelerator(Dataflow::OutputStationary(systolic(2, 2)));
     let plan = accelerator.plan(small()).unwrap();
     let cost = plan.whole();
-    // Two folds of 4 + 2 + 2 - 2 cycles.
+    // There are two folds of 4 + 2 + 2 - 2 cycles.
     assert_eq!((cost.array_cycles, cost.macs), (12, 32));
     assert_eq!(cost.dram, traffic(9, 8, 0, 8));
     assert_eq!(cost.buffer, traffic(9 + 16, 8 + 2 * 8, 0, 16));
@@ -90,7 +92,7 @@ fn a_mask_is_rounded_up_to_tiles() {
     let plan = accelerator.plan(small()).unwrap();
     let one = plan.masked(|x, y| (x, y) == (1, 0));
     assert_eq!(one, plan.masked(|x, _| x == 1));
-    // Both positions of the column: 3 x 2 inputs.
+    // Both positions of the column are computed: they depend on 3 x 2 inputs.
     assert_eq!((one.macs, one.dram.inputs), (16, 6));
 }
 
@@ -101,19 +103,22 @@ fn small_buffers_fetch_again() {
         let accelerator = accelerator(Dataflow::WeightStationary(array));
         accelerator.plan(small()).unwrap().whole()
     };
-    // Inputs do not fit: once for each of the two filters, or all filters of a part of the positions. All sums fit, so the part is all.
+    // Inputs do not fit, so they are fetched once for each of the two filters, or the positions are
+    // cut with all filters for each part. All sums fit, so there is only one part.
     assert_eq!(of(Systolic { input_bytes: 8, ..text.clone() }).dram, traffic(18, 8, 0, 8));
-    // Two sums of 16 bits fit: two parts of two positions, each with 2 x 2 + 1 - 2 cycles of filling, in 2 x 2 folds.
+    // Two sums of 16 bits fit: two parts of two positions, each with 2 x 2 + 1 - 2 cycles of
+    // filling, in 2 x 2 folds.
     let cut = of(Systolic { output_bytes: 4, ..text.clone() });
     assert_eq!(cut.array_cycles, 4 * (2 * 3 + 4));
     assert_eq!(cut.buffer.weights, 8 + 2 * 8);
     assert_eq!(cut.dram, traffic(9, 8, 0, 8));
-    // Weights of one filter do not fit either: they come again for the second part.
+    // The weights of one filter do not fit either, so they are fetched again for the second part.
     let cut = of(Systolic { output_bytes: 4, weight_bytes: 3, ..text });
     assert_eq!(cut.dram, traffic(9, 16, 0, 8));
 }
 
-/// Two parts of the channels, and two of the positions, which see 5 of 9 inputs on average.
+/// There are two parts of the channels, and two of the positions, which depend on 5 of 9 inputs on
+/// average.
 #[test]
 fn the_better_of_two_orders_counts() {
     let of = |input_bytes, weight_bytes| {
@@ -121,11 +126,12 @@ fn the_better_of_two_orders_counts() {
         let accelerator = accelerator(Dataflow::OutputStationary(array));
         accelerator.plan(small()).unwrap().whole().dram
     };
-    // The inputs of a part fit, and the weights of a filter: inputs once and weights twice is less than the reverse.
+    // The inputs of a part and the weights of a filter fit: fetching inputs once and weights twice
+    // is less than the reverse.
     assert_eq!(of(8, 4), traffic(9, 16, 0, 8));
-    // All weights fit: everything once.
+    // All weights fit, so everything is fetched once.
     assert_eq!(of(5, 8), traffic(9, 8, 0, 8));
-    // The inputs of a part do not fit: inputs twice, and the weights of a filter once.
+    // The inputs of a part do not fit: inputs are fetched twice, and the weights of a filter once.
     assert_eq!(of(4, 4), traffic(18, 8, 0, 8));
 }
 
@@ -134,7 +140,7 @@ fn the_longer_of_array_and_dram_counts() {
     let mut accelerator = accelerator(Dataflow::WeightStationary(systolic(2, 2)));
     accelerator.dram_bytes_per_cycle = Some(1.5);
     let cost = accelerator.plan(small()).unwrap().whole();
-    // 25 bytes.
+    // The DRAM moves 25 bytes.
     assert_eq!((cost.cycles, cost.array_cycles, cost.dram_cycles), (17, 16, 17));
     let both = cost + cost;
     assert_eq!((both.cycles, both.dram.inputs, both.buffer.sums), (34, 18, 32));
@@ -174,16 +180,17 @@ fn row_stationary_by_hand() {
     let accelerator = accelerator(Dataflow::RowStationary(row_stationary()));
     let plan = accelerator.plan(small()).unwrap();
     let cost = plan.whole();
-    // One strip of both rows, both filters in each element. 2 cycles bring 8 weights. Then 9 inputs take 9 cycles, longer than the 2 x 2 x 2
-    // multiplications of an element.
+    // There is one strip of both rows, with both filters in each element. 2 cycles bring 8 weights.
+    // Then 9 inputs take 9 cycles, longer than the 2 x 2 x 2 multiplications of an element.
     assert_eq!((cost.array_cycles, cost.macs), (2 + 9, 32));
     assert_eq!(cost.dram, traffic(9, 8, 0, 8));
     assert_eq!(cost.buffer, traffic(9 + 9, 8 + 8, 0, 8 + 8));
     assert_eq!(cost.register, traffic(32, 32, 64, 0));
-    // Each of 4 elements gets 4 weights; each sum goes through 2 elements.
+    // Each of 4 elements gets 4 weights; each sum passes through 2 elements.
     assert_eq!(cost.array, traffic(8, 16, 16, 0));
 
-    // The strip stays, its longest row has one position, and 2 x 3 inputs are seen: 6 cycles.
+    // The strip stays, its longest row has one position, and that depends on 2 x 3 inputs: 6
+    // cycles.
     let one_column = plan.masked(|x, _| x == 0);
     assert_eq!((one_column.array_cycles, one_column.dram), (2 + 6, traffic(6, 8, 0, 4)));
 }
@@ -193,7 +200,8 @@ fn rows_without_a_computed_position_are_left_out() {
     let array = RowStationary { columns: 1, ..row_stationary() };
     let accelerator = accelerator(Dataflow::RowStationary(array));
     let plan = accelerator.plan(small()).unwrap();
-    // Strips of one row each: 2 cycles for the weights, and 8 multiplications in an element, longer than 6 inputs.
+    // The strips have one row each: 2 cycles for the weights, and 8 multiplications in an element,
+    // longer than 6 inputs.
     assert_eq!(plan.whole().array_cycles, 2 * (2 + 8));
     assert_eq!(plan.whole().dram, traffic(12, 16, 0, 8));
     let upper = plan.masked(|_, y| y == 0);
@@ -205,7 +213,7 @@ fn images_share_weights_where_the_buffer_holds_their_sums() {
     let accelerator = accelerator(Dataflow::RowStationary(row_stationary()));
     let two = accelerator.plan(small().with_images(2).unwrap()).unwrap().whole();
     assert_eq!((two.array_cycles, two.dram), (2 + 2 * 9, traffic(18, 8, 0, 16)));
-    // 9 inputs of 8 bits and 8 sums of 16 bits for each image.
+    // An image has 9 inputs of 8 bits and 8 sums of 16 bits.
     let array = RowStationary { buffer_bytes: 49, ..row_stationary() };
     let accelerator = self::accelerator(Dataflow::RowStationary(array));
     let apart = accelerator.plan(small().with_images(2).unwrap()).unwrap().whole();

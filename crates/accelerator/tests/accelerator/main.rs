@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Costs by hand, against a naive array, SCALE-Sim and Eyeriss, and over random layers and masks.
+//! Tests of costs: by hand, against a naive array, SCALE-Sim and Eyeriss, and over random layers
+//! and masks.
 #![allow(clippy::unwrap_used, reason = "tests")]
 
 mod eyeriss;

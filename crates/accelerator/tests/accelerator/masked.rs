@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The data of the page show what masks save.
+//! The data in the documentation show the savings of masks.
 
 #[path = "../../examples/masked/table.rs"]
 mod table;

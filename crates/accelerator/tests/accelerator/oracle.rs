@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A systolic array, element by element and clock by clock, and masks position by position. Written from the drawing of such arrays, without the
-//! formulas of the model.
+//! Simulates a systolic array element by element and clock by clock, and masks position by
+//! position. This code follows drawings of such arrays, and does not use the formulas of the model.
 
 use std::collections::BTreeSet;
 
-/// What an array did.
+/// The counts of a simulated array.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Seen {
-    /// Clocks, from 1.
+    /// The number of clocks, counted from 1.
     pub(crate) clocks: u64,
     pub(crate) macs: u64,
-    /// Inputs that entered the first column.
+    /// The number of inputs that entered the first column.
     pub(crate) inputs: u64,
-    /// Weights that entered the array.
+    /// The number of weights that entered the array.
     pub(crate) weights: u64,
 }
 
-/// The product of `positions` x `inner` and `inner` x `channels`, weights held.
+/// Simulates the product of `positions` x `inner` and `inner` x `channels`, with weights held in
+/// the array.
 pub(crate) fn weight_stationary(
     [rows, columns]: [u64; 2],
     positions: u64,
@@ -34,7 +35,8 @@ pub(crate) fn weight_stationary(
                     let has_weight = first_inner + row < inner && first_channel + column < channels;
                     seen.weights += u64::from(has_weight);
                     for position in 0..positions {
-                        // An input enters each row one clock later than the row above, and moves on by a column per clock.
+                        // An input enters each row one clock later than the row above, and advances
+                        // by a column per clock.
                         let clock = begin + position + row + column;
                         last = last.max(clock);
                         seen.macs += u64::from(has_weight);
@@ -49,7 +51,7 @@ pub(crate) fn weight_stationary(
     seen
 }
 
-/// The same product, sums held.
+/// Simulates the same product, with sums held in the array.
 pub(crate) fn output_stationary(
     [rows, columns]: [u64; 2],
     positions: u64,
@@ -65,7 +67,8 @@ pub(crate) fn output_stationary(
                     let has_position = first_position + row < positions;
                     let has_channel = first_channel + column < channels;
                     for tap in 0..inner {
-                        // An input and a weight meet after they have passed the rows and columns before.
+                        // An input and a weight meet after they have passed the previous rows and
+                        // columns.
                         last = last.max(begin + tap + row + column);
                         seen.macs += u64::from(has_position && has_channel);
                         seen.inputs += u64::from(column == 0 && has_position);
@@ -83,10 +86,10 @@ fn size(value: u64) -> usize {
     usize::try_from(value).unwrap()
 }
 
-/// One axis: kernel, stride, dilation, padding.
+/// The kernel, stride, dilation and padding of one axis.
 pub(crate) type Axis = [u64; 4];
 
-/// The inputs that computed outputs see, each once. A position is row and column.
+/// Returns the inputs that computed outputs depend on, each once. A position is a row and a column.
 pub(crate) fn inputs_seen(
     computed: &BTreeSet<[u64; 2]>,
     axes: [Axis; 2],
@@ -108,7 +111,7 @@ pub(crate) fn inputs_seen(
     seen
 }
 
-/// The positions whose tile holds a needed one.
+/// Returns the positions whose tile has a needed one.
 pub(crate) fn tiled(
     needed: &BTreeSet<[u64; 2]>,
     [height, width]: [u64; 2],

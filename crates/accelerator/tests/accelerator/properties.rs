@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What holds for every layer, accelerator and mask.
+//! Properties that hold for every layer, accelerator and mask.
 
 use crate::hand;
 use crate::oracle::{Seen, inputs_seen, output_stationary, tiled, weight_stationary};
@@ -15,14 +15,14 @@ fn masked(accelerator: &Accelerator, case: &Case, mask: &Positions) -> Cost {
     plan.masked(|x, y| mask.contains(&[y as u64, x as u64]))
 }
 
-/// The positions of the mask that the output has, rounded up to tiles.
+/// Returns the positions of the mask that are inside the output, rounded up to tiles.
 fn computed(accelerator: &Accelerator, case: &Case, mask: &Positions) -> Positions {
     let [height, width] = case.outputs;
     let inside = mask.iter().copied().filter(|&[y, x]| y < height && x < width).collect();
     tiled(&inside, case.outputs, accelerator.tile.map(u64::from))
 }
 
-/// All totals of a cost.
+/// Returns all totals of a cost.
 fn totals(cost: &Cost) -> Vec<f64> {
     #[allow(clippy::cast_precision_loss, reason = "small numbers")]
     let counts = [
@@ -68,7 +68,7 @@ proptest! {
         let per_position = case.groups * case.channels[1] * case.inner();
         prop_assert_eq!(cost.macs, positions * per_position);
         prop_assert_eq!(cost.dram.outputs, positions * case.groups * case.channels[1]);
-        // Weights come whole, a whole number of times; inputs at least once.
+        // All weights are fetched a whole number of times, and inputs at least once.
         prop_assert_eq!(cost.dram.weights % per_position, 0);
         prop_assert_eq!(cost.dram.weights > 0, positions > 0);
         let seen = inputs_seen(&computed, case.axes, case.inputs).len() as u64;

@@ -9,14 +9,14 @@ use foveate_accelerator::{
 use proptest::prelude::*;
 use std::collections::BTreeSet;
 
-/// A layer with the numbers that made it.
+/// A layer with the numbers that it was made from.
 #[derive(Clone, Debug)]
 pub(crate) struct Case {
     pub(crate) inputs: [u64; 2],
     pub(crate) outputs: [u64; 2],
     pub(crate) axes: [Axis; 2],
     pub(crate) groups: u64,
-    /// Of a group.
+    /// The number of input and output channels of a group.
     pub(crate) channels: [u64; 2],
     pub(crate) images: u64,
 }
@@ -40,7 +40,7 @@ impl Case {
         layer.with_images(self.images).unwrap()
     }
 
-    /// Inputs of a sum.
+    /// Returns the number of inputs of a sum.
     pub(crate) fn inner(&self) -> u64 {
         self.channels[0] * self.axes[0][0] * self.axes[1][0]
     }
@@ -65,7 +65,7 @@ pub(crate) fn case() -> impl Strategy<Value = Case> {
     )
 }
 
-/// A mask and one that holds it, both as sets of row and column.
+/// Makes a mask and a larger one that includes it, both as sets of row and column.
 pub(crate) fn masks() -> impl Strategy<Value = [BTreeSet<[u64; 2]>; 2]> {
     let places = || proptest::collection::btree_set([0..10_u64, 0..10_u64], 0..30);
     (places(), places()).prop_map(|(small, more)| {

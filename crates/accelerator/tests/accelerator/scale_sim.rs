@@ -4,7 +4,8 @@
 use crate::hand::{accelerator, systolic};
 use foveate_accelerator::{Dataflow, Layer, Shape, Window};
 
-/// The first layer of AlexNet on 32 x 32: 36 folds of 3,119 cycles, the last of which is number 112,283 in SCALE-Sim's trace.
+/// The first layer of AlexNet on 32 x 32 has 36 folds of 3,119 cycles. The last of them has number
+/// 112,283 in SCALE-Sim's trace.
 #[test]
 fn the_golden_trace_of_scale_sim() {
     let accelerator = accelerator(Dataflow::WeightStationary(systolic(32, 32)));
@@ -17,8 +18,9 @@ fn the_golden_trace_of_scale_sim() {
     assert_eq!(cost.macs, 105_415_200);
 }
 
-/// Numbers of the last cycle on 32 x 32, as SCALE-Sim 3.0.0 printed them in `scripts/compare_scalesim.py`: side of the input with padding, kernel,
-/// input channels, filters, groups, weight-stationary, output-stationary.
+/// The numbers of the last cycle on 32 x 32, as SCALE-Sim 3.0.0 printed them in
+/// `scripts/compare_scalesim.py`: side of the input with padding, kernel, input channels, filters,
+/// groups, weight-stationary, output-stationary.
 const SCALE_SIM: &[(u64, u64, u64, u64, u64, u64, u64)] = &[
     (31, 5, 48, 128, 1, 125_095, 116_103),
     (15, 3, 256, 384, 1, 227_231, 170_351),
@@ -26,7 +28,7 @@ const SCALE_SIM: &[(u64, u64, u64, u64, u64, u64, u64)] = &[
     (30, 3, 128, 128, 1, 126_431, 121_399),
     (16, 3, 256, 256, 1, 167_039, 132_495),
     (1, 1, 512, 1000, 1, 48_639, 18_367),
-    // Each of 8 channels is a run of its own there.
+    // SCALE-Sim runs each of the 8 channels separately.
     (16, 3, 8, 8, 8, 2_312, 3_968),
 ];
 
