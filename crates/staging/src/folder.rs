@@ -16,7 +16,7 @@ use crate::lock::LockedFolder;
 pub struct FolderKind {
     /// The description with its article, for messages: `a simulation (summary.json)`.
     pub what: &'static str,
-    /// Returns whether an existing folder is of this kind.
+    /// A function that returns whether an existing folder is of this kind.
     pub is: fn(&Path) -> bool,
 }
 

@@ -105,7 +105,7 @@ pub(crate) fn is_own(about: &fs::Metadata) -> bool {
     std::os::unix::fs::MetadataExt::uid(about) == rustix::process::geteuid().as_raw()
 }
 
-/// Other systems do not tell, and nothing is treated as a leftover.
+/// Returns false: other systems do not report the owner, so nothing is treated as a leftover.
 #[cfg(not(unix))]
 pub(crate) fn is_own(_: &fs::Metadata) -> bool {
     false
@@ -122,7 +122,7 @@ pub(crate) fn is_same_file(file: &File, path: &Path) -> bool {
     }
 }
 
-/// On other systems an open file cannot be removed.
+/// Returns whether the path exists, because on other systems an open file cannot be removed.
 #[cfg(not(unix))]
 pub(crate) fn is_same_file(_: &File, path: &Path) -> bool {
     path.exists()

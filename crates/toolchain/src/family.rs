@@ -80,7 +80,7 @@ impl Family {
         kill(self.head.id());
     }
 
-    /// Other systems have no process groups, so only the first process is ended.
+    /// Ends only the first process, because other systems have no process groups.
     #[cfg(not(unix))]
     fn kill(&mut self) {
         // An error can only mean that the process has already ended.
@@ -113,6 +113,6 @@ fn kill(head: u32) {
 #[cfg(not(unix))]
 fn set_apart(_: &mut Command) {}
 
-/// Other systems cannot end a process by its number alone.
+/// Does nothing, because other systems cannot end a process by its number alone.
 #[cfg(not(unix))]
 fn kill(_: u32) {}

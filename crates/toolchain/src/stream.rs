@@ -233,7 +233,7 @@ fn widen(pipe: &impl std::os::fd::AsFd) {
     let _ = rustix::pipe::fcntl_setpipe_size(pipe, BYTES);
 }
 
-/// On other systems the size of a pipe is not changed.
+/// Does nothing: the size of a pipe is changed only on Linux.
 #[cfg(not(target_os = "linux"))]
 fn widen<T>(_: &T) {}
 
@@ -250,7 +250,7 @@ fn wait_for_room(pipe: &ChildStdin, interrupt: &Interrupt) -> io::Result<()> {
     crate::interrupt::wait_until(writable, pipe, interrupt, INPUT_GRACE)
 }
 
-/// On other systems a write waits until it is done.
+/// Does nothing: on other systems a write waits until it is done.
 #[cfg(not(unix))]
 fn never_wait(_: &ChildStdin) -> io::Result<()> {
     Ok(())

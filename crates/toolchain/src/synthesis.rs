@@ -49,7 +49,7 @@ pub struct Synthesis {
     pub tool: ToolRecord,
     /// The netlist as JSON.
     pub json: Vec<u8>,
-    /// The same netlist as Verilog, with a module for the array and one for the unit.
+    /// The netlist of `json` as Verilog, with a module for the array and one for the unit.
     pub verilog: String,
 }
 

@@ -38,7 +38,7 @@ fn check(_: &Path, _: &Path, _: bool) -> Result<(), ToolError> {
     Ok(())
 }
 
-/// On other systems the metadata of a folder do not tell who can write to it.
+/// Returns true, because on other systems the metadata of a folder do not tell who can write to it.
 #[cfg(not(unix))]
 pub(super) fn is_entry(_: &Path, _: &str) -> bool {
     true
@@ -59,8 +59,8 @@ mod unix {
 
     const GROUP: u32 = 0o020;
     const ALL: u32 = 0o002;
-    /// In a folder with this bit, a user who is neither the owner nor root cannot rename the
-    /// entries of others.
+    /// The sticky bit. In a folder with it, a user who is neither the owner nor root cannot rename
+    /// the entries of others.
     const STICKY: u32 = 0o1000;
 
     /// Fails if other users can put files into a place, whose path has no links. `root` is the path

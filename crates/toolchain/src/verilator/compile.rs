@@ -33,8 +33,8 @@ pub(super) const LIMIT: Duration = Duration::from_secs(1800);
 const BUNDLE: u64 = 256 << 10;
 const COMPILERS: usize = 2;
 const RUN_TIME_FLAG: &str = "-O2";
-/// The headers of libraries for waves that Verilator's package does not depend on, with their
-/// Debian packages.
+/// The headers of libraries for waves that Verilator's package does not install, with their Debian
+/// packages.
 const HEADERS: [(&str, &str); 2] = [("zlib.h", "zlib1g-dev"), ("lz4.h", "liblz4-dev")];
 const SLOW_FLAG: &str = "-O0";
 /// The includes of models and their mains, which are compiled once for each flag. The result has 60
@@ -276,8 +276,8 @@ fn bundle(
     bundles.iter().enumerate().map(write).collect()
 }
 
-/// Does `work` for every item, a few at a time. The results are in order. Fails with the first
-/// error that is found.
+/// Does `work` for every item, a few at a time. Returns the results in order. Fails if `work` fails
+/// for any item.
 fn in_parallel<T: Sync, R: Send>(
     items: &[T],
     work: impl Fn(&T) -> Result<R, ToolError> + Sync,
