@@ -18,7 +18,7 @@ const THRESHOLDS: u32 = 0x100;
 pub enum Kind {
     /// The field always reads as this value.
     Constant(u32),
-    /// The field reads as the core drives it.
+    /// The field reads the value that the core drives.
     Status,
     /// The field holds the value written last, and `reset` before the first write.
     Control {
