@@ -7,6 +7,7 @@
 
 mod bus;
 mod occurrence;
+mod places;
 mod ports;
 mod regions;
 mod watch;

@@ -2,6 +2,7 @@
 //! Looks at the ports of an array or unit, clock by clock, and counts what was seen.
 
 use super::occurrence::Occurrences;
+use super::places::has_pixel;
 use super::ports::{PortFacts, flushed_windows};
 use super::regions::{Decided, RegionTraces};
 use crate::field::Field;
@@ -224,12 +225,14 @@ impl Watch {
             self.begin_frame(clock);
         }
         let intake = &mut self.intake;
-        intake.beats += 1;
         if let Some((field, record)) = clock.field(PortRole::Pixel) {
-            for &byte in field.slice(record) {
-                intake.hash = (intake.hash ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+            let lanes = 0..field.port.lanes;
+            for lane in lanes.filter(|&lane| has_pixel(&self.design, intake.beats, lane)) {
+                let pixel = field.get(record, lane);
+                intake.hash = (intake.hash ^ pixel).wrapping_mul(0x0000_0100_0000_01b3);
             }
         }
+        intake.beats += 1;
         if intake.beats == self.per_frame {
             let is_first = intake.hashes.is_empty();
             intake.hashes.push(intake.hash);

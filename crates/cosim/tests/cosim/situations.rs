@@ -30,6 +30,8 @@ const DESIGNS: &[&[&str]] = &[
     &[FRAME, MEAN, "spatial=[{feature='mad'}]", SENT],
     &[FRAME, MEAN, "hardware.thresholds='constant'"],
     &[FRAME, SERIAL, "hardware.fold=2"],
+    // The last slot of the second lane carries no region.
+    &["frame={width=12,height=4}", "region.size=4", SERIAL, "hardware.fold=2", MEAN],
     &[FRAME, SERIAL, "hardware.fold=4", MEAN, SENT, "hardware.sync=true"],
     &[
         FRAME,
@@ -90,6 +92,65 @@ fn vectors_reach_every_situation_that_a_design_can_have() {
         }
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
+}
+
+/// Keys with their values, for designs drawn at random. A value that is empty leaves a key at its default.
+const CHOICES: &[&[&str]] = &[
+    &["frame={width=12,height=4}", "frame={width=30,height=20}", "frame={width=17,height=33}"],
+    &["region.size=2", "region.size=4", "region.size=8", "region.size=16"],
+    &["frame.pixel_bits=1", "frame.pixel_bits=4", "frame.pixel_bits=8", "frame.pixel_bits=12"],
+    &["denoise.filter='none'", "denoise.filter='median3x3'"],
+    &["region.neighborhood='isolated'", "region.neighborhood='shared'"],
+    &["", "spatial=[{feature='mad'}]", "spatial=[{feature='variance'},{feature='corner'}]"],
+    &["", "decision.combine='all'"],
+    &["", SENT],
+    &["render.irrelevant='zero'", "render.irrelevant='hold'", MEAN, MEAN],
+    &["", "render.payload='raw'"],
+    &["", "periphery.blocks=2", "periphery.level=0", "periphery.level=3"],
+    &["", SERIAL, "hardware={organization='serial',feed='raster'}", RASTER, RASTER],
+    &["", "hardware.fold=2", "hardware.fold=3", "hardware.pixels_per_clock=2"],
+    &["", "hardware.store='external'", "hardware.forward=false", "hardware.pipelining='deep'"],
+    &["", "", "hardware.thresholds='constant'"],
+    &["", "hardware.sync=true"],
+];
+
+/// No region of 1-bit pixels has both scores that these constants ask for.
+const UNREACHABLE: [&str; 3] =
+    ["frame.pixel_bits=1", "decision.combine='all'", "hardware.thresholds='constant'"];
+
+/// Designs drawn at random from all choices, without those that are refused.
+fn drawn_designs(count: usize) -> Vec<(Vec<&'static str>, Design)> {
+    let mut state = 0x9e37_79b9_u32;
+    let mut draw = |choices: &[&'static str]| {
+        state = state.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        choices[(state >> 16) as usize % choices.len()]
+    };
+    let mut designs = Vec::new();
+    while designs.len() < count {
+        let mut keys: Vec<_> = CHOICES.iter().map(|choices| draw(choices)).collect();
+        keys.retain(|key| !key.is_empty());
+        if UNREACHABLE.iter().all(|key| keys.contains(key)) {
+            continue;
+        }
+        if let Ok(design) = Config::from_toml_with("", &keys).and_then(|config| config.validate()) {
+            designs.push((keys, design));
+        }
+    }
+    designs
+}
+
+/// With `FOVEATE_WHOLE` more designs are drawn.
+#[test]
+fn vectors_reach_every_situation_of_designs_drawn_at_random() {
+    let count = if std::env::var_os("FOVEATE_WHOLE").is_some() { 1000 } else { 24 };
+    let failures = in_parallel(&drawn_designs(count), |(keys, design)| {
+        let found = reached(design, 1);
+        match found.missing().is_empty() && !found.0.is_empty() {
+            true => Ok(()),
+            false => Err(format!("{keys:?}: {found}")),
+        }
+    });
+    assert!(failures.is_empty(), "{} of {count} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
 #[test]
