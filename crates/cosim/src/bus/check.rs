@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether packets and registers say what the model says of the frames that came.
+//! The comparison of packets and registers with what the model says of the frames that came.
 
 use super::follower::Follower;
 use super::heard::{Heard, Parcel, Record, Rises};
@@ -15,17 +15,17 @@ use foveate_packets::{
 };
 use std::ops::AddAssign;
 
-/// Frequency of the clock, as the parameter of the core has it.
+/// The frequency of the clock in Hz, the value of the core's parameter.
 pub(super) const TICK_RATE: u32 = 100_000_000;
-/// Counters of skipped frames and dropped regions wrap around behind this.
+/// The mask of the counters of skipped frames and dropped regions, which wrap around.
 const COUNTER_MASK: u32 = 0xFFFF;
 
-/// How much agreed.
+/// The amount of output that agreed with the model.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct Agreed {
-    /// Frames that left.
+    /// The number of frames that left.
     pub(super) frames: u64,
-    /// Packets and registers that were compared.
+    /// The number of packets and registers that were compared.
     pub(super) comparisons: u64,
 }
 
@@ -36,15 +36,15 @@ impl AddAssign for Agreed {
     }
 }
 
-/// What is known of a core, over all that happens to it.
+/// The facts about a core that hold for all sessions.
 pub(super) struct Checker<'a> {
     layout: Layout,
-    /// The design, and what it is with other thresholds.
+    /// The camera of the design, and its cameras with other thresholds.
     cameras: &'a [Camera],
     registers: &'a [Register],
-    /// What would show that a threshold is not taken over.
+    /// The thresholds for which a check can tell if they are taken over.
     missed: &'a [Missed<'a>],
-    /// Clocks that a frame takes at least: its transfers.
+    /// The number of transfers of a frame, which is the smallest number of clocks that it takes.
     transfers: u64,
 }
 
@@ -61,8 +61,8 @@ impl<'a> Checker<'a> {
         Self { layout, cameras, registers, missed, transfers }
     }
 
-    /// Compares what was heard with what must come of the traffic.
-    /// What was seen is counted in `facts`.
+    /// Compares the recorded activity with the results that the traffic must have, and counts the
+    /// situations in `facts`.
     pub(super) fn check(
         &self,
         sessions: &[Session],
@@ -87,7 +87,7 @@ impl<'a> Checker<'a> {
         first_breach.map_or(Ok(agreed), Err)
     }
 
-    /// The bit of an event.
+    /// Returns the bit mask of an event.
     fn event(&self, name: &str) -> u32 {
         let events = self.registers.iter().find(|register| register.name == "events");
         let field = events.and_then(|events| events.fields.iter().find(|field| field.name == name));
@@ -95,39 +95,40 @@ impl<'a> Checker<'a> {
     }
 }
 
-/// A frame whose packets come.
+/// A frame whose packets are arriving.
 struct Open {
     number: u32,
     is_cut: bool,
     outcome: FunctionalOutcome,
-    /// What the rows that came say.
+    /// The decisions of the rows that arrived.
     decisions: Vec<Option<Decision>>,
     next_row: u32,
     rows: u32,
-    /// Regions that came.
+    /// For each region, true if its packet arrived.
     came: Vec<bool>,
 }
 
-/// What came between two resets.
+/// The state of the comparison between two resets.
 struct Receiver<'a> {
     checker: &'a Checker<'a>,
     session: &'a Session,
     model: Follower<'a>,
-    /// The camera of the last frame, and the one of the frames before its thresholds were written.
+    /// The index of the camera of the last frame; `camera_before` is that of the frames before its
+    /// thresholds were written.
     camera: usize,
     camera_before: usize,
-    /// Regions that were lost of the last frame.
+    /// The regions of the last frame that were lost.
     lost: Vec<u32>,
     facts: &'a mut BusFacts,
     open: Option<Open>,
-    /// The frame that may come next.
+    /// The smallest number that the next frame may have.
     next: usize,
     is_first: bool,
-    /// A frame was skipped since the last one.
+    /// True if a frame was skipped since the last one.
     has_skipped: bool,
     /// The first clock after the reset.
     start: u64,
-    /// The next frame cannot have begun before.
+    /// The earliest time at which the next frame can begin.
     time: u64,
     skipped: u32,
     dropped: u32,
@@ -253,7 +254,7 @@ impl<'a> Receiver<'a> {
         Ok(())
     }
 
-    /// What a frame comes to.
+    /// Advances the model by a frame that arrived, and returns its outcome.
     fn step(&mut self, sent: &Sent, first: bool) -> FunctionalOutcome {
         let lost = std::mem::take(&mut self.lost);
         if first {
@@ -277,7 +278,8 @@ impl<'a> Receiver<'a> {
         outcome
     }
 
-    /// What the frame would come to if a threshold had not been taken over: for those that have not yet decided anything.
+    /// Returns the outcomes that the frame would have if a threshold had not been taken over, for
+    /// the thresholds that have not yet decided anything.
     fn missed(&self, sent: &Sent) -> Vec<(String, FunctionalOutcome)> {
         let is_open = |missed: &&Missed<'_>| {
             self.facts.taken_over.get(&missed.register).copied().unwrap_or_default() == 0
@@ -290,7 +292,8 @@ impl<'a> Receiver<'a> {
         found.collect()
     }
 
-    /// The time of a frame is when it began: after all words of the one before, and before the first word of its FRAME left.
+    /// Checks the time of a frame, which is when it began: after all words of the frame before it,
+    /// and before the first word of its FRAME packet left.
     fn time(&mut self, time: u64, left: u64) -> Result<(), Wrong> {
         let latest = left - self.start;
         if time < self.time {
@@ -308,7 +311,8 @@ impl<'a> Receiver<'a> {
         all.get(at).ok_or_else(|| Wrong::number("the number of a frame, below", all.len(), at))
     }
 
-    /// Frames up to `at` have not come.
+    /// Passes over the expected frames up to `at`, which have not arrived. Fails if one of them had
+    /// to arrive.
     fn pass_over(&mut self, at: usize) -> Result<(), Wrong> {
         for number in self.next..at {
             let sent = self.sent(number)?;
@@ -472,7 +476,7 @@ impl<'a> Receiver<'a> {
         Ok(())
     }
 
-    /// Events that were cleared without end must have been seen all the same.
+    /// Checks that events that were cleared again and again have been seen as often as they must.
     fn raised(&mut self, heard: &Heard) -> Result<(), Wrong> {
         let mut counts = heard.rises.iter();
         for &(event, raised) in &self.session.raised {
@@ -513,10 +517,11 @@ impl<'a> Receiver<'a> {
     }
 }
 
-/// The bytes of a packet: what no field names is 0 in them, though nobody reads it. None where it is no packet of the layout.
+/// Returns the bytes of a packet, written again from its fields. Bytes that no field describes are
+/// 0. Returns an empty vector if the packet cannot be one of this layout.
 fn written(layout: &Layout, frame: u32, packet: &Packet) -> Vec<u8> {
     let mut bytes = Vec::new();
-    // Nothing is written of what cannot be, and no packet that was heard is equal to nothing.
+    // A packet that cannot be written leaves `bytes` empty.
     let _ = match packet {
         Packet::Frame(info) => {
             write::frame(&mut bytes, layout, frame, (info.time, info.first));
@@ -527,13 +532,13 @@ fn written(layout: &Layout, frame: u32, packet: &Packet) -> Vec<u8> {
             write::region(&mut bytes, layout, frame, (*row, *column), (*flags, values))
         }
         Packet::End(end) => write::end(&mut bytes, frame, *end),
-        // A core sends none of them, which is found where the packet is looked at.
+        // A core sends neither; the caller reports them.
         Packet::Scores(_) | Packet::Register(_) => Ok(()),
     };
     bytes
 }
 
-/// What a ROW says of a region.
+/// Access to the decision of a region, as a ROW packet has it.
 trait Decided {
     fn decision(&self, region: usize) -> Decision;
 }
@@ -548,12 +553,12 @@ impl Decided for FunctionalOutcome {
     }
 }
 
-/// Whether pixels or means follow from a decision.
+/// Returns true if pixels or means follow from a decision.
 fn sends(decision: Decision) -> bool {
     (decision.srs && decision.trs) || decision.summary
 }
 
-/// The pixels that an active region sends.
+/// Returns the pixels that an active region sends.
 fn pixels(camera: &Camera, outcome: &FunctionalOutcome, row: u32, column: u32) -> Vec<u16> {
     let (side, payload) = (camera.region_size(), outcome.payload(camera));
     let (left, top) = ((column * side) as usize, row * side);

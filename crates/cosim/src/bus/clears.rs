@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Events that happen while they are cleared without end: `docs/axi.md` says that such an event stays 1.
+//! Events that happen while they are cleared at every possible clock. `docs/axi.md` says that such
+//! an event stays 1.
 //!
-//! A write is taken at every other clock, so an event meets one in one of two attempts that are a clock apart.
+//! A write is taken at every other clock. So each event is tried twice, at clocks of both parities,
+//! and meets a write in one of the two attempts.
 
 use super::film::largest;
 use super::scenes::{Stage, taken};
@@ -9,11 +11,11 @@ use super::traffic::{Fate, Raised, Sent, Traffic};
 use crate::situations::{can_drop_regions, can_drop_rows};
 use foveate_frame::Frame;
 
-/// How often each event is tried: at both parities.
+/// The number of attempts for each event, one for each parity of the clock.
 const ATTEMPTS: u32 = 2;
 
 impl<'a> Stage<'a> {
-    /// Every event, each in a session of its own.
+    /// Returns the traffic of the scene: every event, each in a session of its own.
     pub(super) fn clears(&mut self) -> Traffic<'a> {
         let mut traffic = Traffic::new(self.design());
         self.lines(&mut traffic, "eol_early", Self::short_line);
@@ -31,7 +33,8 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// A core that was reset, whose only enabled event is cleared without end.
+    /// Resets the core, enables one event and clears it again and again from then on. With `waits`
+    /// the source waits for a free core; otherwise frames are skipped.
     fn begin_clearing(&mut self, traffic: &mut Traffic<'a>, event: &str, waits: bool) {
         let bit = self.event(event);
         traffic.reset();
@@ -44,14 +47,15 @@ impl<'a> Stage<'a> {
         traffic.clear(self.address("events"), bit);
     }
 
-    /// All packets leave, and the event was seen so often.
+    /// Waits until all packets have left, and expects that the event was seen as often as `raised`
+    /// says.
     fn end_clearing(&mut self, traffic: &mut Traffic<'a>, event: &'static str, raised: Raised) {
         traffic.drain();
         traffic.count_raised(event, raised);
         traffic.interrupt(false);
     }
 
-    /// A frame of which every line is damaged.
+    /// Sends a frame with damage in every line.
     fn lines(
         &mut self,
         traffic: &mut Traffic<'a>,
@@ -69,7 +73,7 @@ impl<'a> Stage<'a> {
         self.end_clearing(traffic, event, Raised::Times(height));
     }
 
-    /// A line without its last transfer: it goes on with its last pixel.
+    /// Sends a line without its last transfer; the core repeats the last pixel that came.
     fn short_line(traffic: &mut Traffic<'a>, frame: &mut Frame, y: u32) {
         let row = frame.row(y).to_vec();
         let words: Vec<&[u16]> = traffic.split(&row).collect();
@@ -83,7 +87,7 @@ impl<'a> Stage<'a> {
         frame.write(0, y, &line);
     }
 
-    /// A line with a transfer more.
+    /// Sends a line with one transfer too many.
     fn long_line(traffic: &mut Traffic<'a>, frame: &mut Frame, y: u32) {
         let row = frame.row(y).to_vec();
         let words: Vec<Vec<u16>> = traffic.split(&row).map(<[u16]>::to_vec).collect();
@@ -93,7 +97,7 @@ impl<'a> Stage<'a> {
         traffic.beat(false, true, &words[0]);
     }
 
-    /// Frames that end in their second line, because the next begins.
+    /// Sends frames that end after their first line, because the next frame begins.
     fn early_frames(&mut self, traffic: &mut Traffic<'a>) {
         self.begin_clearing(traffic, "sof_early", true);
         let height = self.design().height();
@@ -112,7 +116,7 @@ impl<'a> Stage<'a> {
         self.end_clearing(traffic, "sof_early", Raised::Times(ATTEMPTS));
     }
 
-    /// Transfers behind a frame.
+    /// Sends transfers behind a whole frame.
     fn late_words(&mut self, traffic: &mut Traffic<'a>) {
         self.begin_clearing(traffic, "sof_late", true);
         for parity in 0..ATTEMPTS {
@@ -124,7 +128,7 @@ impl<'a> Stage<'a> {
         self.end_clearing(traffic, "sof_late", Raised::Times(ATTEMPTS));
     }
 
-    /// Frames that come while packets wait: the first transfer of each is enough.
+    /// Sends frames while packets wait for the sink. The first transfer of each frame is enough.
     fn skipped_frames(&mut self, traffic: &mut Traffic<'a>) {
         self.begin_clearing(traffic, "frame_skipped", false);
         traffic.hold(2 * self.design().timing().clocks_per_frame() + 2000);
@@ -139,11 +143,11 @@ impl<'a> Stage<'a> {
         self.end_clearing(traffic, "frame_skipped", Raised::Skipped);
     }
 
-    /// A sink that takes nothing from the second line of a frame to the end of the next.
+    /// Stops the sink from the second line of a frame to the end of the next frame.
     fn stopped_sinks(&mut self, traffic: &mut Traffic<'a>, event: &'static str, raised: Raised) {
         self.begin_clearing(traffic, event, true);
         let hold = 2 * self.design().timing().clocks_per_frame();
-        // The same frames, so that attempts differ by a clock alone.
+        // All attempts send the same frames, so they differ in the parity of the clock alone.
         let [first, second] = [self.film().noise(), self.film().noise()];
         for parity in 0..ATTEMPTS {
             self.align(traffic, parity);
@@ -154,10 +158,11 @@ impl<'a> Stage<'a> {
         self.end_clearing(traffic, event, raised);
     }
 
-    /// The sink takes nothing from the last transfer of a frame on, until all waits; so END leaves so many clocks behind that.
+    /// Stops the sink from the last transfer of a frame until all packets wait. The END packet then
+    /// leaves a fixed number of clocks after the sink goes on.
     fn ends(&mut self, traffic: &mut Traffic<'a>) {
         self.begin_clearing(traffic, "frame_done", true);
-        // The same frame, so that the same packets wait.
+        // All attempts send the same frame, so the same packets wait.
         let frame = self.film().quiet();
         traffic.frame(taken(frame.clone()));
         for parity in 0..ATTEMPTS {
@@ -172,13 +177,14 @@ impl<'a> Stage<'a> {
         self.end_clearing(traffic, "frame_done", Raised::Times(ATTEMPTS + 1));
     }
 
-    /// Lets what came before take its course, and waits for a clock of this parity.
+    /// Waits until the effects of the earlier traffic have ended, and then for a clock of this
+    /// parity.
     fn align(&self, traffic: &mut Traffic<'a>, parity: u32) {
         traffic.clocks(u64::from(2 * self.design().region_size()) + 8);
         traffic.align(parity);
     }
 
-    /// A transfer of no frame, or the first of one.
+    /// Sends a transfer that belongs to no whole frame; `sof` marks it as the first of a frame.
     fn nothing(&mut self, traffic: &mut Traffic<'a>, sof: bool) {
         let (design, most) = (self.design(), largest(self.design().pixel_bits()));
         let pixels = vec![most; design.pixels_per_clock() as usize];

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames that come damaged, and what the core must make of them: the table of `docs/axi.md`.
+//! Damaged frames, and the frames that the core must make of them, from the table of `docs/axi.md`.
 
 use super::film::largest;
 use super::traffic::{Traffic, rows};
 use crate::stimulus::Random;
 use foveate_frame::Frame;
 
-/// Rows of a frame that are damaged at once.
+/// The number of random draws of lines to damage in a frame.
 const ROWS: usize = 3;
-/// Transfers that a line has too many, at most.
+/// The largest number of transfers by which a line is too long.
 const MORE: u64 = 8;
 
-/// What may be wrong with a frame.
+/// A kind of damage to a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Damage {
     /// Some lines end early.
@@ -44,7 +44,7 @@ impl Damage {
         Self::NoStart,
     ];
 
-    /// The event that tells of it.
+    /// Returns the event that reports the damage.
     pub(super) fn event(self) -> &'static str {
         match self {
             Self::ShortLines | Self::ShortEnds => "eol_early",
@@ -54,12 +54,13 @@ impl Damage {
         }
     }
 
-    /// Whether the frame counts as repaired.
+    /// Returns true if the core counts the frame as repaired.
     pub(super) fn is_repaired(self) -> bool {
         !matches!(self, Self::Late | Self::NoStart)
     }
 
-    /// Sends a frame with this damage; a whole one must follow. Returns what the array must see of it.
+    /// Sends a frame with this damage; a whole frame must follow. Returns the frame that the array
+    /// must see, or `None` if it sees none.
     pub(super) fn send(
         self,
         traffic: &mut Traffic<'_>,
@@ -103,7 +104,8 @@ impl Damage {
         (self != Self::NoStart).then_some(repaired)
     }
 
-    /// Whether a line is damaged.
+    /// Returns true if a line has this damage. `is_chosen` marks a randomly chosen line, `is_end`
+    /// the first or last line, `is_last` the last line.
     fn in_line(self, is_chosen: bool, is_end: bool, is_last: bool) -> bool {
         match self {
             Self::ShortLines | Self::LongLines => is_chosen,
@@ -114,19 +116,19 @@ impl Damage {
     }
 }
 
-/// A frame whose rows from `from` on are as the one before.
+/// Returns the frame with every row from `from` on replaced by the row before `from`.
 fn copied(mut frame: Frame, from: u32) -> Frame {
     let last = frame.row(from - 1).to_vec();
     (from..frame.height()).for_each(|y| frame.write(0, y, &last));
     frame
 }
 
-/// A line, whether it begins a frame, and whether it ends.
+/// Sends a line. `sof` says that it begins a frame, `eol` that its last transfer is marked.
 fn line(traffic: &mut Traffic<'_>, row: &[u16], (sof, eol): (bool, bool)) {
     cut_at(traffic, traffic.words(), row, (sof, eol));
 }
 
-/// The beginning of a line, and what the core makes of it.
+/// Sends a random part of the beginning of a line. Returns the line that the core makes of it.
 fn cut(
     traffic: &mut Traffic<'_>,
     random: &mut Random,
@@ -153,7 +155,7 @@ fn cut_at(
     kept
 }
 
-/// A line that goes on.
+/// Sends a line that does not end in time, with up to `MORE` transfers too many.
 fn long(traffic: &mut Traffic<'_>, random: &mut Random, row: &[u16], sof: bool) {
     line(traffic, row, (sof, false));
     let more = random.up_to(MORE - 1);
@@ -163,7 +165,7 @@ fn long(traffic: &mut Traffic<'_>, random: &mut Random, row: &[u16], sof: bool) 
     noise(traffic, random, true);
 }
 
-/// A transfer that must be left out.
+/// Sends a transfer that the core must ignore.
 fn noise(traffic: &mut Traffic<'_>, random: &mut Random, eol: bool) {
     let design = traffic.design();
     let pixels: Vec<u16> = (0..design.pixels_per_clock())

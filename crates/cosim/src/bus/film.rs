@@ -1,23 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Frames for the buses: something moves before something still, and now and then all regions are active.
+//! Frames for the buses: a square of noise moves over a still background, and every third frame is
+//! noise, so that all regions are active.
 
 use crate::stimulus::Random;
 use foveate_design::RasterDesign;
 use foveate_frame::Frame;
 
-/// Pixels of a side of what moves, at most.
+/// The largest side of the moving square, in pixels.
 const MOVING: u32 = 16;
-/// Pixels of a side of what stands still and is of one grey level. A region in an odd column is a single tile, and irrelevant.
+/// The side of a background tile of one gray level, in pixels. A region in an odd column shows a
+/// single tile, and is irrelevant.
 const TILE: u32 = 4;
-/// One of so many tiles gets another grey level with each frame, by this at most: means differ by more than a level, and by less.
+/// One in `DRIFTS` tiles changes its gray level with each frame, by `DRIFT` at most. So some means
+/// differ by more than the summary level, and some by less.
 const DRIFTS: u64 = 8;
 const DRIFT: u16 = 24;
-/// One of so many frames is nothing but noise.
+/// One in `NOISE` frames is noise all over.
 const NOISE: u32 = 3;
 
-/// Frames of a design, one after the other.
+/// A source of frames for a design, one after the other.
 pub(super) struct Film {
-    /// Grey levels of the tiles that stand still, row by row.
+    /// The gray levels of the background tiles, row by row.
     tiles: Vec<u16>,
     size: (u32, u32),
     side: u32,
@@ -34,28 +37,29 @@ impl Film {
         let tiles = (0..size.0.div_ceil(TILE) * size.1.div_ceil(TILE))
             .map(|_| random.pixel(largest(bits) / 2))
             .collect();
-        // No change, but with half the level it would be one.
+        // A flicker of this size is no temporal change, but would be one if the level were halved.
         let flicker =
             u16::try_from(design.temporal().level).unwrap_or(u16::MAX).min(largest(bits) / 2);
         Self { tiles, size, side: design.region_size(), bits, number: 0, flicker, random }
     }
 
-    /// The next frame.
+    /// Returns the next frame; every third one is noise.
     pub(super) fn next(&mut self) -> Frame {
         self.shot(self.number % NOISE == NOISE - 1)
     }
 
-    /// The next frame, which is nothing but noise.
+    /// Returns the next frame, which is noise all over.
     pub(super) fn noise(&mut self) -> Frame {
         self.shot(true)
     }
 
-    /// The next frame, with something that moves before something that flickers.
+    /// Returns the next frame, in which a square of noise moves over a flickering background.
     pub(super) fn quiet(&mut self) -> Frame {
         self.shot(false)
     }
 
-    /// The next frame, which flickers as far as it can without the highest bit.
+    /// Returns the next frame, whose background flickers by up to half the largest pixel, which
+    /// sets every bit but the highest.
     pub(super) fn flickering(&mut self) -> Frame {
         let flicker = std::mem::replace(&mut self.flicker, largest(self.bits) / 2);
         let frame = self.quiet();
@@ -76,7 +80,7 @@ impl Film {
         }
     }
 
-    /// What stands still at a place.
+    /// Returns the gray level of the background at a pixel.
     fn still(&self, x: u32, y: u32) -> u16 {
         let start = |at: u32| at / self.side * self.side;
         let is_plain = x / self.side % 2 == 1;
@@ -104,7 +108,7 @@ impl Film {
     }
 }
 
-/// The largest pixel of so many bits.
+/// Returns the largest pixel of `bits` bits.
 pub(super) fn largest(bits: u32) -> u16 {
     u16::try_from((1_u32 << bits) - 1).expect("a pixel has at most 16 bits")
 }

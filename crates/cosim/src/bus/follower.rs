@@ -1,20 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The functional model behind a bus: its thresholds change from frame to frame, and regions that were sent are lost.
+//! The functional model of a core on a bus, whose thresholds change from frame to frame and whose
+//! sent regions may be lost.
 
 use foveate_design::{Camera, Reference};
 use foveate_frame::Frame;
 use foveate_model::{FunctionalCamera, FunctionalOutcome, Remembered};
 use std::collections::BTreeSet;
 
-/// A model that is told what has been lost.
+/// A functional model that takes lost regions and threshold changes into account.
 pub(super) struct Follower<'a> {
-    /// The cameras whose thresholds may hold.
+    /// The cameras that differ in their thresholds alone.
     cameras: &'a [Camera],
     model: FunctionalCamera,
-    /// Which of them it is.
+    /// The index of the current camera among `cameras`.
     camera: usize,
     screen: Option<Frame>,
-    /// Regions of the last frame that were lost.
+    /// The regions of the last frame that were lost.
     lost: BTreeSet<u32>,
 }
 
@@ -29,13 +30,13 @@ impl<'a> Follower<'a> {
         *self = Self::new(self.cameras);
     }
 
-    /// A region of the last frame was lost. It has no reference until it is active again, and the screen shows no summary
-    /// of it (`docs/raster.md`).
+    /// Marks a region of the last frame as lost. It has no `last-sent` reference until it is active
+    /// again, and the screen shows no summary of it (`docs/raster.md`).
     pub(super) fn lose(&mut self, region: u32) {
         self.lost.insert(region);
     }
 
-    /// The model as it stands before the next frame, with the thresholds of this camera.
+    /// Returns the model in its state before the next frame, with the thresholds of `camera`.
     fn with(&self, camera: &Camera) -> FunctionalCamera {
         let Some(screen) = &self.screen else { return FunctionalCamera::new(camera) };
         let remembered = |region: u32| {
@@ -50,13 +51,14 @@ impl<'a> Follower<'a> {
             .expect("cameras differ in thresholds alone")
     }
 
-    /// What the next frame would come to with the thresholds of another camera.
+    /// Returns the outcome that the next frame would have with the thresholds of another camera.
+    /// The state of the follower does not change.
     pub(super) fn instead(&self, frame: &Frame, camera: &Camera) -> FunctionalOutcome {
         let mut other = self.with(camera);
         other.step(frame).expect("frames are of the design").clone()
     }
 
-    /// Takes the next frame, with the thresholds of the camera of this number.
+    /// Processes the next frame with the thresholds of the camera with index `camera`.
     pub(super) fn step(&mut self, frame: &Frame, camera: usize) -> FunctionalOutcome {
         if camera != self.camera || !self.lost.is_empty() {
             self.model = self.with(&self.cameras[camera]);

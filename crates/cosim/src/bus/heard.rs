@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What was heard on the ports of a core, out of the lines of the program.
+//! The recorded activity on the ports of a core, read from the lines that the program prints.
 
 use std::io::BufRead;
 
-/// A packet that has left.
+/// A packet that has left the core.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Parcel {
-    /// The clocks at which its first word was taken, and its last.
+    /// The clock at which the first word was taken; `clock` is the clock of the last word.
     pub(super) first: u64,
     pub(super) clock: u64,
     pub(super) bytes: Vec<u8>,
-    /// Whether its last word was marked; otherwise a reset came first.
+    /// True if the last word was marked with `tlast`; otherwise a reset came first.
     pub(super) is_whole: bool,
 }
 
-/// Something that no core on a bus may do.
+/// A violation of the rules of the buses that the program has found.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Breach {
     pub(super) clock: u64,
@@ -22,38 +22,41 @@ pub(super) struct Breach {
     pub(super) what: String,
 }
 
-/// What was heard between two resets.
+/// The activity between two resets.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Heard {
     /// The first clock after the reset.
     pub(super) start: u64,
     pub(super) parcels: Vec<Parcel>,
-    /// Registers that were read: clock, address and value.
+    /// The registers that were read: clock, address and value.
     pub(super) reads: Vec<(u64, u32, u32)>,
-    /// What was counted on `interrupt_o`.
+    /// The counts of rising edges on `interrupt_o`.
     pub(super) rises: Vec<Rises>,
 }
 
-/// How often `interrupt_o` has gone to 1, counted up to a clock.
+/// The number of rising edges of `interrupt_o`, counted up to a clock.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct Rises {
     pub(super) clock: u64,
     pub(super) count: u64,
-    /// Those at the edge at which a write that clears the event was taken.
+    /// The number of rising edges at a clock edge at which a write that clears the event was taken.
     pub(super) met: u64,
 }
 
-/// All that was heard.
+/// The complete record of a run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct Record {
     pub(super) sessions: Vec<Heard>,
     pub(super) breaches: Vec<Breach>,
-    /// Clocks of the run; nothing if the program ended early.
+    /// The number of clocks of the run; `None` if the program ended early.
     pub(super) clocks: Option<u64>,
 }
 
 impl Record {
-    /// Out of lines; one that is none of the program's is an error.
+    /// Reads a record from the lines of the program.
+    ///
+    /// # Errors
+    /// Fails if a line cannot be read or has another form.
     pub(super) fn read(lines: impl BufRead) -> std::io::Result<Self> {
         let mut record = Self::default();
         for line in lines.lines() {

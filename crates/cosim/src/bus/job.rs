@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A run of a core on its buses, from the scenes to a report.
+//! A run of a core on its buses, from the scenes to the report.
 
 use super::check::{Agreed, Checker};
 use super::heard::Record;
@@ -27,56 +27,58 @@ use std::io::BufReader;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Name of the scene with the frames of the caller.
+/// The name of the scene that plays the frames of the caller.
 const FRAMES: &str = "frames of the inputs";
 
 /// A core on AXI to run in Verilator.
 #[derive(Clone, Debug)]
 pub struct BusJob {
-    /// The design, which is on a bus.
+    /// The design; its core is on AXI.
     pub design: Design,
-    /// The Verilog: what the emitter makes of the design, or what a user made of that.
+    /// The Verilog: the files that the emitter makes of the design, or an edited version of them.
     pub sources: Vec<SourceFile>,
-    /// What the names of its modules begin with.
+    /// The prefix of the module names.
     pub prefix: Prefix,
-    /// Seed of all that is random.
+    /// The seed of all random data.
     pub seed: u64,
-    /// How often the directed scenes are played, each time with other data; 0 leaves only the frames.
+    /// The number of times that the directed scenes are played, each time with other data. With 0
+    /// only the frames are played.
     pub rounds: u32,
-    /// Frames of the caller, of the size and depth of the design. They come after the scenes, and none of them may be lost.
+    /// The frames of the caller, of the size and depth of the design. They come after the scenes,
+    /// and none of them may be lost.
     pub frames: Vec<Frame>,
-    /// A file for the packets that leave of the frames.
+    /// The file for the packets of the scene with the frames.
     pub packets: Option<PathBuf>,
-    /// Whether to write waves of a scene that fails.
+    /// True if waves of a failing scene are written.
     pub trace: bool,
-    /// The folder for what a failing run leaves.
+    /// The folder for the replay of a failing run.
     pub output: PathBuf,
-    /// The longest that the simulation of a scene may take.
+    /// The longest time that the simulation of a scene may take.
     pub limit: Duration,
 }
 
-/// The program of a job and what it was made from.
+/// The built program of a job, and the sources that it was made from.
 struct Built {
     top: String,
     sources: Vec<Source>,
     program: String,
     executable: PathBuf,
-    /// Version of Verilator.
+    /// The version of Verilator.
     version: String,
 }
 
-/// What all scenes came to.
+/// The combined result of all scenes.
 #[derive(Default)]
 struct Outcome {
     clocks: u64,
     agreed: Agreed,
     facts: BusFacts,
     mismatch: Option<Mismatch>,
-    /// The folder that replays it.
+    /// The folder that replays the mismatch.
     replay: Option<PathBuf>,
 }
 
-/// What a scene came to.
+/// The result of one scene.
 struct Played {
     record: Record,
     heard: PathBuf,
@@ -84,7 +86,8 @@ struct Played {
 }
 
 impl BusJob {
-    /// A job with the Verilog that the emitter makes; none if the design is not on a bus.
+    /// Returns a job with the Verilog that the emitter makes, or `None` if the core of the design
+    /// is not on a bus.
     #[must_use]
     pub fn new(design: &Design, output: &Path) -> Option<Self> {
         Some(Self {
@@ -101,26 +104,26 @@ impl BusJob {
         })
     }
 
-    /// Name for people.
+    /// Returns the name of the job for people.
     #[must_use]
     pub fn name(&self) -> String {
         format!("axi {}", Simulator::Verilator)
     }
 
-    /// The module that is simulated.
+    /// Returns the name of the simulated module.
     #[must_use]
     pub fn top(&self) -> String {
         self.prefix.name(AXI_TOP)
     }
 
-    /// Runs it to a report; a mismatch is a result and no error.
+    /// Runs the job and returns its report. A mismatch is a result and not an error.
     ///
     /// # Errors
-    /// When there is no result: a tool is missing or fails, a frame does not fit, a folder cannot be written, or the
-    /// toolchain's flag has stopped it.
+    /// Fails if there is no result: a tool is missing or fails, a frame does not fit, a folder
+    /// cannot be written, or the toolchain's flag has stopped the run.
     ///
     /// # Panics
-    /// When the design is not on a bus.
+    /// Panics if the core of the design is not on a bus.
     pub fn run(
         &self,
         toolchain: &Toolchain,
@@ -157,7 +160,7 @@ impl BusJob {
         let checker = Checker::new(design, &cameras, &registers, &missed);
         let Outcome { clocks, agreed, facts, mismatch, replay } =
             self.play_all(&built, &scenes, &checker, toolchain)?;
-        // Who asks for nothing but frames does not ask for situations.
+        // A caller that asks for frames alone does not ask for situations.
         let situations = match self.rounds {
             0 => Occurrences::default(),
             _ => {
@@ -252,7 +255,7 @@ impl BusJob {
         Ok(Built { top, sources, program, executable, version })
     }
 
-    /// Plays one scene after the other, up to one that is not as the model says.
+    /// Plays the scenes in order, up to the first one with a mismatch.
     fn play_all(
         &self,
         built: &Built,
@@ -282,7 +285,7 @@ impl BusJob {
         Ok(outcome)
     }
 
-    /// Leaves a folder that plays a scene again.
+    /// Writes the replay folder of a failing scene.
     fn leave(
         &self,
         built: &Built,
@@ -339,7 +342,7 @@ impl BusJob {
         Ok(Played { record, heard, waves: self.trace.then_some(waves) })
     }
 
-    /// Writes the packets of a run, one behind the other.
+    /// Writes the packets of a run to the file, in order.
     fn keep_packets(&self, record: &Record) -> Result<(), CosimError> {
         let Some(file) = &self.packets else { return Ok(()) };
         let parcels = record.sessions.iter().flat_map(|heard| &heard.parcels);

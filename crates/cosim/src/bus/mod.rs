@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A core on AXI against the model: video goes in as `docs/axi.md` allows it, damaged video and stalls included, and every packet
-//! that leaves must say what the functional model says.
+//! Compares a core on AXI with the model. Video goes in as `docs/axi.md` allows it, with damaged
+//! frames and stalls, and every packet that leaves must say what the functional model says.
 //!
-//! A [`BusJob`] plays [`scenes`], each a [`Traffic`](traffic::Traffic) through Verilator. What was [`heard`] on the ports is
-//! [`checked`](check) packet by packet. When packets leave is not compared, as no contract says it; that they come whole,
-//! in order and once is.
+//! A [`BusJob`] plays [`scenes`], each a [`Traffic`](traffic::Traffic), in Verilator. The recorded
+//! port activity ([`heard`]) is [checked](check) packet by packet. The clock at which a packet
+//! leaves is not compared, because no contract defines it. Each packet must leave whole, in order
+//! and once.
 
 mod check;
 mod clears;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The program that drives the buses: C++ around what Verilator makes of the Verilog.
+//! The C++ program that drives the buses of the model that Verilator makes of the Verilog.
 
 use crate::harness::rendered;
 use askama::Template;
@@ -13,7 +13,7 @@ struct Program<'a> {
     has_store: bool,
 }
 
-/// Its source for module `top`.
+/// Returns the source of the program for the module `top`.
 pub(super) fn program(top: &str, design: RasterDesign<'_>) -> String {
     let bits = (design.pixels_per_clock() * design.pixel_bits()).next_multiple_of(8);
     let has_store = design.frames_are_kept_outside();

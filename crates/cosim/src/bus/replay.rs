@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folder that a failing run on the buses leaves.
+//! The replay folder of a failing run on the buses.
 
 use crate::error::CosimError;
 use crate::harness::rendered;
@@ -30,13 +30,14 @@ struct Readme<'a> {
     fingerprint: &'a str,
 }
 
-/// What a failing run leaves.
+/// The contents of a replay folder.
 pub(super) struct Replay<'a> {
     pub(super) top: &'a str,
     pub(super) sources: &'a [Source],
     pub(super) program: &'a str,
     pub(super) traffic: &'a str,
-    /// All that was heard, and waves if they were asked for.
+    /// The file with the recorded port activity; `waves` is the file with waves, if they were asked
+    /// for.
     pub(super) heard: &'a Path,
     pub(super) waves: Option<&'a Path>,
     pub(super) mismatch: &'a Mismatch,
@@ -46,7 +47,7 @@ pub(super) struct Replay<'a> {
 }
 
 impl Replay<'_> {
-    /// Writes the folder; an earlier one makes way.
+    /// Writes the folder in place of an earlier one.
     pub(super) fn write(&self, folder: &Path) -> Result<PathBuf, CosimError> {
         let staged = StagedFolder::new(folder, REPLAY, true)?;
         self.fill(staged.folder()).map_err(|error| error.named(&staged))?;

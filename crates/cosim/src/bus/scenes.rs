@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is tried on the buses of a core. Every scene is played in a run of its own.
+//! The directed scenes on the buses of a core. Every scene is played in a run of its own.
 
 use super::check::TICK_RATE;
 use super::damage::Damage;
@@ -10,28 +10,29 @@ use foveate_design::{Camera, Design, RasterDesign};
 use foveate_emit::{Kind, Register};
 use foveate_frame::Frame;
 
-/// Clocks that a scene may take, roughly.
+/// The approximate number of clocks that a scene may take.
 const CLOCKS: u64 = 4_000_000;
-/// Strobes that write nothing, and those of the lowest byte.
+/// The strobes that write no byte; `LOWEST` writes the lowest byte.
 const NONE: u32 = 0;
 const LOWEST: u32 = 1;
 const ALL: u32 = super::traffic::ALL;
-/// The place behind the last register.
+/// The last word address; no register is there.
 const END: u32 = 0xFFC;
-/// Accesses of a storm.
+/// The number of accesses in a storm.
 const STORM: usize = 60;
-/// Resets among accesses, and the clocks after which one comes at the latest: an access is under way, or its answer waits.
+/// The number of resets among accesses. Each comes at most `ACCESSES` clocks after the accesses,
+/// while one is under way or its answer waits.
 const RESETS: u64 = 40;
 const ACCESSES: u64 = 14;
 
-/// A scene: its name, and what happens.
+/// A scene: its name and its traffic.
 pub(super) type Scene<'a> = (&'static str, Traffic<'a>);
 
-/// All that scenes are made of.
+/// The builder of the scenes of a core.
 pub(super) struct Stage<'a> {
     design: RasterDesign<'a>,
     registers: &'a [Register],
-    /// Registers of the same core with other thresholds, where it can have them.
+    /// The registers of the same core with other thresholds; empty if thresholds are constants.
     others: &'a [Vec<Register>],
     random: Random,
     film: Film,
@@ -49,7 +50,7 @@ impl<'a> Stage<'a> {
         Self { design, registers, others, random, film }
     }
 
-    /// The scenes that every core must pass.
+    /// Returns the scenes that every core must pass.
     pub(super) fn scenes(&mut self) -> Vec<Scene<'a>> {
         vec![
             ("video", self.video()),
@@ -74,7 +75,7 @@ impl<'a> Stage<'a> {
         &mut self.film
     }
 
-    /// Frames of the caller, none of which may be lost.
+    /// Sends the frames of the caller, none of which may be lost.
     pub(super) fn frames(&mut self, frames: &[Frame]) -> Traffic<'a> {
         let mut traffic = self.waiting();
         frames.iter().for_each(|frame| traffic.frame(taken(frame.clone())));
@@ -94,7 +95,7 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// No gaps: a core that cannot send all regions at this rate drops some.
+    /// Sends frames without gaps. A core that cannot send all regions at this rate drops some.
     fn full_rate(&mut self) -> Traffic<'a> {
         let mut traffic = self.waiting();
         traffic.gaps(0);
@@ -124,7 +125,7 @@ impl<'a> Stage<'a> {
     fn damaged(&mut self) -> Traffic<'a> {
         let mut traffic = self.waiting();
         if !self.is_fast() {
-            // What is missing comes without gaps.
+            // The transfers that the core adds in place of missing ones come without gaps.
             traffic.may_drop();
         }
         traffic.frame(taken(self.film.next()));
@@ -144,11 +145,13 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// The sink takes nothing for some frames. Without `wait` frames are skipped, with it their source waits.
+    /// Stops the sink for some frames. Without `wait` frames are skipped, with `wait` their source
+    /// waits.
     fn stopped_sink(&mut self) -> Traffic<'a> {
         let frame = self.design.timing().clocks_per_frame();
         let mut traffic = Traffic::new(self.design);
-        // From reset on, longer than three frames: the first waits, and no source waits for it.
+        // The sink takes nothing from reset on, for longer than three frames. The first frame
+        // waits, and no source waits for it.
         traffic.reset();
         traffic.may_drop();
         traffic.hold(5 * frame + 2000);
@@ -166,12 +169,12 @@ impl<'a> Stage<'a> {
         }
         traffic.write(self.address("control"), self.control_bits(&["enable", "wait"]));
         traffic.hold(2 * frame);
-        // One that waited for its turn before may still be skipped.
+        // A frame that came before `wait` was written may still be skipped.
         traffic.frame(either(self.film.next()));
         for _ in 0..2 {
             traffic.frame(taken(self.film.next()));
         }
-        // A restart forgets references, and counts on.
+        // A restart forgets the references, and the counters go on.
         traffic.drain();
         traffic.write(self.address("control"), self.control_bits(&["enable", "wait", "restart"]));
         traffic.frame(Sent { first: true, ..taken(self.film.next()) });
@@ -180,10 +183,10 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// One row of regions leaves, the next two wait until both are decided: none is dropped.
+    /// One row of regions leaves while the next two wait until both are decided; none is dropped.
     fn two_rows_wait(&mut self, traffic: &mut Traffic<'a>) {
         let (side, line) = (self.design.region_size(), traffic.words() as u64);
-        // With more pixels at a clock the next row comes while the packets of these still leave.
+        // With more pixels per clock the next row comes while the packets of this one still leave.
         if self.design.height() < 4 * side || self.design.pixels_per_clock() > 1 {
             return;
         }
@@ -195,7 +198,7 @@ impl<'a> Stage<'a> {
         self.end(traffic, 0);
     }
 
-    /// Thresholds, `restart` and `enable` while frames come.
+    /// Writes thresholds, `restart` and `enable` while frames come.
     fn control(&mut self) -> Traffic<'a> {
         let control = self.address("control");
         let mut traffic = self.waiting();
@@ -206,7 +209,7 @@ impl<'a> Stage<'a> {
         let next = |film: &mut Film| Sent { camera, ..taken(film.next()) };
         traffic.frame(next(&mut self.film));
         traffic.frame(next(&mut self.film));
-        // A restart within a frame waits for its end.
+        // A restart that is written within a frame waits for the end of the frame.
         let restart = self.control_bits(&["enable", "wait", "restart"]);
         let (status, waits) = (self.address("status"), self.status_bits(&["busy", "restarting"]));
         traffic.frame_around(next(&mut self.film), middle, |traffic| {
@@ -216,7 +219,7 @@ impl<'a> Stage<'a> {
         });
         traffic.frame(Sent { first: true, ..next(&mut self.film) });
         traffic.frame(next(&mut self.film));
-        // Frames that come while the core is not enabled are left out, and no others.
+        // Only frames that come while the core is not enabled are left out.
         let disabled = self.control_bits(&["wait"]);
         traffic.frame_around(next(&mut self.film), middle, |traffic| {
             traffic.write(control, disabled);
@@ -236,19 +239,21 @@ impl<'a> Stage<'a> {
         for _ in 0..2 {
             traffic.frame(Sent { camera, ..taken(self.film.next()) });
         }
-        // Every pixel changes by less than the highest bit of a level, and many by more than the others.
+        // Every pixel changes by less than the highest bit of the level, and many change by more
+        // than the other levels.
         let camera = self.thresholds(&mut traffic, middle, camera, 2);
         for _ in 0..2 {
             traffic.frame(Sent { camera, ..taken(self.film.flickering()) });
         }
         self.end(&mut traffic, 0);
-        // Those that were left out have come, too.
+        // The register also counts the frames that were left out.
         traffic.read(self.address("frames"), Answer::Is(traffic.frames_that_came()));
         traffic.join();
         traffic
     }
 
-    /// Thresholds that come and go within a frame, while its first regions are decided: they change nothing.
+    /// Writes other thresholds within a frame, while its first regions are decided, and restores
+    /// them before its end. They must change nothing.
     fn passing_thresholds(&mut self, traffic: &mut Traffic<'a>) {
         let own: Vec<(u32, u32)> = self.registers.iter().filter_map(threshold).collect();
         let lines = [1, (self.design.region_size() + 3).min(self.design.height())];
@@ -259,7 +264,7 @@ impl<'a> Stage<'a> {
         });
     }
 
-    /// Frames of noise; within each, other thresholds are written for the next.
+    /// Sends frames of noise, and within each frame writes the thresholds of the next.
     fn every_threshold(&mut self) -> Traffic<'a> {
         let mut traffic = self.waiting();
         let middle = self.design.height() / 2;
@@ -275,8 +280,9 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// Writes thresholds within a frame, which hold from the next one on: those of camera `to`, where there are two. Returns the
-    /// number of the camera of the next frame.
+    /// Writes the thresholds of camera `to` within a frame; they hold from the next frame on.
+    /// Returns the index of the camera of the next frame, which is `from` if there is no camera
+    /// `to`.
     fn thresholds(
         &mut self,
         traffic: &mut Traffic<'a>,
@@ -294,7 +300,8 @@ impl<'a> Stage<'a> {
         to
     }
 
-    /// Resets at any time: within a frame, while packets leave, while a word waits for the sink, and within a packet.
+    /// Resets the core at any time: within a frame, while packets leave, while a word waits for the
+    /// sink, and within a packet.
     fn resets(&mut self) -> Traffic<'a> {
         let mut traffic = self.waiting();
         let (side, height) = (self.design.region_size(), self.design.height());
@@ -326,7 +333,8 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// Resets of one clock among reads and writes: none is answered afterwards, and no register keeps what was written.
+    /// Resets the core for one clock among reads and writes. No access is answered afterwards, and
+    /// no register keeps what was written.
     fn resets_of_registers(&mut self) -> Traffic<'a> {
         let mut traffic = Traffic::new(self.design);
         traffic.reset();
@@ -344,7 +352,7 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// One of the registers.
+    /// Returns a random register.
     fn any(&mut self) -> &'a Register {
         &self.registers[self.random.index(self.registers.len() - 1)]
     }
@@ -368,7 +376,7 @@ impl<'a> Stage<'a> {
         traffic
     }
 
-    /// Every byte of what can be written, alone and beside others.
+    /// Writes every register with several combinations of byte strobes.
     fn strobes(&mut self, traffic: &mut Traffic<'a>) {
         for register in self.registers {
             let mut value = after_reset(register);
@@ -390,7 +398,7 @@ impl<'a> Stage<'a> {
         traffic.join();
     }
 
-    /// Places without a register read as 0, whatever is written.
+    /// Checks that addresses without a register read as 0, also after a write.
     fn nothing_there(&mut self, traffic: &mut Traffic<'a>) {
         let is_there = |address| self.registers.iter().any(|register| register.address == address);
         let last = self.registers.last().map_or(0, |register| register.address);
@@ -404,7 +412,7 @@ impl<'a> Stage<'a> {
         traffic.join();
     }
 
-    /// Events are set, enabled and taken back one by one.
+    /// Sets, enables and clears the events one by one.
     fn interrupts(&mut self, traffic: &mut Traffic<'a>) {
         let [events, enable, test] =
             ["events", "interrupt_enable", "interrupt_test"].map(|name| self.address(name));
@@ -437,7 +445,7 @@ impl<'a> Stage<'a> {
         traffic.write(enable, 0);
     }
 
-    /// Reads and writes at the same time, and while a frame passes.
+    /// Reads and writes at the same time, also while a frame passes.
     fn storm(&mut self, traffic: &mut Traffic<'a>) {
         let [identity, enable] = ["identity", "interrupt_enable"].map(|name| self.address(name));
         let identity_value = after_reset(self.register("identity"));
@@ -453,12 +461,13 @@ impl<'a> Stage<'a> {
         traffic.join();
         traffic.in_order(true);
         traffic.write(enable, 0);
-        // None of the words was a restart.
+        // None of the written words was a restart.
         traffic.frame(taken(self.film.next()));
         self.end(traffic, 0);
     }
 
-    /// A core that was reset, whose source waits where it must, with gaps that let all regions leave.
+    /// Begins traffic for a core that was reset. Its source waits when it must, with gaps that let
+    /// all regions leave.
     fn waiting(&mut self) -> Traffic<'a> {
         let mut traffic = Traffic::new(self.design);
         self.begin_waiting(&mut traffic);
@@ -476,7 +485,7 @@ impl<'a> Stage<'a> {
         traffic.write(self.address("control"), self.control_bits(&["enable", "wait"]));
     }
 
-    /// All packets leave, and the counters say what has happened.
+    /// Waits until all packets have left, and checks the counters and events.
     fn end(&mut self, traffic: &mut Traffic<'a>, events: u32) {
         traffic.drain();
         traffic.read(self.address("skipped"), Answer::Skipped);
@@ -485,31 +494,32 @@ impl<'a> Stage<'a> {
         traffic.join();
     }
 
-    /// Gaps, in percent, with which no region is lost: its packet leaves while the pixels of another come.
+    /// Returns the gaps, in percent, with which no region is lost, because its packet leaves while
+    /// the pixels of another region come.
     fn pace(&self) -> u32 {
         let clocks = self.packet_words() * 4 + 1;
         let share = 100 * self.region_clocks() / (clocks + clocks / 2);
         100_u32.saturating_sub(share).clamp(25, 95)
     }
 
-    /// Whether all regions can leave without gaps between the words of the video.
+    /// Returns true if all regions can leave without gaps between the words of the video.
     fn is_fast(&self) -> bool {
         let clocks = self.packet_words() * 2 + 1;
         self.region_clocks() > clocks + clocks / 4
     }
 
-    /// Words of a REGION with pixels.
+    /// Returns the number of words of a REGION packet with pixels.
     fn packet_words(&self) -> u32 {
         let lane = if self.design.pixel_bits() <= 8 { 8 } else { 16 };
         (self.design.region_size().pow(2) * lane).div_ceil(64) + 2
     }
 
-    /// Clocks in which the pixels of a region come.
+    /// Returns the number of clocks in which the pixels of a region come.
     fn region_clocks(&self) -> u32 {
         self.design.region_size().pow(2) / self.design.pixels_per_clock()
     }
 
-    /// Frames of a scene.
+    /// Returns the number of frames of a scene.
     fn count(&self) -> u32 {
         let frames = CLOCKS / self.design.timing().clocks_per_frame().max(1);
         u32::try_from(frames.clamp(3, 7)).unwrap_or(3)
@@ -537,18 +547,18 @@ impl<'a> Stage<'a> {
     }
 }
 
-/// A frame that must leave.
+/// Returns a frame that must be taken, with the thresholds of the design.
 pub(super) fn taken(frame: Frame) -> Sent {
     Sent { frame, fate: Fate::Taken, first: false, camera: 0 }
 }
 
-/// These fields of a register, each of one bit.
+/// Returns the bits of the named fields of a register, each of which has one bit.
 fn bits(register: &Register, names: &[&str]) -> u32 {
     let named = register.fields.iter().filter(|field| names.contains(&field.name.as_str()));
     named.fold(0, |bits, field| bits | 1 << field.low)
 }
 
-/// What a register reads as after a reset.
+/// Returns the value of a register after a reset.
 fn after_reset(register: &Register) -> u32 {
     register.fields.iter().fold(0, |value, field| {
         let own = match field.kind {
@@ -562,7 +572,7 @@ fn after_reset(register: &Register) -> u32 {
     })
 }
 
-/// The bits of a register that keep what is written.
+/// Returns the mask of the register bits that keep a written value.
 fn writable(register: &Register) -> u32 {
     register.fields.iter().fold(0, |mask, field| match field.kind {
         Kind::Control { .. } | Kind::Threshold { .. } => {
@@ -572,14 +582,14 @@ fn writable(register: &Register) -> u32 {
     })
 }
 
-/// Address and value of a register that holds a threshold.
+/// Returns the address and the reset value of a register that holds a threshold.
 fn threshold(register: &Register) -> Option<(u32, u32)> {
     let is_one = |kind: &Kind| matches!(kind, Kind::Threshold { .. });
     let has = register.fields.iter().any(|field| is_one(&field.kind));
     has.then(|| (register.address, after_reset(register)))
 }
 
-/// The cameras whose decisions may be asked for: the design's, and those with other thresholds.
+/// Returns the cameras of the design and of the designs with other thresholds, in this order.
 pub(super) fn cameras(design: &Design, others: &[Design]) -> Vec<Camera> {
     let camera = |design: &Design| Camera::clone(design);
     std::iter::once(design).chain(others).map(camera).collect()

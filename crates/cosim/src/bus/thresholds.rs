@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds that are written while frames come: other values of each, and which of them decide.
+//! Thresholds that are written while frames come: other values for each of them, and sequences in
+//! which each decides.
 
 use foveate_design::{Camera, Combine, Config, Decimal, Design, FeatureKind, Thresholds};
 
 /// One threshold of a design.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ThresholdKey {
-    /// The level of a feature: its place among those of the camera.
+    /// The level of the feature with this index among those of the camera.
     Level(usize),
-    /// The minimum of a feature.
+    /// The minimum score of the feature with this index.
     MinScore(usize),
     TemporalLevel,
     TemporalMinCount,
@@ -16,7 +17,7 @@ pub(super) enum ThresholdKey {
 }
 
 impl ThresholdKey {
-    /// All that a design has.
+    /// Returns all thresholds of a design.
     pub(super) fn all_of(design: &Design) -> Vec<Self> {
         let features = design.features().iter().enumerate();
         let of_features = features.flat_map(|(place, feature)| {
@@ -27,7 +28,7 @@ impl ThresholdKey {
         of_features.chain([Self::TemporalLevel, Self::TemporalMinCount]).chain(summary).collect()
     }
 
-    /// The name of its register.
+    /// Returns the name of the register that holds the threshold.
     pub(super) fn register(self, design: &Design) -> String {
         let feature = |place: usize| -> FeatureKind { design.features()[place].kind() };
         match self {
@@ -39,7 +40,7 @@ impl ThresholdKey {
         }
     }
 
-    /// Takes this threshold over from another configuration.
+    /// Copies this threshold from one configuration to another.
     fn copy(self, from: &Config, to: &mut Config) {
         let (from, to) = (&from.camera, &mut to.camera);
         match self {
@@ -52,8 +53,8 @@ impl ThresholdKey {
     }
 }
 
-/// The design with other thresholds: lower levels, and one with the highest bit of a temporal level. None where thresholds are
-/// constants.
+/// Returns the design with other thresholds: once with a lower temporal level, once with a temporal
+/// level whose highest bit is set. Returns an empty list if thresholds are constants.
 pub(super) fn with_other_thresholds(design: &Design) -> Vec<Design> {
     match design.thresholds() {
         Thresholds::Constant => return Vec::new(),
@@ -65,14 +66,15 @@ pub(super) fn with_other_thresholds(design: &Design) -> Vec<Design> {
     [lower, highest].into_iter().map(|level| with_level(design, level)).collect()
 }
 
-/// The design with that level of change, and other thresholds. Each register has another value, or nobody would see whether it
-/// is taken over; one that no other value fits stays.
+/// Returns the design with the temporal level `level` and with another value in every other
+/// threshold register, or no check could see whether the register is taken over. A threshold keeps
+/// its value if the other value is not valid.
 fn with_level(design: &Design, level: u32) -> Design {
     let mut wanted = design.config();
     let most = (1_u32 << design.pixel_bits()) - 1;
     let other_level = |level: u32| match level {
         0 => 1,
-        // Of noise, some regions are relevant by each level and each minimum.
+        // Noise has relevant regions at every level and every minimum.
         _ if level <= most / 2 => 2 * level,
         _ => level / 2,
     };
@@ -93,8 +95,9 @@ fn with_level(design: &Design, level: u32) -> Design {
     })
 }
 
-/// Thresholds of frames of noise, one frame each, so that every threshold decides once: it alone differs from those of the frame
-/// before, and everything depends on it.
+/// Returns thresholds for a sequence of noise frames, one set for each frame. Every threshold
+/// decides once: it alone differs from the thresholds of the frame before, and all decisions depend
+/// on it.
 pub(super) fn sweep(design: &Design) -> Vec<Design> {
     match design.thresholds() {
         Thresholds::Constant => return Vec::new(),
@@ -117,7 +120,8 @@ pub(super) fn sweep(design: &Design) -> Vec<Design> {
     configs.into_iter().filter_map(|config| config.validate().ok()).collect()
 }
 
-/// Every region is active, whatever it shows, and no mean differs by enough.
+/// Returns a configuration with which every region is active whatever it shows, and no mean differs
+/// by more than the level.
 fn all_active(design: &Design) -> Config {
     let (mut config, most) = (design.config(), design.pixel_max());
     config.camera.spatial.iter_mut().for_each(|one| one.min_score = Some(Decimal::whole(0)));
@@ -127,7 +131,7 @@ fn all_active(design: &Design) -> Config {
     config
 }
 
-/// The feature of this place never votes: its level and its minimum are the largest.
+/// Sets the level and the minimum of a feature to their largest values, so that it never votes.
 fn never_votes(design: &Design, config: &mut Config, place: usize) {
     let most = config.camera.spatial[place].level.map(|_| largest_level(design, place));
     let feature = &mut config.camera.spatial[place];
@@ -135,7 +139,7 @@ fn never_votes(design: &Design, config: &mut Config, place: usize) {
     feature.min_score = Some(design.features()[place].largest_min_score());
 }
 
-/// The largest level that the feature of this place may have.
+/// Returns the largest valid level of a feature.
 fn largest_level(design: &Design, place: usize) -> u32 {
     let is_valid = |level: &u32| {
         let mut config = design.config();
@@ -150,7 +154,8 @@ fn largest_level(design: &Design, place: usize) -> u32 {
     low
 }
 
-/// The feature of this place alone decides what is relevant: nothing, all by its minimum, nothing, and all by its level.
+/// Returns configurations in which the feature with index `place` alone decides which regions are
+/// relevant: none, all by its minimum, none, and all by its level.
 fn sweep_of_feature(design: &Design, all_active: &Config, place: usize) -> Vec<Config> {
     let mut alone = all_active.clone();
     match design.combine() {
@@ -176,7 +181,8 @@ fn sweep_of_feature(design: &Design, all_active: &Config, place: usize) -> Vec<C
     configs
 }
 
-/// What has changed alone decides: nothing by the minimum, and all by the level.
+/// Returns configurations in which the temporal score alone decides: none are active by the
+/// minimum, and all by the level.
 fn sweep_of_time(design: &Design, all_active: &Config) -> [Config; 3] {
     let with = |min_count, level| {
         let mut config = all_active.clone();
@@ -188,7 +194,8 @@ fn sweep_of_time(design: &Design, all_active: &Config) -> [Config; 3] {
     [with(pixels, most), with(pixels / 2, most), with(pixels / 2, Some(0))]
 }
 
-/// A threshold of which some designs have different values: what they would be if it had not been taken over.
+/// A threshold with different values in some designs, for the question what a frame would come to
+/// if the register had not been taken over.
 pub(super) struct Missed<'a> {
     pub(super) register: String,
     key: ThresholdKey,
@@ -208,7 +215,8 @@ impl<'a> Missed<'a> {
         ThresholdKey::all_of(&designs[0]).into_iter().filter(differs).map(of).collect()
     }
 
-    /// The camera `now`, but for the threshold of the one `before`, if that is another.
+    /// Returns the camera of design `now` with this threshold of design `before`, or `None` if the
+    /// two values are equal or the mix is not valid.
     pub(super) fn camera(&self, now: usize, before: usize) -> Option<Camera> {
         let own = self.designs[now].config();
         let mut mixed = own.clone();
@@ -222,7 +230,7 @@ impl<'a> Missed<'a> {
 mod tests {
     use super::*;
 
-    /// The thresholds of which two designs have different values.
+    /// Returns the thresholds that differ between two designs.
     fn different(design: &Design, before: &Design) -> Vec<ThresholdKey> {
         let differs = |key: &ThresholdKey| {
             let mut mixed = design.config();

@@ -1,81 +1,84 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What happens on the buses of a core, in order, and what must come of it.
+//! The traffic on the buses of a core, in order, with the results that it must have.
 
 use foveate_design::RasterDesign;
 use foveate_frame::Frame;
 use std::fmt::Write as _;
 use std::ops::Range;
 
-/// Strobes of all bytes of a register.
+/// The strobes of all four bytes of a register.
 pub(super) const ALL: u32 = 0xF;
 
-/// Whether a frame reaches the array.
+/// The expected treatment of a frame by the core.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Fate {
-    /// It must.
+    /// The frame must reach the array.
     Taken,
-    /// It must not.
+    /// The frame must not reach the array.
     LeftOut,
-    /// It may be skipped, because the sink stalls.
+    /// The frame may be skipped, because the sink stalls.
     Either,
-    /// It must be skipped, because packets of the one before wait.
+    /// The frame must be skipped, because packets of the frame before it wait.
     Skipped,
-    /// A reset comes while it is under way.
+    /// A reset comes while the frame is sent.
     Cut,
 }
 
-/// A frame that was sent, as the core repairs it.
+/// A frame that was sent, in the form to which the core repairs it.
 #[derive(Clone, Debug)]
 pub(super) struct Sent {
     pub(super) frame: Frame,
     pub(super) fate: Fate,
-    /// The core has forgotten all frames before.
+    /// True if the core has forgotten all frames before this one.
     pub(super) first: bool,
-    /// Which thresholds hold: a number among the cameras.
+    /// The index of the camera whose thresholds hold for the frame.
     pub(super) camera: usize,
 }
 
-/// What a register must read as.
+/// The expected value of a register.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Answer {
-    /// This.
+    /// The given value.
     Is(u32),
-    /// How many frames were skipped since reset.
+    /// The number of frames skipped since reset.
     Skipped,
-    /// How many regions were dropped since reset.
+    /// The number of regions dropped since reset.
     Dropped,
-    /// These events, and those of skipped frames and dropped packets if there were some.
+    /// The given event bits, and the bits of skipped frames and of dropped regions and rows if
+    /// there were any.
     Events(u32),
 }
 
-/// How often an event must have raised `interrupt_o` while it was cleared without end.
+/// The expected number of rising edges of `interrupt_o` while an event is cleared again and again.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Raised {
-    /// So often.
+    /// The given number.
     Times(u32),
-    /// With every frame that was skipped.
+    /// One for every skipped frame.
     Skipped,
-    /// With every row that was dropped.
+    /// One for every dropped row.
     DroppedRows,
-    /// At least once if a region was dropped, and at most with each: two that follow each other at once raise it once.
+    /// At least one if a region was dropped, and at most one for each dropped region; two drops at
+    /// successive clocks raise the interrupt once.
     DroppedRegions,
 }
 
-/// What happens between two resets.
+/// The traffic between two resets.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Session {
     pub(super) sent: Vec<Sent>,
-    /// Registers that are read, in order.
+    /// The registers that are read, in order, with their expected values.
     pub(super) answers: Vec<(u32, Answer)>,
-    /// Events that are cleared without end, in order, and how often each must be seen all the same.
+    /// The events that are cleared again and again, in order, with the expected number of times
+    /// that each is seen.
     pub(super) raised: Vec<(&'static str, Raised)>,
-    /// Whether packets must leave without a dropped region or row.
+    /// True if packets must leave without a dropped region or row.
     pub(super) is_lossless: bool,
-    /// Whether no row may be dropped.
+    /// True if no row may be dropped.
     pub(super) keeps_rows: bool,
 }
 
-/// What happens, as lines for the program, and what must come of it.
+/// The traffic as lines for the program, with the expected results.
 #[derive(Clone, Debug)]
 pub(super) struct Traffic<'a> {
     design: RasterDesign<'a>,
@@ -84,7 +87,7 @@ pub(super) struct Traffic<'a> {
 }
 
 impl<'a> Traffic<'a> {
-    /// Nothing yet. It begins with a reset.
+    /// Creates empty traffic. The first entry must be a reset.
     pub(super) fn new(design: RasterDesign<'a>) -> Self {
         Self { design, text: String::new(), sessions: Vec::new() }
     }
@@ -101,17 +104,17 @@ impl<'a> Traffic<'a> {
         &self.sessions
     }
 
-    /// Transfers of a line.
+    /// Returns the number of transfers of a line.
     pub(super) fn words(&self) -> usize {
         self.design.width().div_ceil(self.design.pixels_per_clock()) as usize
     }
 
-    /// Resets the core.
+    /// Resets the core for four clocks.
     pub(super) fn reset(&mut self) {
         self.reset_for(4);
     }
 
-    /// Resets the core for so many clocks.
+    /// Resets the core for `clocks` clocks.
     pub(super) fn reset_for(&mut self, clocks: u64) {
         let patience = 8 * self.design.timing().clocks_per_frame() + 100_000;
         self.line(&format!("patience {patience:x}"));
@@ -119,28 +122,29 @@ impl<'a> Traffic<'a> {
         self.sessions.push(Session { is_lossless: true, ..Session::default() });
     }
 
-    /// Regions may be dropped from now on: the sink stalls, or is too slow for all regions at full rate.
+    /// Allows dropped regions and rows from now on, because the sink stalls, or is too slow for all
+    /// regions at full rate.
     pub(super) fn may_drop(&mut self) {
         self.session().is_lossless = false;
     }
 
-    /// Regions may be dropped from now on, and no rows.
+    /// Allows dropped regions from now on, but no dropped rows.
     pub(super) fn may_drop_regions(&mut self) {
         self.may_drop();
         self.session().keeps_rows = true;
     }
 
-    /// How often nothing is offered, in percent.
+    /// Sets the share of clocks at which the source offers nothing, in percent.
     pub(super) fn gaps(&mut self, percent: u32) {
         self.line(&format!("gaps {percent:x}"));
     }
 
-    /// How often nothing is taken, in percent.
+    /// Sets the share of clocks at which the sink takes nothing, in percent.
     pub(super) fn stalls(&mut self, percent: u32) {
         self.line(&format!("stalls {percent:x}"));
     }
 
-    /// Takes no packet for so many clocks.
+    /// Stops the sink for `clocks` clocks.
     pub(super) fn hold(&mut self, clocks: u64) {
         self.line(&format!("hold {clocks:x}"));
     }
@@ -155,31 +159,32 @@ impl<'a> Traffic<'a> {
         self.line(&format!("idle {clocks:x}"));
     }
 
-    /// Clocks behind which no packet follows that has not begun before.
+    /// Returns the number of clocks without a packet after which no new packet follows.
     pub(super) fn drain_clocks(&self) -> u64 {
         let (side, columns) =
             (u64::from(self.design.region_size()), u64::from(self.design.columns()));
         (2 * side + 8) * columns * side + 2000
     }
 
-    /// Writes a register, and waits until that is done.
+    /// Writes a register, and waits until the write is done.
     pub(super) fn write(&mut self, address: u32, value: u32) {
         self.write_bytes(address, value, ALL);
         self.line("join");
     }
 
-    /// Writes some bytes of a register, and goes on at once.
+    /// Writes some bytes of a register without waiting.
     pub(super) fn write_bytes(&mut self, address: u32, value: u32, strobes: u32) {
         self.line(&format!("write {address:x} {value:x} {strobes:x}"));
     }
 
-    /// Reads a register, and goes on at once.
+    /// Reads a register without waiting, and expects `answer`.
     pub(super) fn read(&mut self, address: u32, answer: Answer) {
         self.ask(address);
         self.session().answers.push((address, answer));
     }
 
-    /// Reads a register, and goes on at once; a reset may come before the answer.
+    /// Reads a register without waiting and without an expected value; a reset may come before the
+    /// answer.
     pub(super) fn ask(&mut self, address: u32) {
         self.line(&format!("read {address:x}"));
     }
@@ -189,22 +194,22 @@ impl<'a> Traffic<'a> {
         self.line("join");
     }
 
-    /// Whether reads and writes wait for each other, and for the answers to those before them.
+    /// Sets whether reads and writes wait for each other, and for the answers to earlier ones.
     pub(super) fn in_order(&mut self, yes: bool) {
         self.line(if yes { "apart 0" } else { "apart 1" });
     }
 
-    /// `interrupt_o` must be this now.
+    /// Checks that `interrupt_o` has the given value now.
     pub(super) fn interrupt(&mut self, is: bool) {
         self.line(if is { "interrupt 1" } else { "interrupt 0" });
     }
 
-    /// Writes this to a register again and again from now on; what else is written waits.
+    /// Writes a value to a register again and again from now on; other writes wait.
     pub(super) fn clear(&mut self, address: u32, value: u32) {
         self.line(&format!("clear {address:x} {value:x}"));
     }
 
-    /// Writes it no more, and counts how often the event was seen.
+    /// Stops the repeated write, and expects the number of times that the event was seen.
     pub(super) fn count_raised(&mut self, event: &'static str, raised: Raised) {
         self.line("clear 0 0");
         self.line("join");
@@ -212,12 +217,12 @@ impl<'a> Traffic<'a> {
         self.session().raised.push((event, raised));
     }
 
-    /// Waits until a word of a packet has been taken, and not its last.
+    /// Waits until a word of a packet has been taken that is not its last.
     pub(super) fn within_a_packet(&mut self) {
         self.line("within");
     }
 
-    /// Frames since the last reset, whatever became of them.
+    /// Returns the number of frames since the last reset, with skipped and damaged ones.
     pub(super) fn frames_that_came(&self) -> u32 {
         let sent = self.sessions.last().map_or(0, |session| session.sent.len());
         u32::try_from(sent).unwrap_or(u32::MAX)
@@ -228,23 +233,23 @@ impl<'a> Traffic<'a> {
         self.line(&format!("align {}", parity % 2));
     }
 
-    /// A frame that is expected, whatever its pixels are sent as.
+    /// Adds a frame to the expected frames without sending transfers.
     pub(super) fn expect(&mut self, sent: Sent) {
         self.session().sent.push(sent);
     }
 
-    /// A whole frame.
+    /// Sends a whole frame.
     pub(super) fn frame(&mut self, sent: Sent) {
         self.lines(&sent.frame, 0..sent.frame.height());
         self.expect(sent);
     }
 
-    /// A whole frame; before the line `at` something else happens.
+    /// Sends a whole frame, and calls `inside` before the line `at`.
     pub(super) fn frame_around(&mut self, sent: Sent, at: u32, inside: impl FnMut(&mut Self)) {
         self.frame_around_each(sent, [at], inside);
     }
 
-    /// A whole frame; before each of these lines something else happens.
+    /// Sends a whole frame, and calls `inside` before each of the given lines.
     pub(super) fn frame_around_each<const COUNT: usize>(
         &mut self,
         sent: Sent,
@@ -261,7 +266,7 @@ impl<'a> Traffic<'a> {
         self.expect(sent);
     }
 
-    /// The first lines of a frame; the rest never comes.
+    /// Sends only the first lines of a frame.
     pub(super) fn torn_frame(&mut self, sent: Sent, lines: u32) {
         self.lines(&sent.frame, 0..lines);
         self.expect(sent);
@@ -276,12 +281,12 @@ impl<'a> Traffic<'a> {
         }
     }
 
-    /// The pixels of a line, by transfer.
+    /// Returns the pixels of a line, transfer by transfer.
     pub(super) fn split<'r>(&self, row: &'r [u16]) -> impl Iterator<Item = &'r [u16]> + use<'r> {
         row.chunks(self.design.pixels_per_clock() as usize)
     }
 
-    /// A transfer: whether it is the first of a frame, and the last of a line.
+    /// Sends a transfer; `sof` marks the first of a frame, `eol` the last of a line.
     pub(super) fn beat(&mut self, sof: bool, eol: bool, pixels: &[u16]) {
         let bits = self.design.pixel_bits();
         let flags = u8::from(sof) | u8::from(eol) << 1;
@@ -300,7 +305,7 @@ impl<'a> Traffic<'a> {
     }
 }
 
-/// The rows of a frame.
+/// Returns the rows of a frame.
 pub(super) fn rows(frame: &Frame) -> impl Iterator<Item = &[u16]> {
     (0..frame.height()).map(|y| frame.row(y))
 }

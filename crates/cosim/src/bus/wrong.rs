@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The first thing that is wrong on the buses, as a mismatch.
+//! The first difference on the buses, as a mismatch.
 
 use super::heard::Breach;
 use crate::mismatch::{Mismatch, PortMismatch};
@@ -8,22 +8,22 @@ use std::fmt::LowerHex;
 /// The port on which packets leave.
 pub(super) const PACKETS: &str = "m_axis_packets";
 
-/// Something that is not as it must be.
+/// A difference between what a core showed on its buses and what it had to show.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) struct Wrong {
     pub(super) clock: u64,
-    /// Number of the frame in its packets.
+    /// The number of the frame in its packets.
     pub(super) frame: u64,
     pub(super) region: Option<u32>,
     pub(super) port: String,
-    /// What it is about.
+    /// The subject of the comparison, in words.
     pub(super) at: String,
     pub(super) expected: String,
     pub(super) got: String,
 }
 
 impl Wrong {
-    /// A number on the port of the packets.
+    /// Makes a difference between two numbers on the packet port.
     pub(super) fn number(
         at: impl Into<String>,
         expected: impl LowerHex,
@@ -40,7 +40,8 @@ impl Wrong {
         }
     }
 
-    /// Something that must not be there, or must: 1 is yes, 0 no.
+    /// Makes a difference about something that is missing (`must` is true) or must not be there
+    /// (`must` is false); the numbers are 1 for present and 0 for absent.
     pub(super) fn presence(at: impl Into<String>, must: bool) -> Self {
         Self::number(at, u8::from(must), u8::from(!must))
     }
@@ -49,7 +50,7 @@ impl Wrong {
         Self { region: Some(region), ..self }
     }
 
-    /// As a mismatch of the scene of this name.
+    /// Converts the difference to a mismatch of the scene `scene`.
     pub(super) fn mismatch(self, scene: &str) -> Mismatch {
         let Self { clock, frame, region, port, at, expected, got } = self;
         let one = PortMismatch {
