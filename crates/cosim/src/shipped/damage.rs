@@ -1,31 +1,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a bench does to a stream whose frames are found again: an error of each kind, and whole frames behind it.
+//! The damage that a bench does to a stream of frames for hardware with `sync`: one error of each
+//! kind, and whole frames behind it.
 
-/// Frames that are delivered.
+/// The number of frames that are delivered.
 pub(super) const DAMAGED: usize = Delivery::ALL.len();
 
-/// What comes of a frame.
+/// The part of a frame that is delivered.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Delivery {
-    /// Its last beat alone, which is no first one.
+    /// Only the last beat, without a start mark.
     Stray,
-    /// All of it.
+    /// All beats.
     Whole,
-    /// All but its last beats.
+    /// All but the last beats.
     Short,
-    /// All of it, and a beat of no frame.
+    /// All beats, and one beat that belongs to no frame.
     Long,
 }
 
-/// Beats that a short frame lacks.
+/// The number of beats that a short frame lacks.
 const LACKED: usize = 3;
 
 impl Delivery {
-    /// Frame by frame. The one behind the short one comes too early, and is dropped.
+    /// The delivery of each frame, in order. The frame behind the short one comes too early, and is
+    /// dropped.
     pub(super) const ALL: [Self; 6] =
         [Self::Stray, Self::Whole, Self::Short, Self::Whole, Self::Long, Self::Whole];
 
-    /// The beats that come, and whether each is marked as the first of a frame.
+    /// Returns the beats to deliver, each with its start-of-frame mark.
     pub(super) fn of<'a>(self, beats: &'a [Vec<u16>], stray: &'a [u16]) -> Vec<(bool, &'a [u16])> {
         let count = beats.len();
         let (from, to) = match self {

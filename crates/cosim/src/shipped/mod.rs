@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The benches that come with a generated core: one of `rpu`, one of `rcm`, each with vectors that show
-//! regions of every kind.
+//! The benches that come with a generated core: one of `rpu` and one of `rcm`, each with vectors
+//! that contain active, held and blank regions.
 //!
-//! An array of copies of `rpu` is replayed as a small [`grid`] of them, any other whole. The [`script`] chooses frames that
-//! lead to active, held and blank regions under the thresholds of the design; the [`tally`] counts what
-//! the vectors then hold, so that a bench which does not show everything never says `PASS`.
+//! An array of copies of `rpu` is replayed as a small [`grid`] of copies, any other array whole.
+//! The [`script`] chooses frames that lead to active, held and blank regions under the thresholds
+//! of the design. The [`tally`] counts what the vectors contain, and a bench whose vectors miss
+//! something never prints `PASS`.
 
 mod damage;
 mod grid;
@@ -31,35 +32,35 @@ use tape::Tape;
 
 pub use tally::{Losses, VectorTally};
 
-/// Clocks of the longest vectors. Verilator needs a quarter of an hour for them.
+/// The largest number of clocks of vectors. Verilator needs a quarter of an hour for them.
 const MAX_CLOCKS: u64 = 1 << 31;
-/// Decisions of the largest vectors: each takes a few lines.
+/// The largest number of decisions in vectors; each decision takes a few lines.
 const MAX_DECISIONS: u64 = 1 << 18;
 
-/// The bench of one module of a core, and what its vectors show.
+/// The bench of one module of a core, with a count of what its vectors contain.
 #[derive(Clone, Debug)]
 pub struct ShippedBench {
-    /// The module.
+    /// The module that the bench tests.
     pub top: Top,
-    /// Regions side by side and one below the other; the core's own grid, or a smaller one.
+    /// The columns and rows of regions: the core's own grid, or a smaller one.
     pub grid: (u32, u32),
-    /// What the vectors show.
+    /// The counts of what the vectors contain.
     pub tally: VectorTally,
-    /// Clocks of the vectors.
+    /// The number of clocks of the vectors.
     pub clocks: u64,
-    /// What the vectors should show and do not, in words; the bench then never says `PASS`.
+    /// What the vectors should contain and do not, in words; the bench then never prints `PASS`.
     pub shortcoming: Option<String>,
-    /// What no vectors of this design can show, in words: it follows from its configuration.
+    /// What no vectors of this design can contain because of its configuration, in words.
     pub remarks: Vec<String>,
-    /// The bench and its vectors, below the folder of the core.
+    /// The bench and its vectors; the paths are relative to the folder of the core.
     pub files: [SourceFile; 2],
 }
 
 impl ShippedBench {
-    /// What the benches of a core simulate between them.
+    /// Returns the levels that the benches of a core simulate together.
     ///
     /// # Errors
-    /// When no grid stands for that of the design.
+    /// Fails if no small grid can stand for the grid of the design.
     pub fn levels(design: &Design) -> Result<Vec<Level>, CosimError> {
         let array = grid::part(design, Top::Rcm)?;
         let (columns, rows) = (array.columns(), array.rows());
@@ -72,11 +73,12 @@ impl ShippedBench {
         Ok(Top::all_of(design).iter().map(level).collect())
     }
 
-    /// Plays the frames that show everything to the model of `top`, and makes a bench of it for a core whose
-    /// names begin with `prefix`. Equal designs give equal files.
+    /// Plays the frames of the script to the model of `top`, and makes a bench for a core whose
+    /// module names begin with `prefix`. Equal designs give equal files.
     ///
     /// # Errors
-    /// When the model refuses the design's grid, or `cancel` is set; [`CosimError::is_interrupted`] tells.
+    /// Fails if the model refuses the design's grid, or if `cancel` is set;
+    /// [`CosimError::is_interrupted`] tells the two apart.
     pub fn new(
         design: &Design,
         top: Top,
@@ -136,12 +138,12 @@ impl ShippedBench {
     }
 }
 
-/// Vectors, and what they show.
+/// The vectors, with a count of what they contain.
 struct Take {
     tally: VectorTally,
     clocks: u64,
     vectors: String,
-    /// Whether there are any: not where they would be too long.
+    /// False if the vectors would be too long and are left out.
     is_played: bool,
 }
 
@@ -164,13 +166,13 @@ impl Take {
     }
 }
 
-/// Whether somebody takes the pixels that leave, and may stall.
+/// Returns true if a sink takes the pixels that leave, and may stall.
 fn has_sink(design: &Design) -> bool {
     let interface = design.rcm_interface();
     interface.stream(StreamRole::Forwarded).is_some_and(|stream| stream.ready.is_some())
 }
 
-/// Whether the frames of a bench are few enough clocks and lines.
+/// Returns true if the frames of a bench take few enough clocks and lines.
 fn is_short(part: &Design) -> bool {
     let clocks = FRAMES.saturating_mul(part.timing().clocks_per_frame());
     clocks <= MAX_CLOCKS && FRAMES * u64::from(part.regions()) <= MAX_DECISIONS

@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pictures of one region, among which every feature finds much, and one in which it finds nothing.
+//! Test pictures of one region: patterns in which every feature finds much, and one in which it
+//! finds nothing.
 
 use crate::stimulus::Random;
 
-/// A way to fill a square.
+/// A pattern that fills a square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum TestPattern {
     /// Independent random pixels.
     Noise,
-    /// Random squares of 2x2 pixels, which a median leaves.
+    /// Random squares of 2x2 pixels, which a median filter keeps.
     Blocks,
-    /// Random extremes.
+    /// Pixels that are randomly 0 or the largest pixel.
     Binary,
-    /// Squares of `0` pixels a side, alternately dark and bright.
+    /// Squares of `.0` pixels a side, alternately dark and bright.
     Checkers(usize),
-    /// Dark and bright columns of that width.
+    /// Dark and bright columns, each `.0` pixels wide.
     Columns(usize),
-    /// Dark and bright rows of that height.
+    /// Dark and bright rows, each `.0` pixels high.
     Rows(usize),
-    /// Bright squares of the first size, the second apart.
+    /// Bright squares of `.0` pixels a side, with a period of `.1` pixels.
     Dots(usize, usize),
-    /// The left half dark, the right half bright: the largest deviations.
+    /// A dark left half and a bright right half, which give the largest deviations.
     Halves,
-    /// One quadrant bright.
+    /// One bright quadrant.
     Quadrant,
-    /// Brighter from pixel to pixel.
+    /// A ramp that becomes brighter from the upper left to the lower right corner.
     Ramp,
-    /// One level.
+    /// A single gray level.
     Flat,
 }
 
-/// Those with something in them, the richest in different values first.
+/// The patterns with some structure; those with the most different values come first.
 pub(super) const TEXTURES: &[TestPattern] = &[
     TestPattern::Noise,
     TestPattern::Blocks,
@@ -51,7 +52,8 @@ pub(super) const TEXTURES: &[TestPattern] = &[
 ];
 
 impl TestPattern {
-    /// The picture as `side` x `side` pixels up to `max`, row by row; `is_negative` swaps dark and bright.
+    /// Returns the pattern as `side` x `side` pixels up to `max`, row by row; `is_negative` swaps
+    /// dark and bright.
     pub(crate) fn draw(
         self,
         side: usize,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Plays a script to the cycle-level model, clock by clock, and records it.
+//! The player of a script: it drives the cycle-level model clock by clock, and records the result.
 
 use super::damage::Delivery;
 use super::rig::Rig;
@@ -12,33 +12,35 @@ use foveate_model::{CoreInput, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Pixels of a frame that a reset forgets.
+/// The number of pixels of a frame that a reset discards.
 const FORGOTTEN: usize = 3;
-/// Every so many pixels comes one clock later; of long frames fewer, because a pause takes two lines.
+/// The period of pauses, in beats. Long frames have fewer pauses, because a pause takes two lines
+/// of the vectors.
 const PAUSE_EVERY: usize = 29;
 const PAUSE_EVERY_OF_MANY: usize = 997;
 const MANY_BEATS: usize = 20_000;
-/// Clocks after a frame at which pixels are offered that an array at work must not take.
+/// The number of clocks after a frame at which pixels are offered that a busy array must not take.
 const REFUSED: usize = 3;
 
-/// Clocks between two frames in which no window has flushed: the smallest has four pixels.
+/// The number of clocks between two frames after which no window has flushed: the smallest window
+/// has four pixels.
 const WITHIN_A_FLUSH: u64 = 2;
-/// Clocks that a word waits for a hesitant sink.
+/// The number of clocks that a word waits for a hesitant sink.
 const HESITATION: u32 = 2;
-/// Clocks after which nobody waits any more for something to leave.
+/// The largest number of clocks to wait for a pixel or mean to leave.
 const MOST_WAITING: usize = 1 << 20;
 
-/// Plays scripts.
+/// A player of scripts.
 pub(super) struct Player<'a> {
     rig: Rig<'a>,
     tape: &'a mut Tape,
     cancel: &'a AtomicBool,
-    /// What is at the pixel port while it shows nothing of use.
+    /// The pixels at the port while they mean nothing.
     garbage: Vec<u16>,
     sink: SinkMood,
-    /// Clocks that a word has waited for a hesitant sink.
+    /// The number of clocks that a word has waited for a hesitant sink.
     waited: u32,
-    /// Whether a frame waits for the sink, which must then not stall between frames.
+    /// True if a frame waits for the sink, which must then not stall between frames.
     waits: bool,
 }
 
@@ -63,7 +65,7 @@ impl<'a> Player<'a> {
         }
     }
 
-    /// Plays all sequences. The first begins twice: a reset forgets what was under way.
+    /// Plays all sequences. The first sequence begins twice: a reset discards the first attempt.
     pub(super) fn play(&mut self, script: &Script) -> Result<(), CosimError> {
         for (number, sequence) in script.sequences.iter().enumerate() {
             let Some(first) = sequence.shots.first() else { continue };
@@ -81,7 +83,7 @@ impl<'a> Player<'a> {
         Ok(())
     }
 
-    /// Frames that come damaged, and the whole ones behind them.
+    /// Plays damaged frames, and the whole frames behind them.
     fn damaged(&mut self, shots: &[Shot]) -> Result<(), CosimError> {
         let (Some(first), Some(last)) = (shots.first(), shots.last()) else { return Ok(()) };
         self.sink = SinkMood::Willing;
@@ -114,7 +116,8 @@ impl<'a> Player<'a> {
                 // A decision is made with the thresholds of its own clock.
                 let is_new = before.thresholds != shot.thresholds;
                 self.settle(&before.thresholds, is_new || number % 3 == 0)?;
-                // By turns a frame follows at once, and while windows flush.
+                // In turn, a frame follows at once, after everything has settled, and while windows
+                // flush.
                 if number % 3 == 2 {
                     self.idle(WITHIN_A_FLUSH, &before.thresholds)?;
                 }
@@ -132,7 +135,7 @@ impl<'a> Player<'a> {
         }
     }
 
-    /// Frames up to the first pixel that leaves.
+    /// Plays frames up to the first pixel that leaves.
     fn until_leaving(&mut self, shots: &[Shot]) -> Result<(), CosimError> {
         for shot in shots {
             self.sink = shot.sink;
@@ -146,11 +149,12 @@ impl<'a> Player<'a> {
         shots.last().map_or(Ok(()), |last| self.until(last, false))
     }
 
-    /// Goes on until a pixel leaves, or a mean; where that needs another frame, the same one comes again. Never for long.
+    /// Continues until a pixel or a mean leaves, for `MOST_WAITING` clocks at most. If that needs
+    /// another frame, the same one is played again.
     fn until(&mut self, last: &Shot, is_mean: bool) -> Result<(), CosimError> {
         let (beats, thresholds) = (self.rig.beats(&last.frame), &last.thresholds);
         let frames = self.rig.frames_behind();
-        // A core that says when it is ready has sent everything then.
+        // A core with a `ready` output has sent everything by the time it is ready.
         if frames > 0 {
             self.settle(thresholds, true)?;
         }
@@ -180,7 +184,7 @@ impl<'a> Player<'a> {
         Ok(())
     }
 
-    /// A pixel, as soon as it is taken; `sof` marks the first of a frame.
+    /// Plays one beat as soon as the core takes it; `sof` marks the first beat of a frame.
     fn beat(
         &mut self,
         pixels: &[u16],
@@ -191,8 +195,8 @@ impl<'a> Player<'a> {
         self.clock(&CoreInput { sof, ..CoreInput::valid(pixels, thresholds) })
     }
 
-    /// Between two frames: what must be done is done, pixels that are offered meanwhile are refused; with
-    /// `is_long` everything is decided before it goes on.
+    /// Plays the time between two frames. Pixels that are offered while the core is busy are
+    /// refused. With `is_long` everything is decided before the next frame.
     fn settle(&mut self, thresholds: &Thresholds, is_long: bool) -> Result<(), CosimError> {
         if self.waits && self.sink == SinkMood::Losing {
             self.sink = SinkMood::Willing;
@@ -210,7 +214,7 @@ impl<'a> Player<'a> {
         Ok(())
     }
 
-    /// Lets everything leave.
+    /// Waits until all pixels have left.
     fn drain(&mut self, last: &Shot) -> Result<(), CosimError> {
         self.settle(&last.thresholds, true)?;
         let beats = self.rig.beats(&last.frame);
@@ -221,7 +225,7 @@ impl<'a> Player<'a> {
         self.idle(2, &last.thresholds)
     }
 
-    /// Lets clocks pass until a pixel is taken.
+    /// Waits until a pixel can be taken.
     fn wait(&mut self, thresholds: &Thresholds) -> Result<(), CosimError> {
         while !self.rig.is_ready() {
             match self.rig.quiet_clocks() {
@@ -235,7 +239,7 @@ impl<'a> Player<'a> {
     fn idle(&mut self, clocks: u64, thresholds: &Thresholds) -> Result<(), CosimError> {
         let garbage = self.garbage.clone();
         for _ in 0..clocks {
-            // A mark without a pixel means nothing.
+            // A start mark without a valid pixel means nothing.
             self.clock(&CoreInput { sof: true, ..CoreInput::idle(&garbage, thresholds) })?;
         }
         Ok(())
@@ -255,7 +259,7 @@ impl<'a> Player<'a> {
         self.tape.push(1)
     }
 
-    /// Whether a word has waited long enough.
+    /// Returns true if a word has waited long enough.
     fn takes_at_last(&mut self) -> bool {
         self.waited = if self.rig.sends() { self.waited + 1 } else { 0 };
         let takes = self.waited > HESITATION;

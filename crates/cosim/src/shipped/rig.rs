@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The model of a core in the middle of what surrounds it, as benches and diagrams play it.
+//! The model of a core with its surroundings, for benches and diagrams.
 
 use super::surroundings::{Outside, Stalling};
 use crate::codec::Codec;
@@ -10,10 +10,10 @@ use foveate_emit::Top;
 use foveate_frame::Frame;
 use foveate_model::{CoreInput, CycleModel, rcm, rpu};
 
-/// The only region of an array of one is at the frame's border on all sides.
+/// The border mask of the only region of a 1x1 array: it touches the frame's border on all sides.
 const ALL_SIDES: u8 = 0b1111;
 
-/// The model, its frame store outside where it has one, and its values in records.
+/// The model of a core, with its external frame store if it has one, and a codec for its ports.
 pub(crate) struct Rig<'a> {
     core: Box<dyn CycleModel>,
     codec: Codec,
@@ -25,13 +25,13 @@ pub(crate) struct Rig<'a> {
     tells_means: bool,
 }
 
-/// What comes after a frame.
+/// The time that a core needs after a frame.
 #[derive(Clone, Copy, Debug)]
 struct Tail {
-    /// Clocks after the last pixel of a frame until everything has been decided that does not wait for another
-    /// frame; more where the core is ready again before.
+    /// The number of clocks after the last pixel of a frame until everything is decided that does
+    /// not wait for another frame. A core that is ready earlier may need more clocks.
     settling_clocks: u64,
-    /// Frames that must follow before the pixels of a frame have left.
+    /// The number of frames that must follow before the pixels of a frame have left.
     frames_behind: u32,
 }
 
@@ -71,17 +71,17 @@ impl<'a> Rig<'a> {
         }
     }
 
-    /// Pixels that the port takes at once.
+    /// Returns the number of pixels that the port takes in one beat.
     pub(crate) fn width(&self) -> usize {
         self.feed.width()
     }
 
-    /// What the pixel port takes of a frame, one after the other.
+    /// Returns the beats of a frame for the pixel port, in order.
     pub(crate) fn beats(&self, frame: &Frame) -> Vec<Vec<u16>> {
         self.feed.beats(frame, || 0)
     }
 
-    /// One edge.
+    /// Simulates one clock edge.
     pub(crate) fn clock(&mut self, input: &CoreInput<'_>, record: &mut Record) {
         let input = CoreInput { border: ALL_SIDES, ..*input };
         let (reference_valid, word) = match &mut self.outside {
@@ -96,7 +96,8 @@ impl<'a> Rig<'a> {
         self.record(&input, record);
     }
 
-    /// As many edges without a pixel as [`Rig::quiet_clocks`] says, at once.
+    /// Simulates the number of edges that [`Rig::quiet_clocks`] returns, without a pixel, in one
+    /// step.
     pub(crate) fn skip(&mut self, input: &CoreInput<'_>, record: &mut Record) {
         self.core.skip_quiet_clocks();
         self.record(input, record);
@@ -107,49 +108,50 @@ impl<'a> Rig<'a> {
         self.codec.outputs(&record.outputs, &*self.core, &mut record.expected);
     }
 
-    /// For how many clocks without a pixel the outputs stay as they are.
+    /// Returns the number of clocks without a pixel during which the outputs do not change.
     pub(crate) fn quiet_clocks(&self) -> u64 {
         self.core.quiet_clocks()
     }
 
-    /// Whether a pixel is taken.
+    /// Returns true if a pixel can be taken.
     pub(crate) fn is_ready(&self) -> bool {
         self.core.is_ready()
     }
 
-    /// Whether a pixel leaves, or a mean.
+    /// Returns true if a pixel or a mean leaves.
     pub(crate) fn sends(&self) -> bool {
         self.has_pixels && self.core.is_high(PortRole::ForwardValid)
     }
 
-    /// Whether the ports tell means from pixels.
+    /// Returns true if the ports distinguish means from pixels.
     pub(crate) fn tells_means(&self) -> bool {
         self.tells_means
     }
 
-    /// Whether a mean leaves, where the ports tell.
+    /// Returns true if a mean leaves and the ports distinguish means from pixels.
     pub(crate) fn sends_mean(&self) -> bool {
         self.sends() && self.tells_means && self.core.is_high(PortRole::ForwardSummary)
     }
 
-    /// Clocks after the last pixel of a frame until everything has been decided that does not wait for another
-    /// frame; more where the core is ready again before.
+    /// Returns the number of clocks after the last pixel of a frame until everything is decided
+    /// that does not wait for another frame. A core that is ready earlier may need more clocks.
     pub(crate) fn settling_clocks(&self) -> u64 {
         self.tail.settling_clocks
     }
 
-    /// Whether a sink that stalls is ready at the next edge: at some, where that tells more of what is lost.
+    /// Returns true if the stalling sink is ready at the next edge. It chooses the edges so that
+    /// regions are lost in several ways.
     pub(crate) fn takes_while_stalling(&mut self) -> bool {
         self.sink.next(&*self.core)
     }
 
-    /// Frames that must follow before the pixels of a frame have left.
+    /// Returns the number of frames that must follow before the pixels of a frame have left.
     pub(crate) fn frames_behind(&self) -> u32 {
         self.tail.frames_behind
     }
 }
 
-/// What goes in and what comes out at one clock, as bytes.
+/// The inputs and outputs of one clock, as bytes.
 pub(crate) struct Record {
     pub(crate) inputs: Layout,
     pub(crate) outputs: Layout,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which frames a bench shows: pictures that the design finds relevant, the same again, others, and
-//! nothing, so that regions become active, are held, and are blanked.
+//! The choice of the frames of a bench: pictures that the design finds relevant, the same ones
+//! again, other ones, and flat ones, so that regions become active, are held, and are blanked.
 
 use super::damage::DAMAGED;
 use super::has_sink;
@@ -12,90 +12,94 @@ use foveate_frame::Frame;
 use foveate_model::Thresholds;
 use std::ops::RangeInclusive;
 
-/// Frames that every script has; those of few clocks have more.
+/// The number of frames that every script has; scripts with short frames have more.
 pub(super) const FRAMES: u64 = 5;
-/// Pixels of all regions of a frame that show more than one level.
+/// The largest number of pixels in those regions of a frame that show more than one level.
 const MAX_DRAWN: u32 = 16_384;
-/// Pixels of such regions, and clocks of a frame, up to which frames near the thresholds follow.
+/// The limits for frames near the thresholds: the pixels of drawn regions, and the clocks of a
+/// frame.
 const FEW_PIXELS: usize = 4_096;
 const FEW_CLOCKS: u64 = 20_000;
-/// What the frames near the thresholds begin with.
+/// The motifs of the frames near the thresholds.
 const NEAR: [Motif; 4] = [Motif::Bump, Motif::Noise, Motif::Smooth, Motif::Bump];
-/// Frames that go beyond the borders of regions.
+/// The number of frames whose shapes cross the borders of regions.
 const WIDE_FRAMES: u32 = 8;
-/// Regions from which a frame has a ground that differs from place to place: a word that is stored or read at a
-/// wrong place then shows, wherever that is.
+/// The number of regions from which on a frame has a varying ground. A word that is stored or read
+/// at a wrong place then shows wherever that is.
 const MANY_REGIONS: u32 = 256;
-/// Regions of such a frame for each that shows something.
+/// The number of regions of such a frame for each drawn region.
 const REGIONS_PER_ACTOR: u32 = 64;
-/// Blocks of the ground side by side, and the levels that they have.
+/// The number of blocks of the ground in each direction; `GROUND_LEVELS` is the number of their
+/// levels.
 const GROUND_BLOCKS: u32 = 8;
 const GROUND_LEVELS: u32 = 4;
-/// How often a picture is drawn anew before another is tried.
+/// The number of times that a pattern is drawn anew before the next pattern is tried.
 const TRIALS: usize = 2;
 
-/// Where the reset that begins the next sequence finds the core.
+/// The state of the core at the reset that begins the next sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Ending {
-    /// Everything has left.
+    /// All pixels have left.
     Drained,
-    /// A pixel, or a mean, is leaving.
+    /// A pixel or a mean is leaving.
     Leaving,
-    /// A mean is leaving, where the ports tell.
+    /// A mean is leaving, if the ports distinguish means from pixels.
     MeanLeaving,
 }
 
-/// What a sink does meanwhile, where there is one.
+/// The behavior of the sink, if the core has one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum SinkMood {
-    /// It takes everything.
+    /// The sink takes every word at once.
     Willing,
-    /// It takes nothing for so long that regions are lost.
+    /// The sink takes nothing for so long that regions are lost.
     Losing,
-    /// It lets every word wait for some clocks.
+    /// The sink lets every word wait for some clocks.
     Hesitant,
 }
 
-/// Frames behind a reset.
+/// The frames between two resets.
 pub(super) struct ShotSequence {
     pub(super) shots: Vec<Shot>,
     pub(super) ending: Ending,
 }
 
-/// Frames, each with its thresholds.
+/// The sequences of frames of a bench.
 pub(super) struct Script {
-    /// Sequences; each begins with a reset.
+    /// The sequences; each begins with a reset.
     pub(super) sequences: Vec<ShotSequence>,
-    /// What comes damaged to hardware that finds its frames again; see [`super::damage`].
+    /// The frames that are delivered damaged to hardware with `sync`; see [`super::damage`].
     pub(super) damaged: Vec<Shot>,
 }
 
-/// A frame with the thresholds that are applied meanwhile.
+/// A frame with the thresholds and the sink that apply to it.
 pub(super) struct Shot {
     pub(super) frame: Frame,
     pub(super) thresholds: Thresholds,
     pub(super) sink: SinkMood,
 }
 
-/// Thresholds under which there is something relevant, and those under which nothing is.
+/// Two sets of thresholds: with `usual` some regions are relevant, with `blank` a flat region is
+/// not.
 #[derive(Clone, Copy)]
 struct ThresholdPair {
     usual: Thresholds,
     blank: Thresholds,
 }
 
-/// One region that shows something, with what it shows in turn.
+/// A region with structure, and the pictures that it shows in turn.
 struct Actor {
     first: Vec<u16>,
     other: Vec<u16>,
     last: Vec<u16>,
-    /// The scores of the other picture, and its changes against the first.
+    /// The scores of `other`; `changes` is the number of pixels in which it differs from `first`.
     scores: Vec<u64>,
     changes: u32,
 }
 
 impl Actor {
-    /// Minima that the other picture meets exactly, or misses by as much as `more` if the ports reach as far.
+    /// Returns minima that `other` meets exactly (`more` is 0), or misses by `more` if the ports
+    /// are wide enough.
     fn exact(&self, part: &Design, usual: &Thresholds, more: u32) -> Thresholds {
         let mut exact = *usual;
         let scores = self.scores.iter().zip(part.features());
@@ -110,8 +114,9 @@ impl Actor {
 }
 
 impl Script {
-    /// The frames for a design: `part` is one region or lane alone, or an array. With `is_wide` come frames
-    /// that go beyond the borders of regions, for regions so small that their neighbors' pixels decide.
+    /// Returns the frames for `part`, which is one region or lane, or an array. With `is_wide` some
+    /// frames have shapes that cross the borders of regions. They are for regions so small that
+    /// their neighbors' pixels decide.
     pub(super) fn of(part: &Design, is_wide: bool) -> Self {
         let (mut studio, mut random) = (Studio::new(part), Random::new(1));
         let pair = threshold_pair(part, &mut studio, &mut random);
@@ -139,7 +144,8 @@ impl Script {
         let mut with_means = Vec::new();
         if let Some(periphery) = part.periphery() {
             let level = periphery.level;
-            // Levels of regions side by side differ, or a mean could stand for another; not where their pixels would be seen.
+            // The levels of adjacent regions differ, or a mean could be mistaken for another one.
+            // They are equal if regions see the pixels of their neighbors.
             let apart = match part.neighborhood() {
                 Neighborhood::Isolated => 2 * level + 3,
                 Neighborhood::Shared => 0,
@@ -153,8 +159,8 @@ impl Script {
             let active = |turn| shot(turn, pair.usual, &|_, actor| actor.first.clone());
             let last = || shot(2, pair.usual, &|_, actor| actor.last.clone());
             let never = |of| Thresholds { temporal_min_count: most_changes(part), ..of };
-            // Means that are sent, stay twice, and are sent again as soon as the level lets them; the same again behind pixels,
-            // and behind a region that is held.
+            // Means are sent, stay twice, and are sent again as soon as they differ by more than
+            // the level. The same means are sent again behind pixels, and behind a held region.
             let mut shots = vec![active(0)];
             shots.extend([0, 0, level, level + 1].map(means));
             shots.extend([last(), means(level + 1)]);
@@ -165,8 +171,9 @@ impl Script {
                 shots.extend([held, behind]);
             }
             with_means.push(ShotSequence { shots, ending: Ending::Drained });
-            // The same frame behind a reset; and every other region held beside means, which wait for the sink.
-            // Held ones drift as far as they may, up and down: what they are compared with is what was sent, and no later frame.
+            // The same frame follows a reset. Then every second region is held beside means that
+            // wait for the sink. The held regions drift by the temporal level, up and down, so they
+            // stay held only if they are compared with what was sent, and not with a later frame.
             let drift = u16::try_from(pair.usual.temporal_level).unwrap_or(u16::MAX);
             let up = |pixel: &u16| pixel.saturating_add(drift).min(stage.max);
             let down = |pixel: &u16| pixel.saturating_sub(drift);
@@ -190,12 +197,13 @@ impl Script {
         }
         let mut sequences: Vec<ShotSequence> = sequences.into_iter().map(drained).collect();
         sequences.extend(with_means);
-        // First, so that a reset follows.
+        // This sequence comes first, so that a reset follows it.
         let pictures = [|actor: &Actor| actor.first.clone(), |actor: &Actor| actor.other.clone()];
         let stalled = (0..stalled_frames(part)).map(|number| {
             let usual =
                 || shot(0, pair.usual, &|_, actor| pictures[number % pictures.len()](actor));
-            // More regions are lost than have something of their own to show: counters are to get far.
+            // More regions must be lost than have their own structure, because the counters must
+            // reach large values.
             let turn = u32::try_from(number).unwrap_or_default();
             let wide = || Shot {
                 frame: stage.wide(turn),
@@ -230,7 +238,7 @@ impl Script {
             });
             sequences.push(drained(near.collect()));
         }
-        // Of a large frame the minima that are met, and not those that are missed by one.
+        // For a large frame there is no sequence whose minima are missed by one.
         let minima: &[u32] = if is_small { &[0, 1] } else { &[0] };
         for &more in minima.iter().filter(|_| part.thresholds() == Mode::Runtime) {
             let exact = cast[0].exact(part, &pair.usual, more);
@@ -249,12 +257,13 @@ impl Script {
         if is_wide {
             sequences.push(drained(wide()));
         }
-        // A reset meets what leaves.
+        // A reset comes while pixels leave.
         let leaving = match is_wide {
             true => wide(),
             false => vec![shot(1, pair.usual, &|_, actor| actor.first.clone())],
         };
-        // Nothing has a reference, and yet no region has changed, where the minimum is above all counts.
+        // No region has a reference, and yet none has changed, because the minimum is above all
+        // counts.
         let never = match part.thresholds() {
             Mode::Runtime => Thresholds { temporal_min_count: most_changes(part), ..pair.usual },
             Mode::Constant => pair.usual,
@@ -273,18 +282,19 @@ impl Script {
     }
 }
 
-/// Frames behind which everything leaves.
+/// Returns a sequence after which everything leaves.
 fn drained(shots: Vec<Shot>) -> ShotSequence {
     ShotSequence { shots, ending: Ending::Drained }
 }
 
-/// A minimum that no count reaches.
+/// Returns the largest minimum of the port, which no count reaches if the port has room for a
+/// larger number.
 fn most_changes(part: &Design) -> u32 {
     u32::MAX >> (u32::BITS - part.count_bits())
 }
 
-/// Frames during which a sink must stall for regions of more than one frame to be lost; one where none is ever lost; none
-/// without a sink.
+/// Returns the number of frames during which the sink must stall so that regions of more than one
+/// frame are lost. It is 1 if no region is ever lost, and 0 without a sink.
 fn stalled_frames(part: &Design) -> usize {
     let kept = part.timing().departure().kept_rows;
     match (has_sink(part), kept) {
@@ -294,19 +304,20 @@ fn stalled_frames(part: &Design) -> usize {
     }
 }
 
-/// Where in a frame something is shown.
+/// The places in a frame at which regions have structure.
 struct Stage<'a> {
     part: &'a Design,
-    /// Regions that show something, in order.
+    /// The indices of the regions with structure, in ascending order.
     places: Vec<u32>,
     side: usize,
     max: u16,
-    /// The level of a region that shows nothing.
+    /// The level of a flat region.
     flat: u16,
 }
 
 impl<'a> Stage<'a> {
-    /// Everywhere in a small array, else evenly spread, the first and the last region among them.
+    /// Creates the places: all regions of a small array, or else evenly spread regions, with the
+    /// first and the last one among them.
     fn new(part: &'a Design) -> Self {
         let regions = part.regions();
         let least = (MAX_DRAWN / part.region_pixels()).clamp(6, 48);
@@ -326,7 +337,7 @@ impl<'a> Stage<'a> {
         }
     }
 
-    /// A frame with these squares at the places, and the ground of this turn elsewhere.
+    /// Returns a frame with the given squares at the places, and the ground of this turn elsewhere.
     fn frame(&self, squares: &[Vec<u16>], turn: u32) -> Frame {
         let (part, side) = (self.part, self.part.region_size());
         let pixel = |x: u32, y: u32| {
@@ -339,12 +350,13 @@ impl<'a> Stage<'a> {
         self.drawn(pixel)
     }
 
-    /// Whether the ground differs from place to place and from turn to turn.
+    /// Returns true if the ground differs from place to place and from turn to turn.
     fn has_ground(&self) -> bool {
         self.part.regions() >= MANY_REGIONS
     }
 
-    /// The level of a region that shows nothing: in a wide frame one of a few, by blocks of regions.
+    /// Returns the level of a flat region. In a frame with many regions it is one of a few levels,
+    /// by blocks of regions.
     fn ground(&self, column: u32, row: u32, turn: u32) -> u16 {
         if !self.has_ground() {
             return self.flat;
@@ -358,8 +370,8 @@ impl<'a> Stage<'a> {
 }
 
 impl Stage<'_> {
-    /// Squares all over the frame, elsewhere each turn: their edges and corners reach every region, and a
-    /// median leaves them.
+    /// Returns a frame with squares all over, shifted from turn to turn. Their edges and corners
+    /// reach every region, and a median filter keeps them.
     fn wide(&self, turn: u32) -> Frame {
         let size = (self.part.region_size() / 2).max(3);
         let is_bright = |at: u32, shift: u32| (at + shift) % (2 * size) < size;
@@ -377,8 +389,9 @@ impl Stage<'_> {
     }
 }
 
-/// The thresholds of the design, if pictures lead to all kinds of regions under them; else, where they are
-/// inputs, the smallest that tell something from nothing.
+/// Returns the thresholds of the design if some test pictures lead to all kinds of regions under
+/// them. Otherwise, if thresholds are inputs, it returns the smallest ones that distinguish a
+/// pattern from a flat region.
 fn threshold_pair(part: &Design, studio: &mut Studio, random: &mut Random) -> ThresholdPair {
     let own = Thresholds::of(part);
     let configured = ThresholdPair { usual: own, blank: own };
@@ -389,7 +402,7 @@ fn threshold_pair(part: &Design, studio: &mut Studio, random: &mut Random) -> Th
     }
 }
 
-/// Whether some picture is relevant, nothing is not, and a change counts.
+/// Returns true if some pattern is relevant, a flat region is not, and an unchanged region is held.
 fn is_telling(
     part: &Design,
     studio: &mut Studio,
@@ -408,8 +421,8 @@ fn is_telling(
     !flat.is_relevant && least > 0 && good.next().is_some()
 }
 
-/// Levels of 0 and minima of 1; a feature that never finds anything (corners in 2x2 pixels behind a median)
-/// must vote with a minimum of 0 where its vote is needed.
+/// Returns thresholds with levels of 0 and minima of 1. A feature that never finds anything
+/// (corners in 2x2 pixels behind a median filter) gets a minimum of 0 if its vote is needed.
 fn least(part: &Design, studio: &mut Studio, random: &mut Random) -> ThresholdPair {
     let (side, max) = size(part);
     let mut blank = Thresholds::of(part);
@@ -431,7 +444,8 @@ fn least(part: &Design, studio: &mut Studio, random: &mut Random) -> ThresholdPa
     ThresholdPair { usual, blank }
 }
 
-/// Pictures for a region: relevant ones, each with enough changes against the one before.
+/// Returns the pictures of a region: relevant ones, each with enough changes against the picture
+/// before it.
 fn actor(
     part: &Design,
     studio: &mut Studio,
@@ -456,10 +470,10 @@ fn actor(
         None
     };
     let all = part.region_pixels();
-    // Without a reference everything has changed.
+    // Without a reference every pixel counts as changed.
     let first = pick(number, &nothing, 0..=all);
     let (first, seen) = first.unwrap_or_else(|| (flat.clone(), nothing.clone()));
-    // Better a change of some pixels than of all.
+    // A change of some pixels is preferred to a change of all.
     let other = pick(number + 1, &seen, least..=all - 1);
     let other = other.or_else(|| pick(number + 1, &seen, least..=all));
     let last = pick(number + 2, &nothing, least..=all).map_or_else(|| first.clone(), |last| last.0);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Looks at pictures with the eyes of the design: which are relevant, and how far two differ.
+//! The scores of test pictures of one region under the thresholds of the design, and the
+//! differences between two of them.
 
 use foveate_design::{Combine, Design};
 use foveate_model::{RegionScorer, Thresholds};
 
-/// A region alone in its frame has the frame's border on all sides.
+/// The border mask of a region that is alone in its frame: it touches all four sides.
 const ALL_SIDES: u8 = 0b1111;
 
-/// Scores pictures of single regions.
+/// A scorer of pictures of single regions.
 pub(super) struct Studio {
     scorer: RegionScorer,
     side: usize,
@@ -16,12 +17,12 @@ pub(super) struct Studio {
     combine: Combine,
 }
 
-/// What a picture of one region comes to.
+/// The scores of a picture of one region.
 #[derive(Clone, Debug)]
 pub(super) struct Look {
     pub(super) scores: Vec<u64>,
     pub(super) is_relevant: bool,
-    /// The pixels that are compared from frame to frame.
+    /// The denoised pixels, which are compared from frame to frame.
     pub(super) denoised: Vec<u16>,
 }
 
@@ -36,7 +37,7 @@ impl Studio {
         }
     }
 
-    /// Scores a picture that follows another, and says what becomes of it with these thresholds.
+    /// Scores a picture that follows `before`, and decides with these thresholds if it is relevant.
     pub(super) fn look(
         &mut self,
         picture: &[u16],
@@ -44,7 +45,7 @@ impl Studio {
         thresholds: &Thresholds,
     ) -> Look {
         let (side, halo) = (self.side, self.halo);
-        // Beyond the frame its border repeats.
+        // Pixels beyond the frame repeat its border.
         let inside = |at: usize| at.saturating_sub(halo).min(side - 1);
         let reach = side + 2 * halo;
         let places = (0..reach * reach).map(|at| (inside(at % reach), inside(at / reach)));
@@ -61,7 +62,8 @@ impl Studio {
 }
 
 impl Look {
-    /// Pixels that differ from another picture by more than the level.
+    /// Returns the number of pixels that differ from another picture by more than the temporal
+    /// level.
     pub(super) fn changes(&self, before: &Self, thresholds: &Thresholds) -> u32 {
         let pairs = self.denoised.iter().zip(&before.denoised);
         let differs = |(now, then): &(&u16, &u16)| {

@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What surrounds a core in a bench: a sink that stalls, and a frame store outside that gives back what was stored.
+//! The surroundings of a core in a bench: a sink that stalls, and an external frame store that
+//! returns what was stored.
 
 use super::script::FRAMES;
 use crate::stimulus::{Queue, ends_region};
 use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 
-/// Regions lost in the middle after which the sink takes nothing any more, so that counters get far and the vectors of a
-/// large frame stay small.
+/// The number of losses after which the sink takes nothing any more. Lost counters then count on,
+/// and the vectors of a large frame stay small.
 const ENOUGH_LOSSES: u64 = 64;
 
-/// A sink that stalls: from the last word of a region on, when the first word of the next has been fetched, until a region
-/// is lost. Every other time it takes a word at the edge of the loss.
+/// A sink that stalls from the last word of a region on, once the first word of the next region has
+/// been fetched, until a region is lost. At every second loss it takes a word at the edge of the
+/// loss.
 pub(super) struct Stalling {
     is_ready: bool,
-    /// The last word of a region that is on the ports made it stall before.
+    /// True if the sink has already stalled for the last word that is on the ports.
     has_stalled: bool,
     losses: u64,
 }
@@ -26,7 +28,7 @@ impl Default for Stalling {
 }
 
 impl Stalling {
-    /// Whether it takes what leaves at the next edge.
+    /// Returns true if the sink takes a word at the next edge.
     pub(super) fn next(&mut self, core: &dyn CycleModel) -> bool {
         if self.losses == ENOUGH_LOSSES {
             return false;
@@ -45,20 +47,21 @@ impl Stalling {
     }
 }
 
-/// A frame store outside: a queue whose words fall through.
+/// An external frame store: a queue without delay.
 pub(super) struct Outside {
     queue: Queue,
-    /// A word that nobody may look at.
+    /// The word that is shown while no word is valid.
     nothing: Vec<u16>,
-    /// Words that were taken since reset.
+    /// The number of words taken since reset.
     taken: u64,
-    /// The number of the word that is not said to be valid, though it is: the last of the frames that every script
-    /// has. So the bench sees an underrun, and the decisions of its frames are those of references that are right.
+    /// The index of the word that is stored but not marked as valid: the last word of the frames
+    /// that every script has. So the bench sees an underrun, and all decisions of its frames use
+    /// correct references.
     withheld: u64,
 }
 
 impl Outside {
-    /// None where the core keeps its references.
+    /// Returns the store, or `None` if the core stores its own references.
     pub(super) fn of(part: &Design) -> Option<Self> {
         let part = match part.hardware() {
             Hardware::Raster(own) => part.on(own),
@@ -72,7 +75,8 @@ impl Outside {
         })
     }
 
-    /// What is at the ports of references at the next edge, which may be a reset.
+    /// Returns the valid bit and the word at the reference ports for the next edge, which may be a
+    /// reset.
     pub(super) fn show(&mut self, reset: bool, core: &dyn CycleModel) -> (bool, Vec<u16>) {
         let is_asked = core.is_high(PortRole::ReferenceReady);
         if reset {
@@ -88,7 +92,7 @@ impl Outside {
         (is_valid, word.unwrap_or_else(|| self.nothing.clone()))
     }
 
-    /// Keeps what the core shows after an edge.
+    /// Stores the word that the core outputs after an edge.
     pub(super) fn keep(&mut self, core: &dyn CycleModel) {
         self.queue.keep(core);
     }

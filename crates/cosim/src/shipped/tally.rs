@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What vectors show, counted from the expected outputs alone.
+//! Counts of what vectors contain, taken from their expected outputs alone.
 
 use super::has_sink;
 use crate::layout::Layout;
@@ -7,61 +7,68 @@ use crate::situations::Occurrences;
 use foveate_design::{Combine, Design, PortRole, Thresholds};
 use foveate_emit::Top;
 
-/// Frames that vectors show at least.
+/// The smallest number of frames that vectors must contain.
 const MIN_FRAMES: u64 = 3;
 
-/// What vectors show.
+/// The counts of what vectors contain.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct VectorTally {
-    /// Frames all of whose regions are decided.
+    /// The number of frames whose regions are all decided.
     pub frames: u64,
-    /// Decisions for an active region.
+    /// The number of decisions for an active region.
     pub active: u64,
-    /// Decisions for a region that is relevant but has not changed, and is held.
+    /// The number of decisions for a region that is relevant but has not changed, and is held.
     pub held: u64,
-    /// Decisions for a region that is not relevant, and is blanked (or held, by `render.irrelevant`).
+    /// The number of decisions for a region that is not relevant, and is blanked (or held, by
+    /// `render.irrelevant`).
     pub blank: u64,
-    /// Of those, the decisions that send a summary.
+    /// The number of the `blank` decisions that send a summary.
     pub summaries: u64,
-    /// Comparisons with an earlier frame: temporal counts below that of a region without a reference.
+    /// The number of comparisons with an earlier frame: temporal counts below that of a region
+    /// without a reference.
     pub compared: u64,
-    /// Regions lost to a sink that stalls, the most after one reset.
+    /// The largest number of regions lost to a stalling sink after one reset.
     pub lost: u64,
-    /// Beats that fit no frame, where the hardware finds its frames again.
+    /// The number of beats that fit no frame, for hardware with `sync`.
     pub sync_errors: u64,
-    /// Decisions after the first of them. More than a frame has are of frames behind the one that it cut short.
+    /// The number of decisions after the first sync error. If there are more than a frame has, some
+    /// belong to frames behind the damaged one.
     pub after_error: u64,
-    /// How they were lost, and what of them left.
+    /// The kinds of losses to a stalling sink.
     pub losses: Losses,
-    /// How often each situation occurred that the design can have.
+    /// The number of times that each situation occurred that the design can have.
     pub situations: Occurrences,
-    /// Outputs that are never compared with anything but 0, though they can show something else.
+    /// The names of outputs whose expected value is always 0, though they can have others.
     pub silent: Vec<String>,
 }
 
-/// How regions are lost to a sink that stalls, in all sequences.
+/// The losses of regions to a stalling sink, counted over all sequences.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Losses {
-    /// Without a word that leaves.
+    /// The number of regions lost before any of their words left.
     pub whole: u64,
-    /// After words of it have been fetched, while the last of them waits for the sink.
+    /// The number of regions lost after words of them were fetched, while their last word waits for
+    /// the sink.
     pub waiting: u64,
-    /// The same at an edge at which that word comes to the ports.
+    /// The number of regions lost after words of them were fetched, at an edge at which their last
+    /// word comes to the ports.
     pub stepping: u64,
-    /// Of those, with a single word, first and last.
+    /// The number of the `waiting` and `stepping` losses with a single word, which is first and
+    /// last.
     pub single: u64,
 }
 
-/// Counts while vectors are made.
+/// A counter that runs while vectors are made.
 pub(super) struct Counter {
     regions: u64,
     region_pixels: u64,
     never_lost: bool,
     tally: VectorTally,
-    /// Regions that were lost, and the region and frame of the last word that came with abort.
+    /// The number of regions that were lost; `aborted` is the region and frame of the last word
+    /// with `abort`.
     lost: u64,
     aborted: Option<(u64, u64)>,
-    /// The lanes of each field that have been expected to be nothing but 0 where they were compared.
+    /// For each field, the lanes whose expected value was 0 whenever it was compared.
     silent: Vec<Vec<u32>>,
 }
 
@@ -78,7 +85,7 @@ impl Counter {
         }
     }
 
-    /// Takes the expected outputs of a clock.
+    /// Counts the expected outputs of a clock.
     pub(super) fn see(&mut self, outputs: &Layout, expected: &[u8]) {
         let at = |role| outputs.fields().iter().find(|field| field.port.role == role);
         let is_high = |role| at(role).is_some_and(|field| field.get(expected, 0) == 1);
@@ -117,7 +124,8 @@ impl Counter {
         }
     }
 
-    /// A word with abort is seen once: another region, or another frame, is another word.
+    /// Counts the losses of a clock. A word with `abort` is counted once; it is a new word if its
+    /// region or frame differs.
     fn see_losses(&mut self, outputs: &Layout, expected: &[u8]) {
         let at = |role| outputs.fields().iter().find(|field| field.port.role == role);
         let value = |role| at(role).map_or(0, |field| field.get(expected, 0));
@@ -128,7 +136,7 @@ impl Counter {
         let aborted = is_aborted.then_some(of);
         if aborted.is_some() && aborted != self.aborted {
             let losses = &mut self.tally.losses;
-            // The loss of the word that comes is at the same edge, or was before.
+            // The region of this word is lost at the same edge, or was lost earlier.
             let is_now = is_lost && (value(PortRole::LostRegion), value(PortRole::LostFrame)) == of;
             losses.stepping += u64::from(is_now);
             losses.waiting += u64::from(!is_now);
@@ -144,7 +152,7 @@ impl Counter {
         tally.frames = (tally.active + tally.held + tally.blank) / regions.max(1);
         for (field, silent) in outputs.fields().iter().zip(silent) {
             let port = &field.port;
-            // The number of the only region is 0.
+            // The number of the only region is always 0.
             let is_numbered = matches!(port.role, PortRole::Region | PortRole::ForwardRegion);
             let is_loss = is_loss(port.role);
             if (is_numbered && regions == 1) || (is_loss && never_lost) {
@@ -160,7 +168,7 @@ impl Counter {
 }
 
 impl VectorTally {
-    /// What is missing, in words; `None` if the vectors show all that they can.
+    /// Returns what is missing, in words, or `None` if the vectors contain all that they can.
     pub(super) fn shortcoming(&self, part: &Design) -> Option<String> {
         let mut missing = Vec::new();
         let mut need = |is_there: bool, words: String| {
@@ -192,7 +200,7 @@ impl VectorTally {
         (!missing.is_empty()).then(|| missing.join(", "))
     }
 
-    /// What the vectors show, as lines of a comment.
+    /// Returns a summary of the vectors, as lines of a comment.
     pub(super) fn about(&self, design: &Design, part: &Design, top: Top) -> Vec<String> {
         let grid = |design: &Design| format!("{} x {}", design.columns(), design.rows());
         let of = match top {
@@ -233,7 +241,7 @@ impl VectorTally {
     }
 }
 
-/// What the configuration keeps from happening, whatever the pixels are.
+/// Returns what the configuration makes impossible for any pixels, as sentences.
 pub(super) fn impossible(design: &Design) -> Vec<String> {
     let mut list = Vec::new();
     if always_changed(design) {
@@ -248,7 +256,7 @@ pub(super) fn impossible(design: &Design) -> Vec<String> {
     list
 }
 
-/// Whether a port shows something only where a region is lost.
+/// Returns true if a port differs from 0 only where a region is lost.
 fn is_loss(role: PortRole) -> bool {
     use PortRole::{ForwardAbort, Lost, LostCount, LostFrame, LostRegion, LostValid};
     matches!(role, ForwardAbort | Lost | LostCount | LostValid | LostRegion | LostFrame)

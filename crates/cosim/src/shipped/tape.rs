@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Vectors under way: packed into text, and counted.
+//! The vectors of a bench while they are recorded: packed into text, and counted.
 
 use super::rig::Record;
 use super::tally::{Counter, VectorTally};
@@ -10,9 +10,9 @@ use foveate_design::{Design, Port, PortRole};
 use foveate_emit::Top;
 use std::path::Path;
 
-/// Takes clocks; what it makes of them stays in memory.
+/// A recorder of clocks, which keeps the vectors in memory.
 pub(super) struct Tape {
-    /// The clock that comes next.
+    /// The inputs and outputs of the next clock.
     pub(super) record: Record,
     packer: Packer<Vec<u8>>,
     counter: Counter,
@@ -32,13 +32,13 @@ impl Tape {
         }
     }
 
-    /// Whether the hardware is told where frames start, and finds them again.
+    /// Returns true if the hardware gets a start-of-frame mark and synchronizes to it.
     pub(super) fn finds_frames(&self) -> bool {
         let mut fields = self.record.outputs.fields().iter();
         fields.any(|field| field.port.role == PortRole::SyncError)
     }
 
-    /// So many clocks as the record has one.
+    /// Adds `clocks` clocks with the inputs and outputs of the record.
     pub(super) fn push(&mut self, clocks: u64) -> Result<(), CosimError> {
         let Record { outputs, input, expected, .. } = &self.record;
         self.counter.see(outputs, expected);
@@ -48,7 +48,8 @@ impl Tape {
         pushed.map_err(CosimError::io("write", Path::new("vectors")))
     }
 
-    /// What the vectors show, their clocks, and the vectors.
+    /// Returns the counts of what the vectors contain, the number of clocks, and the vectors as
+    /// text.
     pub(super) fn finish(self) -> Result<(VectorTally, u64, String), CosimError> {
         let bytes = self.packer.finish();
         let bytes = bytes.map_err(CosimError::io("write", Path::new("vectors")))?;
