@@ -17,32 +17,33 @@ pub(crate) const EVENTS: [&str; 8] = [
     "frame_done",
 ];
 
-/// What was seen on the buses of a core, over all its sessions.
+/// The counts from the buses of a core, over all its sessions.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(crate) struct BusFacts {
-    /// By event: how often `events` was read with its bit.
+    /// The number of times that `events` was read with the bit of an event, by event.
     pub(crate) read: BTreeMap<&'static str, u64>,
-    /// By event: how often it rose at the edge at which a write that clears it was taken.
+    /// The number of times that an event rose at the edge at which a write that clears it was
+    /// taken, by event.
     pub(crate) met: BTreeMap<&'static str, u64>,
-    /// By register of a threshold that differs from the one before: frames that would have been decided in another way by that
-    /// one.
+    /// The number of frames that would have been decided otherwise with the earlier value of a
+    /// threshold, by the register of the threshold.
     pub(crate) taken_over: BTreeMap<String, u64>,
-    /// Packets with pixels, and with means.
+    /// The number of packets with pixels; `means` counts those with means.
     pub(crate) pixels: u64,
     pub(crate) means: u64,
-    /// Decisions that were compared behind a loss of their region in the frame before.
+    /// The number of compared decisions of regions that were lost in the frame before.
     pub(crate) behind_loss: u64,
-    /// Frames that are first ones, and not first since reset.
+    /// The number of first frames after a restart, without those after a reset.
     pub(crate) restarted: u64,
-    /// Frames that came while the core was not enabled.
+    /// The number of frames that came while the core was not enabled.
     pub(crate) left_out: u64,
-    /// Packets of which a reset has cut the rest off.
+    /// The number of packets that a reset has cut off.
     pub(crate) cut: u64,
-    /// Frames whose decisions were compared behind a skipped one.
+    /// The number of frames whose decisions were compared behind a skipped frame.
     pub(crate) behind_skipped: u64,
 }
 
-/// One situation of a core on AXI.
+/// A situation of a core on AXI.
 struct BusSituation {
     name: &'static str,
     is_possible: fn(RasterDesign<'_>) -> bool,
@@ -53,7 +54,7 @@ const fn always(_: RasterDesign<'_>) -> bool {
     true
 }
 
-/// Those that are no list by event or by threshold.
+/// The situations that do not depend on an event or a threshold register.
 const SITUATIONS: &[BusSituation] = &[
     BusSituation {
         name: "pixels of a region leave",
@@ -89,7 +90,8 @@ const SITUATIONS: &[BusSituation] = &[
 ];
 
 impl BusFacts {
-    /// How often each situation that the design can have occurred. `thresholds` are the registers of those that were written.
+    /// Returns the count of each situation that the design can have. `thresholds` are the registers
+    /// of the thresholds that were written.
     pub(crate) fn occurrences(
         &self,
         design: RasterDesign<'_>,
@@ -120,13 +122,14 @@ fn can_happen(design: RasterDesign<'_>, event: &str) -> bool {
     }
 }
 
-/// Whether a sink that stops loses regions: two frames may be under way, and the buffer holds less.
+/// Returns true if a sink that stops loses regions: two frames may be under way, and the buffer
+/// holds less.
 pub(crate) fn can_drop_regions(design: RasterDesign<'_>) -> bool {
     let kept = design.timing().departure().kept_rows;
     kept.is_some() && 2 * design.rows() > RasterTiming::of(design).buffer_rows
 }
 
-/// Whether it drops rows: two of them wait, and two frames may be under way.
+/// Returns true if a sink that stops loses rows: two rows wait, and two frames may be under way.
 pub(crate) fn can_drop_rows(design: RasterDesign<'_>) -> bool {
     design.rows() > 1
 }

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Situations that a check must reach, as data: a name, the designs that can have it, and how often it occurred, by what is seen
-//! on ports alone.
+//! Situations that a check must reach, as data: a name, the designs that can have it, and the
+//! number of times that it occurred on the ports.
 //!
-//! A check that never meets the situation that it guards proves nothing, and nobody would see that: so every co-simulation and
-//! every shipped bench counts them. The lists know nothing of how stimuli are made.
+//! A check that never meets the situation that it guards proves nothing, and this would stay
+//! unnoticed. So every co-simulation and every shipped bench counts the situations. The lists do
+//! not depend on how stimuli are made.
 
 mod bus;
 mod occurrence;

@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How often situations occurred, in one run or in several.
+//! The number of times that situations occurred, in one run or in several.
 
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// A situation that a design can have, and how often it occurred.
+/// A situation that a design can have, and the number of times that it occurred.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Occurrence {
-    /// Its name, one of a list.
+    /// The name of the situation.
     pub situation: String,
-    /// How often it occurred.
+    /// The number of times that it occurred.
     pub count: u64,
 }
 
-/// Every situation that was asked for.
+/// All situations that a design can have, each with its count.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(transparent)]
 pub struct Occurrences(pub Vec<Occurrence>);
 
 impl Occurrences {
-    /// Counts one more situation, or more of one.
+    /// Adds `count` to a situation, which is new or already in the list.
     pub(crate) fn add(&mut self, situation: &str, count: u64) {
         match self.0.iter_mut().find(|own| own.situation == situation) {
             Some(own) => own.count += count,
@@ -27,7 +27,7 @@ impl Occurrences {
         }
     }
 
-    /// Those of several runs together: one run may reach what another cannot.
+    /// Returns the sums over several runs. One run may reach a situation that another cannot.
     #[must_use]
     pub fn of_all<'a>(runs: impl IntoIterator<Item = &'a Self>) -> Self {
         let mut all = Self::default();
@@ -37,7 +37,7 @@ impl Occurrences {
         all
     }
 
-    /// Names of those that did not occur.
+    /// Returns the names of the situations that did not occur.
     #[must_use]
     pub fn missing(&self) -> Vec<&str> {
         let missing = self.0.iter().filter(|own| own.count == 0);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Situations of what has plain ports: an array, or its unit alone.
+//! The situations of an array, or of its unit alone, on plain ports.
 
 use super::occurrence::Occurrences;
 use foveate_design::{
@@ -8,18 +8,18 @@ use foveate_design::{
 };
 use foveate_emit::Top;
 
-/// How often something was seen on the ports, since the first clock.
+/// The counts from the ports since the first clock.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub(super) struct PortFacts {
-    /// Decisions of regions that are active, held or irrelevant.
+    /// The number of decisions of active regions; `held` and `irrelevant` count the others.
     pub(super) active: u64,
     pub(super) held: u64,
     pub(super) irrelevant: u64,
-    /// Held regions whose count of the next frame is that of a reference.
+    /// The number of held regions whose count in the next frame shows a valid reference.
     pub(super) reference_kept: u64,
-    /// Regions that are active, then irrelevant, then active.
+    /// The number of regions that are active, then irrelevant, then active.
     pub(super) reference_dropped: u64,
-    /// Regions all of whose pixels count, by a minimum above that.
+    /// The number of decisions in which all pixels count and the minimum is above that.
     pub(super) minimum_above: u64,
     pub(super) reset_within: u64,
     pub(super) reset_while_leaving: u64,
@@ -52,7 +52,7 @@ pub(super) struct PortFacts {
     pub(super) underrun: u64,
 }
 
-/// One situation: its name, which designs can have it at which module, and how often it occurred.
+/// A situation: its name, the designs and modules that can have it, and its count.
 struct PortSituation {
     name: &'static str,
     is_possible: fn(&Design, Top) -> bool,
@@ -67,7 +67,7 @@ const fn situation(
     PortSituation { name, is_possible, count }
 }
 
-/// Every situation.
+/// The list of all situations.
 const SITUATIONS: &[PortSituation] = &[
     situation("a region is active", |_, _| true, |facts| facts.active),
     situation("a region is held", |design, _| can_hold(design), |facts| facts.held),
@@ -205,7 +205,7 @@ const SITUATIONS: &[PortSituation] = &[
 ];
 
 impl PortFacts {
-    /// How often each situation occurred that `design` can have at this module.
+    /// Returns the count of each situation that `design` can have at the module `top`.
     pub(super) fn occurrences(&self, design: &Design, top: Top) -> Occurrences {
         let mut all = Occurrences::default();
         for situation in SITUATIONS.iter().filter(|own| (own.is_possible)(design, top)) {
@@ -222,17 +222,17 @@ fn is_runtime(design: &Design) -> bool {
     }
 }
 
-/// Whether a region may be relevant without having changed.
+/// Returns true if a region can be relevant without a change.
 fn can_hold(design: &Design) -> bool {
     is_runtime(design) || design.temporal().min_count > 0
 }
 
-/// The largest minimum of changed pixels that the port may have.
+/// Returns the largest value of the port for the minimum of changed pixels.
 fn largest_minimum(design: &Design) -> u32 {
     u32::MAX >> (u32::BITS - design.count_bits())
 }
 
-/// Whether a region may have no vote.
+/// Returns true if a region can be irrelevant.
 fn can_be_irrelevant(design: &Design) -> bool {
     let mut votes = design.features().iter().map(|feature| feature.min_score() == 0);
     let always = match design.combine() {
@@ -257,7 +257,7 @@ fn keeps_references(design: &Design) -> bool {
     }
 }
 
-/// Whether a region that is irrelevant loses its reference.
+/// Returns true if a region that is irrelevant loses its reference.
 fn drops_references(design: &Design) -> bool {
     use foveate_design::Irrelevant::{Hold, Mean, Zero};
     let blanks = match design.irrelevant() {
@@ -274,12 +274,12 @@ fn is_pipelined(design: &Design) -> bool {
     }
 }
 
-/// Whether it takes nothing at times.
+/// Returns true if the core takes no pixel at times.
 fn waits(design: &Design) -> bool {
     !is_pipelined(design)
 }
 
-/// Windows that flush behind a frame.
+/// Returns the number of windows that flush behind a frame.
 pub(super) fn flushed_windows(design: &Design) -> u64 {
     let is_windowed = |kind| match kind {
         FeatureKind::Edge | FeatureKind::Corner => true,
@@ -300,7 +300,7 @@ fn flushes(design: &Design) -> bool {
     flushed_windows(design) > 0
 }
 
-/// Whether pixels leave.
+/// Returns true if pixels leave the core.
 fn forwards(design: &Design) -> bool {
     match design.hardware() {
         Hardware::Pipelined(_) | Hardware::Serial(_) => true,
@@ -308,7 +308,7 @@ fn forwards(design: &Design) -> bool {
     }
 }
 
-/// Whether somebody takes what leaves, and may stall.
+/// Returns true if a sink takes what leaves, and may stall.
 fn has_sink(design: &Design) -> bool {
     match design.hardware() {
         Hardware::Pipelined(_) | Hardware::Serial(_) => false,
@@ -316,7 +316,7 @@ fn has_sink(design: &Design) -> bool {
     }
 }
 
-/// Whether a sink that stalls loses regions.
+/// Returns true if a sink that stalls loses regions.
 fn can_lose(design: &Design) -> bool {
     has_sink(design) && design.timing().departure().kept_rows.is_some()
 }
@@ -328,7 +328,7 @@ fn is_stored_outside(design: &Design) -> bool {
     }
 }
 
-/// Whether the module finds its frames again.
+/// Returns true if the module synchronizes to the start of a frame.
 fn syncs(design: &Design, top: Top) -> bool {
     use foveate_design::PortRole;
     top.ports(design).iter().any(|port| port.role == PortRole::SyncError)

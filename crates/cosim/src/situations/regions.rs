@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What has become of every region, by its decisions and what was lost of it.
+//! The history of every region, from its decisions and its losses.
 
 use super::ports::PortFacts;
 use foveate_design::{Design, Irrelevant, Reference};
@@ -10,11 +10,11 @@ pub(super) struct Decided {
     pub(super) srs: bool,
     pub(super) trs: bool,
     pub(super) summary: bool,
-    /// Pixels that have changed, where this can be seen.
+    /// The number of changed pixels, if the ports show it.
     pub(super) count: Option<u64>,
 }
 
-/// How a region was decided.
+/// The last decision of a region.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 enum Verdict {
     #[default]
@@ -24,26 +24,26 @@ enum Verdict {
     Irrelevant,
 }
 
-/// One region since the last reset.
+/// The history of one region since the last reset.
 #[derive(Clone, Copy, Debug, Default)]
 struct RegionTrace {
     verdict: Verdict,
     has_reference: bool,
-    /// The number of the frame whose summary the screen shows.
+    /// The index of the frame whose summary the screen shows.
     shown: Option<usize>,
-    /// It was held while a summary was shown.
+    /// True if the region was held while a summary was shown.
     held_shown: bool,
-    /// It was active after a summary.
+    /// True if the region was active after a summary.
     active_after_summary: bool,
-    /// It was active, and irrelevant since.
+    /// True if the region was active, and has been irrelevant since.
     active_then_irrelevant: bool,
-    /// It was lost, and not decided since.
+    /// True if the region was lost, and has not been decided since.
     lost: bool,
-    /// Means left beside it while it was held.
+    /// True if means left the region to the right while this one was held.
     beside_means: bool,
 }
 
-/// Every region since the last reset.
+/// The histories of all regions since the last reset.
 #[derive(Clone, Debug)]
 pub(super) struct RegionTraces {
     regions: Vec<RegionTrace>,
@@ -70,7 +70,8 @@ impl RegionTraces {
         }
     }
 
-    /// Regions, and the frame whose summary the screen shows of each; then all is forgotten.
+    /// Forgets everything. Returns the regions of which the screen shows a summary, each with the
+    /// frame of the summary.
     pub(super) fn reset(&mut self) -> Vec<(usize, usize)> {
         let shown = |(region, trace): (usize, &RegionTrace)| Some((region, trace.shown?));
         let all = self.regions.iter().enumerate().filter_map(shown).collect();
@@ -78,7 +79,7 @@ impl RegionTraces {
         all
     }
 
-    /// A region of this frame is decided.
+    /// Records the decision of a region in a frame.
     pub(super) fn decide(
         &mut self,
         region: usize,
@@ -113,7 +114,7 @@ impl RegionTraces {
         trace.lost = false;
     }
 
-    /// A region of the last frame was lost.
+    /// Records that a region of the last frame was lost.
     pub(super) fn lose(&mut self, region: usize) {
         if let Some(trace) = self.regions.get_mut(region) {
             trace.lost = true;
@@ -122,7 +123,8 @@ impl RegionTraces {
         }
     }
 
-    /// Means of a region leave: its left neighbour is held, with a reference of an earlier frame.
+    /// Records that means of a region leave; the left neighbor counts if it is held with a
+    /// reference of an earlier frame.
     pub(super) fn leave_means(&mut self, region: usize) {
         if !region.is_multiple_of(self.columns)
             && let Some(left) = self.regions.get_mut(region - 1)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Looks at the ports of an array or unit, clock by clock, and counts what was seen.
+//! A monitor of the ports of an array or unit, which counts situations clock by clock.
 
 use super::occurrence::Occurrences;
 use super::places::has_pixel;
@@ -10,7 +10,7 @@ use crate::layout::Layout;
 use foveate_design::{Array, Design, PortRole};
 use foveate_emit::Top;
 
-/// Whether a role is a threshold.
+/// Returns true if a role is a threshold.
 fn is_threshold(role: PortRole) -> bool {
     matches!(
         role,
@@ -22,14 +22,14 @@ fn is_threshold(role: PortRole) -> bool {
     )
 }
 
-/// The ports that are looked at.
+/// The ports that are watched.
 #[derive(Clone, Debug)]
 struct Ports {
     inputs: Vec<Field>,
     outputs: Vec<Field>,
 }
 
-/// One clock: what is applied, and what is there after its edge.
+/// One clock: the applied inputs, and the outputs after its edge.
 #[derive(Clone, Copy)]
 struct Clock<'a> {
     ports: &'a Ports,
@@ -59,24 +59,26 @@ impl Clock<'_> {
     }
 }
 
-/// A frame that comes in, and those before it since the last reset.
+/// The frame that comes in, and the frames before it since the last reset.
 #[derive(Clone, Debug, Default)]
 struct Intake {
-    /// Beats of the frame under way; all of a frame between two.
+    /// The number of beats of the current frame; between two frames, the number of beats of a whole
+    /// one.
     beats: u64,
-    /// A hash of its pixels so far, and those of whole frames.
+    /// The hash of the pixels so far; `hashes` has those of whole frames.
     hash: u64,
     hashes: Vec<u64>,
-    /// Clocks since the last beat.
+    /// The number of clocks since the last beat.
     idle: u64,
-    /// The core was not ready since the last beat.
+    /// True if the core has not been ready at some clock since the last beat.
     was_closed: bool,
-    /// A frame has begun since the last reset, and nothing was wrong with the count since.
+    /// True if a frame has begun since the last reset, and its number of beats was right since
+    /// then.
     is_in_step: bool,
     thresholds: Vec<u8>,
 }
 
-/// Counts situations.
+/// A counter of situations.
 #[derive(Clone, Debug)]
 pub(crate) struct Watch {
     design: Design,
@@ -85,24 +87,25 @@ pub(crate) struct Watch {
     facts: PortFacts,
     regions: RegionTraces,
     per_frame: u64,
-    /// Clocks in which the first window flushes, and all of them.
+    /// The number of clocks in which the first window flushes; `flushes` is that of all windows.
     flush: u64,
     flushes: u64,
     intake: Intake,
-    /// Decisions of regions since the last reset, of all lanes together.
+    /// The number of decisions since the last reset, over all lanes.
     decided: u64,
-    /// The count of each region that a serial array has shown.
+    /// The temporal count of each region that a serial array has shown.
     counts: Vec<Option<u64>>,
-    /// What the outputs showed after the edge before.
+    /// The outputs after the edge before.
     was_ready: bool,
     left: bool,
     left_mean: bool,
     had_underrun: bool,
-    /// A summary is sent with the last decisions.
+    /// True if the last decisions send a summary.
     means_are_due: bool,
-    /// Regions with the hash of the frame whose summary was shown at the last reset.
+    /// The regions with a summary at the last reset, each with the hash of the frame of the
+    /// summary.
     shown_at_reset: Vec<(usize, u64)>,
-    /// Of those, the ones whose summary was sent again in the first frame.
+    /// The hashes from `shown_at_reset` of regions whose summary was sent again in the first frame.
     sent_again: Vec<u64>,
     has_error: bool,
     decided_since_error: u64,
@@ -111,7 +114,7 @@ pub(crate) struct Watch {
 }
 
 impl Watch {
-    /// Of what is simulated: `design` is that of the level.
+    /// Creates a monitor for the simulated part; `design` is the design at the level of the run.
     pub(crate) fn new(design: &Design, top: Top, inputs: &Layout, outputs: &Layout) -> Self {
         let regions = match (top, design.unit().array) {
             (Top::Rpu, Array::Copies) => 1,
@@ -147,14 +150,14 @@ impl Watch {
         }
     }
 
-    /// How often each situation occurred that the design can have.
+    /// Returns the count of each situation that the design can have.
     pub(crate) fn occurrences(&self) -> Occurrences {
         let mut facts = self.facts.clone();
         facts.lost_whole = self.lost.saturating_sub(facts.lost_within);
         facts.occurrences(&self.design, self.top)
     }
 
-    /// So many clocks with the same inputs and outputs.
+    /// Adds `clocks` clocks with the same inputs and outputs.
     pub(crate) fn see(&mut self, input: &[u8], output: &[u8], clocks: u64) {
         let ports = std::mem::replace(&mut self.ports, Ports { inputs: vec![], outputs: vec![] });
         let clock = Clock { ports: &ports, input, output };
@@ -177,7 +180,7 @@ impl Watch {
         facts.reset_while_leaving += u64::from(self.left);
         facts.reset_at_mean += u64::from(self.left_mean);
         let shown = self.regions.reset();
-        // Several clocks of reset are one.
+        // Several clocks of reset count as one.
         if intake.is_in_step {
             let hash = |(region, frame): (usize, usize)| Some((region, *intake.hashes.get(frame)?));
             self.shown_at_reset = shown.into_iter().filter_map(hash).collect();
@@ -190,7 +193,7 @@ impl Watch {
         self.aborted = None;
     }
 
-    /// What the core takes, or not.
+    /// Records the pixels that the core takes or refuses.
     fn take(&mut self, clock: &Clock<'_>, clocks: u64) {
         let has_ready = clock.field(PortRole::Ready).is_some();
         let is_open = !has_ready || self.was_ready;
@@ -208,7 +211,7 @@ impl Watch {
         let sof = clock.is_high(PortRole::StartOfFrame);
         if syncs && sof && is_within {
             self.facts.too_few += u64::from(self.intake.is_in_step);
-            // What comes up to the next start is dropped, and the frame is completed by itself.
+            // All beats up to the next start are dropped, and the core completes the frame.
             self.intake.is_in_step = false;
         } else if syncs && !sof && !is_within {
             let was_in_step = self.intake.is_in_step;
@@ -261,7 +264,7 @@ impl Watch {
         intake.thresholds = thresholds;
     }
 
-    /// What waits for the sink.
+    /// Counts words that wait for the sink.
     fn stall(&mut self, clock: &Clock<'_>) {
         if clock.field(PortRole::ForwardReady).is_none() {
             return;
@@ -319,7 +322,7 @@ impl Watch {
         self.decided += 1;
         if self.has_error {
             self.decided_since_error += 1;
-            // The first is the damaged one.
+            // The first frame is the damaged one.
             self.facts.whole_behind_error += u64::from(self.decided_since_error == 2 * regions);
         }
         let counted = clock.field(PortRole::TemporalCount);
@@ -332,7 +335,7 @@ impl Watch {
         if summary && frame == 0 {
             let again = self.shown_at_reset.iter().filter(|&&(shown, _)| shown == region);
             let again: Vec<u64> = again.map(|&(_, hash)| hash).collect();
-            // The first frame has come whole, or will.
+            // The first frame is complete, or is still to come.
             match self.intake.hashes.first() {
                 Some(hash) => {
                     let same = again.iter().filter(|&own| own == hash).count();
@@ -345,7 +348,7 @@ impl Watch {
         self.regions.decide(region, frame, decided, &mut self.facts);
     }
 
-    /// What is there for the next clock.
+    /// Keeps the outputs for the next clock.
     fn after(&mut self, clock: &Clock<'_>) {
         self.was_ready = clock.is_high(PortRole::Ready);
         self.left = clock.is_high(PortRole::ForwardValid);
@@ -356,7 +359,7 @@ impl Watch {
     }
 }
 
-/// Whether something is concluded from a port of this role.
+/// Returns true if the monitor uses a port of this role.
 fn is_watched(role: PortRole) -> bool {
     use PortRole::{
         AnyScore, DecisionValid, ForwardAbort, ForwardFrame, ForwardLast, ForwardReady,
@@ -394,7 +397,7 @@ fn is_watched(role: PortRole) -> bool {
     is_threshold(role) || others.contains(&role)
 }
 
-/// A number that is small, as an index.
+/// Converts a small number to an index.
 fn index(number: u64) -> usize {
     usize::try_from(number).unwrap_or(usize::MAX)
 }
