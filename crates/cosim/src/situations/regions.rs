@@ -39,7 +39,7 @@ struct RegionTrace {
     active_then_irrelevant: bool,
     /// True if the region was lost, and has not been decided since.
     lost: bool,
-    /// True if means left the region to the right while this one was held.
+    /// True if means of the right neighbor have left the core while this region was held.
     beside_means: bool,
 }
 

@@ -1,39 +1,43 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds aimed at data: at a frame that is to come and the scores that one of its regions will have, or at scores
-//! that are decided now.
+//! Thresholds that are aimed at data: at a frame that is to come and the scores that one of its
+//! regions will have, or at scores that are decided at this clock.
 
 use super::aim::Ranges;
 use super::random::Random;
 use foveate_design::{Design, FeatureKind};
 use foveate_model::{RegionScorer, Thresholds, region_border};
 
-/// How thresholds are chosen, where they are ports.
+/// The choice of thresholds that are ports.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum ThresholdAim {
-    /// As the design is configured.
+    /// The thresholds of the design.
     Design,
-    /// Levels on, just below or just above what a pixel of the frame has, minima likewise with the scores
-    /// of its region.
+    /// Levels that equal a value in the frame, or are one below or above it; minima likewise with
+    /// the scores of a region.
     Exact,
-    /// Levels just below the largest value that a pixel can have, or on it; minima as with `Exact`.
+    /// Levels that equal the largest value that pixels can have, or are one below it; minima as
+    /// with `Exact`.
     Largest,
-    /// The least that is not nothing: what is not flat is relevant, what changes has changed.
+    /// Levels of 0 and minima of 1: a region that is not flat is relevant, and any change counts.
     Least,
-    /// The same where thresholds are ports, else those of the design; neither they nor the data are aimed at each other. So what is
-    /// flat is irrelevant, and what is not is relevant.
+    /// The thresholds of `Least` if they are ports, or else those of the design. Neither thresholds
+    /// nor data are aimed at each other, so a flat region is irrelevant, and any other one is
+    /// relevant.
     Unaimed,
-    /// Levels of the design; by turns no score is enough and every one is, and never have enough pixels changed: a region is
-    /// irrelevant, is held, and is irrelevant again.
+    /// The levels of the design, with minima that in turn no score and every score meets, and a
+    /// minimum of changed pixels that is never met. A region is irrelevant, is held, and is
+    /// irrelevant again.
     Held,
-    /// In the first of three frames every region is active. In the others regions are relevant as the design says, but never have
-    /// enough pixels changed. A pixel has changed that is off by two, and a mean differs that is off by one.
+    /// In the first of three frames every region is active. In the others the minima of the scores
+    /// are those of the design, and too few pixels ever change. A difference of two counts as a
+    /// changed pixel, and a difference of one as a changed mean.
     Drifting,
-    /// All change at every clock; minima are exact where a decision is made. For hardware that takes thresholds at every
-    /// clock.
+    /// All thresholds change at every clock, and the minima are exact at the clock of a decision.
+    /// It is for hardware that takes thresholds at every clock.
     Restless,
 }
 
-/// Looks ahead.
+/// A source of thresholds near the data.
 pub(super) struct Aimer {
     design: Design,
     ranges: Ranges,
@@ -49,18 +53,20 @@ impl Aimer {
         }
     }
 
-    /// Thresholds without any relation to the data, for clocks at which they do not matter.
+    /// Sets thresholds that are unrelated to the data, for clocks at which they have no effect.
     pub(super) fn shake(&self, thresholds: &mut Thresholds, random: &mut Random) {
         self.ranges.shake(thresholds, random);
     }
 
-    /// The number of any region.
+    /// Returns the index of a random region.
     pub(super) fn any_region(&self, random: &mut Random) -> u32 {
         random.up_to_u32(self.design.regions() - 1)
     }
 
-    /// Thresholds near the data of one region of the frame that the model takes next: its stream, and what it
-    /// is compared with, and the means that the screen shows of it. With `largest` levels near the largest values that there are, by turns.
+    /// Returns thresholds near the data of one region of the frame that the model takes next.
+    /// `stream` is the region's stream, `reference` the pixels with which it is compared, and
+    /// `shown` the means of it on the screen. With `largest` the levels are near the largest
+    /// possible values instead, for the turn that it gives.
     pub(super) fn exact(
         &mut self,
         region: u32,
@@ -95,8 +101,9 @@ impl Aimer {
         thresholds
     }
 
-    /// Levels near the data of a square that is to come after another; the minima stay. With `largest` near the largest
-    /// values that there are, by turns.
+    /// Sets levels near the data of a square that follows another one; the minima stay. With
+    /// `largest` the levels are near the largest possible values instead, for the turn that it
+    /// gives.
     pub(super) fn levels(
         &self,
         (now, before): (&[u16], &[u16]),
@@ -110,21 +117,23 @@ impl Aimer {
         }
     }
 
-    /// Levels of the design, and minima that no region meets or, every other turn, all regions; too few pixels have changed.
+    /// Returns the levels of the design, with minima that no region meets or, every second turn,
+    /// all regions meet; too few pixels change.
     pub(super) fn held(&self, turn: u32) -> Thresholds {
         let mut thresholds = Thresholds::of(&self.design);
         self.ranges.aim_at_held(turn, &mut thresholds);
         thresholds
     }
 
-    /// Minima that every region meets, every third turn; else those of the design for scores, and too few pixels have changed.
+    /// Returns minima that every region meets, every third turn; otherwise the minima of the design
+    /// for scores, and a minimum of changed pixels that no region meets.
     pub(super) fn drifting(&self, turn: u32) -> Thresholds {
         let mut thresholds = Thresholds::of(&self.design);
         self.ranges.aim_at_drift(turn, &mut thresholds);
         thresholds
     }
 
-    /// Minima for scores that are decided now.
+    /// Sets the minima for scores that are decided at this clock.
     pub(super) fn minima(
         &self,
         scores: &[u64; FeatureKind::COUNT],
@@ -136,7 +145,8 @@ impl Aimer {
         self.ranges.aim_at_summary(thresholds, random);
     }
 
-    /// The summary level for a decision that is made now, if there is one at which it turns.
+    /// Sets the summary level for a decision that is made at this clock; `difference` is the level
+    /// at which it changes, if there is one.
     pub(super) fn summary_level(
         &self,
         difference: Option<u32>,
@@ -146,7 +156,7 @@ impl Aimer {
         self.ranges.aim_summary_level(difference, thresholds, random);
     }
 
-    /// Levels of 0 and minima of 1.
+    /// Returns levels of 0 and minima of 1.
     pub(super) fn least() -> Thresholds {
         Thresholds {
             level: [0; FeatureKind::COUNT],

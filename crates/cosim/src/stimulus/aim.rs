@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Thresholds that hit the data: exactly on it, one below and one above.
+//! Thresholds that meet the data: equal to a value, one below and one above.
 
 use super::gauge::{filtered, window};
 use super::random::Random;
@@ -14,11 +14,11 @@ pub(crate) struct Ranges {
     kinds: Vec<FeatureKind>,
     level: [u32; FeatureKind::COUNT],
     min_score: [u64; FeatureKind::COUNT],
-    /// The largest level that pixels can reach, of each feature that has one.
+    /// The largest level that pixels can reach, for each feature with a level.
     steepest: Vec<Option<u32>>,
     temporal_level: u32,
     temporal_min_count: u32,
-    /// Where irrelevant regions send their means.
+    /// The largest summary level; `None` if irrelevant regions send no means.
     summary_level: Option<u32>,
     denoise: bool,
 }
@@ -44,7 +44,8 @@ impl Ranges {
         }
     }
 
-    /// Levels for a frame that shows `now` after `before`, squares of the same size.
+    /// Sets levels near the data of the square `now`, which follows the square `before` of the same
+    /// size.
     pub(crate) fn aim_levels(
         &self,
         now: &[u16],
@@ -62,7 +63,7 @@ impl Ranges {
         self.aim_temporal_level(now[changed].abs_diff(before[changed]), thresholds, random);
     }
 
-    /// Levels of features for a square of pixels as it comes in.
+    /// Sets the levels of features near the data of a square of raw pixels.
     pub(crate) fn aim_feature_levels(
         &self,
         square: &[u16],
@@ -85,7 +86,7 @@ impl Ranges {
         }
     }
 
-    /// The temporal level for a pixel that has changed by so much.
+    /// Sets the temporal level near the change `difference` of a pixel.
     pub(crate) fn aim_temporal_level(
         &self,
         difference: u16,
@@ -96,7 +97,8 @@ impl Ranges {
             narrow(near(difference.into(), self.temporal_level.into(), random));
     }
 
-    /// Levels one below the largest value that pixels can have; every fifth turn that value itself.
+    /// Sets levels one below the largest values that pixels can have; every fifth turn, to these
+    /// values.
     pub(crate) fn aim_largest_levels(&self, turn: u32, thresholds: &mut Thresholds) {
         let less = u32::from(turn % 5 != 4);
         for (level, steepest) in thresholds.level.iter_mut().zip(&self.steepest) {
@@ -108,7 +110,7 @@ impl Ranges {
         thresholds.summary_level = self.summary_level.map_or(0, |largest| largest - less);
     }
 
-    /// Thresholds without any relation to the data.
+    /// Sets thresholds that are unrelated to the data.
     pub(crate) fn shake(&self, thresholds: &mut Thresholds, random: &mut Random) {
         for (level, &max) in thresholds.level.iter_mut().zip(&self.level) {
             let reach = if random.one_in(2) { max } else { max / 16 };
@@ -125,22 +127,25 @@ impl Ranges {
         }
     }
 
-    /// Where irrelevant regions send their means, every other time minima that no score meets.
+    /// If irrelevant regions send their means, sets minima that no score meets about every second
+    /// time.
     pub(crate) fn aim_at_summary(&self, thresholds: &mut Thresholds, random: &mut Random) {
         if self.summary_level.is_some() && random.one_in(2) {
             thresholds.min_score = self.min_score;
         }
     }
 
-    /// Minima of scores that none meets or, every other turn, all; more changes than a region has pixels.
+    /// Sets minima that no score meets or, every second turn, all scores meet, and a minimum of
+    /// changed pixels above the pixels of a region.
     pub(crate) fn aim_at_held(&self, turn: u32, thresholds: &mut Thresholds) {
         thresholds.min_score =
             if turn.is_multiple_of(2) { self.min_score } else { [0; FeatureKind::COUNT] };
         thresholds.temporal_min_count = self.temporal_min_count;
     }
 
-    /// Minima that all regions meet, every third turn; else more changes than a region has pixels. The levels are those that a pixel
-    /// meets which is off by two, and a mean which is off by one.
+    /// Sets minima that all regions meet every third turn; otherwise a minimum of changed pixels
+    /// above the pixels of a region. With the levels, a pixel has changed if it is off by two, and
+    /// a mean if it is off by one.
     pub(crate) fn aim_at_drift(&self, turn: u32, thresholds: &mut Thresholds) {
         if turn.is_multiple_of(3) {
             thresholds.min_score = [0; FeatureKind::COUNT];
@@ -152,8 +157,9 @@ impl Ranges {
         thresholds.summary_level = 0;
     }
 
-    /// The summary level for means whose widest difference is this one: on it, so that they stay, or below it. Without one
-    /// the largest there is, or any: what is sent then is sent for another reason.
+    /// Sets the summary level for means whose widest difference is `difference`: equal to it, so
+    /// that the means are kept, or near it. Without a difference it is often the largest level, or
+    /// random: a summary is then sent for another reason.
     pub(crate) fn aim_summary_level(
         &self,
         difference: Option<u32>,
@@ -170,7 +176,7 @@ impl Ranges {
         };
     }
 
-    /// Minima for scores that are decided now.
+    /// Sets the minima for scores that are decided at this clock.
     pub(crate) fn aim_minima(
         &self,
         scores: &[u64; FeatureKind::COUNT],
@@ -187,7 +193,7 @@ impl Ranges {
     }
 }
 
-/// The value, one less or one more; rarely something else.
+/// Returns the value, or one less or more; rarely something else.
 fn near(value: u64, max: u64, random: &mut Random) -> u64 {
     let chosen = match random.up_to(9) {
         0..=3 => value,

@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How motifs are drawn: the figures, with differences and counts near the design's thresholds.
+//! The drawing of motifs, with differences and counts near the design's thresholds.
 
 use super::motif::{Artist, moved};
 use super::random::Random;
 
 impl Artist {
-    /// A square from a function of maximum and place.
+    /// Returns a square whose pixels are a function of the largest pixel and the place.
     pub(super) fn fill(&self, mut value: impl FnMut(u16, (usize, usize)) -> u16) -> Vec<u16> {
         let places = (0..self.side * self.side).map(|at| (at % self.side, at / self.side));
         places.map(|place| value(self.max, place)).collect()
     }
 
-    /// Number of a place among the pixels of the region; halo comes after all of them.
+    /// Returns the index of a place among the pixels of the region, or `usize::MAX` for a place in
+    /// the halo.
     pub(super) fn rank(&self, at: usize) -> usize {
         let (x, y) = (at % self.side, at / self.side);
         let own = self.margin..self.side - self.margin;
@@ -22,7 +23,7 @@ impl Artist {
         }
     }
 
-    /// Every pixel from what it was.
+    /// Returns the square with every pixel computed from its old value.
     pub(super) fn each(
         &mut self,
         mut pixels: Vec<u16>,
@@ -34,7 +35,8 @@ impl Artist {
         pixels
     }
 
-    /// A difference of two pixels: mostly one that meets a threshold, or misses it by one.
+    /// Returns a difference between two pixels. Most differences meet a threshold, or miss it by
+    /// one.
     pub(super) fn amount(&mut self) -> u16 {
         if self.random.one_in(4) {
             return self.random.pixel(self.max);
@@ -46,7 +48,7 @@ impl Artist {
         self.random.index(self.side - 1)
     }
 
-    /// A difference of a pixel from what it was before.
+    /// Returns a difference between a pixel and its value in the last frame.
     pub(super) fn change(&mut self) -> u16 {
         if self.random.one_in(2) {
             return self.amount();
@@ -54,7 +56,7 @@ impl Artist {
         self.random.of(&self.changes).expect("there are some")
     }
 
-    /// Two values that differ by a chosen amount.
+    /// Returns two values that differ by a chosen amount.
     pub(super) fn pair(&mut self) -> (u16, u16) {
         let amount = self.amount();
         let low = self.random.pixel(self.max - amount);
@@ -97,7 +99,8 @@ impl Artist {
         })
     }
 
-    /// The ring clockwise from the upper left, as offsets from the cell before the center.
+    /// Draws a pixel with a ring of neighbors around it. `RING` has the neighbors clockwise from the
+    /// upper left, as offsets from the upper left one.
     pub(super) fn ring(&mut self) -> Vec<u16> {
         const RING: [(usize, usize); 8] =
             [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
@@ -115,8 +118,8 @@ impl Artist {
         pixels
     }
 
-    /// Two neighboring levels, as many of each as it takes for the mean to end just on, below or
-    /// above the point at which it is rounded up.
+    /// Draws two adjacent levels, with as many pixels of each as needed for the mean to be just on,
+    /// below or above the point at which it is rounded up.
     pub(super) fn half_mean(&mut self) -> Vec<u16> {
         let low = self.random.pixel(self.max - 1);
         let block = match self.block {
@@ -137,7 +140,8 @@ impl Artist {
         self.fill(|_, (x, y)| if rank(x, y) < more { low + 1 } else { low })
     }
 
-    /// The block of a pixel of the region and its number in there; none for halo. Blocks have so many pixels a side.
+    /// Returns the block of a pixel of the region, and the index of the pixel in the block, or `None`
+    /// for a pixel of the halo. Blocks have `side` pixels a side.
     fn in_block(&self, rank: usize, side: usize) -> Option<(usize, usize)> {
         let own = self.side - 2 * self.margin;
         let (x, y) = (rank % own, rank / own);
@@ -145,7 +149,7 @@ impl Artist {
         (rank < self.count).then_some((block, y % side * side + x % side))
     }
 
-    /// Mostly more than before, so that steps add up.
+    /// Changes the mean of one block or of all. Most changes are upwards, so that they add up.
     pub(super) fn mean_step(&mut self, mut pixels: Vec<u16>) -> Vec<u16> {
         let side = self.block.unwrap_or(self.side);
         let last = (self.count / (side * side)).saturating_sub(1);

@@ -1,31 +1,31 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Streams that are damaged on their way, for designs that find their frames again: what comes of each frame, and
-//! where the next reset finds the core.
+//! Damaged streams of frames for designs with `sync`: the damage of each frame, and the state in
+//! which the next reset finds the core.
 
 use self::Delivery::{Long, Restarted, Short, Strays, Twice, Unmarked, Whole};
 use self::Part::{AllButOne, One, Some as Many};
 use super::random::Random;
 
-/// What comes of a frame.
+/// The damage of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Delivery {
-    /// All of it, its first beat marked as that.
+    /// The whole frame, with its first beat marked.
     Whole,
-    /// All but its last beats.
+    /// The frame without its last beats.
     Short(Part),
-    /// All of it, and beats of no frame behind it.
+    /// The whole frame, followed by beats of no frame.
     Long(Part),
-    /// All of it, with its first beat twice, both of them marked.
+    /// The whole frame with its first beat twice, both of them marked.
     Twice,
-    /// All of it, with another beat marked, too.
+    /// The whole frame, with a second beat marked, too.
     Restarted,
-    /// All of it, without a mark.
+    /// The whole frame without a mark.
     Unmarked,
-    /// A few beats of no frame in place of it.
+    /// A few beats of no frame, in place of the frame.
     Strays,
 }
 
-/// How many beats.
+/// A number of beats.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
     One,
@@ -33,35 +33,36 @@ pub(super) enum Part {
     AllButOne,
 }
 
-/// A sequence of such frames.
+/// A sequence of damaged and whole frames.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Damaged {
-    /// Its name in reports.
+    /// The name of the sequence in reports.
     pub(super) name: &'static str,
     pub(super) deliveries: &'static [Delivery],
     pub(super) stop: Stop,
 }
 
-/// Where the reset that begins the next sequence comes.
+/// The state at which the reset of the next sequence comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Stop {
-    /// After everything has left.
+    /// The reset comes after everything has left.
     Drained,
-    /// As soon as the last beat has been taken.
+    /// The reset comes as soon as the last beat has been taken.
     AtOnce,
-    /// While the core completes a frame by itself.
+    /// The reset comes while the core completes a frame by itself.
     Filling,
 }
 
-/// A sequence of any kind.
+/// A sequence of either type.
 pub(super) enum Directed<Sequence> {
-    /// Of whole frames.
+    /// A sequence of whole frames.
     Usual(Sequence),
-    /// Of damaged ones.
+    /// A sequence of damaged frames.
     Damaged(&'static Damaged),
 }
 
-/// The usual sequences, and those of damaged streams behind them if the simulated hardware finds its frames.
+/// Returns the usual sequences, followed by those of damaged frames if the simulated hardware
+/// synchronizes to the start of a frame.
 pub(super) fn directed<Sequence: Copy>(
     usual: &[Sequence],
     finds_frames: bool,
@@ -75,10 +76,10 @@ const fn drained(name: &'static str, deliveries: &'static [Delivery]) -> Damaged
     Damaged { name, deliveries, stop: Stop::Drained }
 }
 
-/// Every sequence, the most telling first.
+/// All sequences of damaged frames, the most telling first.
 const DAMAGED: &[Damaged] = &[
     drained("a beat lost", &[Whole, Whole, Short(One), Whole, Whole, Whole]),
-    // Marks that come while the core completes a frame are none.
+    // Start marks that come while the core completes a frame are ignored.
     drained(
         "marks while it completes",
         &[Short(AllButOne), Short(AllButOne), Short(AllButOne), Whole, Whole, Whole],
@@ -89,7 +90,7 @@ const DAMAGED: &[Damaged] = &[
         stop: Stop::Filling,
     },
     drained("the first frame damaged", &[Short(Many), Whole, Whole, Whole]),
-    // What comes after this reset begins with a beat that would be an error without it.
+    // The sequence after this reset begins with a beat that would be an error without the reset.
     Damaged { name: "reset before a start", deliveries: &[Whole, Whole], stop: Stop::AtOnce },
     drained("beats before the first frame", &[Strays, Whole, Whole, Short(Many), Whole, Whole]),
     Damaged { name: "reset in a frame", deliveries: &[Whole, Short(Many)], stop: Stop::AtOnce },
@@ -103,11 +104,11 @@ const DAMAGED: &[Damaged] = &[
 ];
 
 impl Delivery {
-    /// The first beat of a frame, and no more.
+    /// The first beat of a frame alone.
     pub(super) const FIRST: Self = Short(AllButOne);
 
-    /// The beats that come of a frame of `count`: whether each is marked, and which beat of the frame it is; none
-    /// for one of no frame.
+    /// Returns the beats of a frame of `count` beats: each with its start mark, and its index in
+    /// the frame or `None` for a beat of no frame.
     pub(super) fn beats(self, count: usize, random: &mut Random) -> Vec<(bool, Option<usize>)> {
         let whole = |count: usize| (0..count).map(|place| (place == 0, Some(place)));
         let mut any = |most: usize| 1 + random.index(most - 1);

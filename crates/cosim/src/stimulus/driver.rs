@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Offers frames to the model of a core, clock by clock, in the middle of what surrounds it, and records what goes in
-//! and what comes out.
+//! The driver of the model of a core: it offers frames clock by clock, simulates what surrounds the
+//! core, and records the inputs and outputs.
 
 use super::ahead::{Aimer, ThresholdAim};
 use super::damage::Delivery;
@@ -21,47 +21,47 @@ use foveate_model::{CoreInput, CycleModel, Thresholds, rcm, region_stream, rpu};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// How much of a frame is taken.
+/// The part of a frame that is taken.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Until {
-    /// All of it.
+    /// The whole frame.
     End,
-    /// So many beats, and no clock more.
+    /// The given number of beats, and no clock more.
     Beat(usize),
-    /// As much as comes before the edge at which a region is lost in the middle.
+    /// The beats before the edge at which a region is lost in the middle.
     Loss,
 }
 
-/// Offers frames to the model.
+/// A driver that offers frames to the model.
 pub(super) struct Driver<'a> {
     design: &'a Design,
-    /// Side of the squares at which levels are aimed.
+    /// The side of the squares at which levels are aimed.
     square_side: u32,
     core: Box<dyn CycleModel>,
     aimer: Aimer,
-    /// Where thresholds may change at every clock.
+    /// The prediction of decisions, if thresholds may change at every clock.
     scout: Option<Scout>,
-    /// Where what takes the pixels that leave may stall.
+    /// The sink, if it may stall.
     sink: Option<Sink>,
-    /// The frame store, where it is outside.
+    /// The frame store, if it is external.
     memory: Option<Memory>,
     cancel: &'a AtomicBool,
     recorder: &'a mut Recorder,
     codec: Codec,
     random: Random,
     configured: Thresholds,
-    /// Thresholds as they are now.
+    /// The thresholds at the current clock.
     thresholds: Thresholds,
-    /// Whether a frame is under way, so that thresholds must stay still.
+    /// True if a frame is under way, so that thresholds must not change.
     is_under_way: bool,
-    /// Whether the next reset must find what is under way.
+    /// True if the next reset must come while a frame is under way.
     is_cut: bool,
-    /// Whether the simulated hardware finds its frames.
+    /// True if the simulated hardware synchronizes to the start of a frame.
     finds_frames: bool,
     aim: ThresholdAim,
-    /// Frames since the sequence began.
+    /// The number of frames since the sequence began.
     turn: u32,
-    /// The square of the frame before at which levels are aimed, as [`Driver::square`] cuts it.
+    /// The square of the last frame at which levels were aimed, as [`Driver::square`] cuts it.
     before: Vec<u16>,
     border: u8,
     manners: Manners,
@@ -117,12 +117,14 @@ impl<'a> Driver<'a> {
         }
     }
 
-    /// The reset that comes next meets a pixel, and has one clock: a second would find nothing under way any more.
+    /// Makes the next reset meet a pixel and last one clock: a second clock would no longer find a
+    /// frame under way.
     pub(super) fn cut(&mut self) {
         self.is_cut = true;
     }
 
-    /// Starts over: a reset, during which anything may be on the other inputs. `turn` chooses the sink.
+    /// Begins a sequence with a reset, during which the other inputs have any value. `turn` chooses
+    /// the behavior of the sink.
     pub(super) fn begin(
         &mut self,
         aim: ThresholdAim,
@@ -152,7 +154,8 @@ impl<'a> Driver<'a> {
         self.idle(pause)
     }
 
-    /// Sides at the frame's border, where these are an input: all sixteen sets of them by turns.
+    /// Returns the sides at the frame's border for a sequence, if these are an input; all sixteen
+    /// sets come in turn.
     pub(super) fn border(&self, turn: usize) -> u8 {
         let mut inputs = self.recorder.inputs().fields().iter();
         match inputs.any(|field| field.port.role == PortRole::Border) {
@@ -161,39 +164,40 @@ impl<'a> Driver<'a> {
         }
     }
 
-    /// Whether what takes the pixels that leave may stall.
+    /// Returns true if a sink takes the pixels that leave, and may stall.
     pub(super) fn has_sink(&self) -> bool {
         self.sink.is_some()
     }
 
-    /// From here on the sink is ready at every clock.
+    /// Makes the sink ready at every clock from now on.
     pub(super) fn calm_sink(&mut self) {
         if let Some(sink) = &mut self.sink {
             sink.calm();
         }
     }
 
-    /// Whether the thresholds are those of the design, so that the data must meet them.
+    /// Returns true if the thresholds are those of the design, so that the data must be chosen to
+    /// meet them.
     pub(super) fn thresholds_are_configured(&self) -> bool {
         self.aim == ThresholdAim::Design
     }
 
-    /// Whether the simulated hardware finds its frames.
+    /// Returns true if the simulated hardware synchronizes to the start of a frame.
     pub(super) fn finds_frames(&self) -> bool {
         self.finds_frames
     }
 
-    /// Names the clocks from here on.
+    /// Names the sequence, frame and region of the following clocks.
     pub(super) fn name(&mut self, sequence: &str, frame: u64, region: Option<u32>) {
         self.recorder.begin_frame(sequence, frame, region);
     }
 
-    /// The model.
+    /// Returns the model.
     pub(super) fn core(&self) -> &dyn CycleModel {
         &*self.core
     }
 
-    /// The beats of a frame, as its feed says, each as soon as it is taken and its gap is over.
+    /// Offers the beats of a frame, each as soon as the core is ready and its gap is over.
     pub(super) fn take(
         &mut self,
         frame: &Frame,
@@ -222,8 +226,8 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// What comes of a frame on its way, each beat as soon as it is taken and its gap is over. Thresholds stay those
-    /// of the design: nobody says here when a frame begins.
+    /// Offers the beats of a damaged frame, each as soon as the core is ready and its gap is over.
+    /// The thresholds are those of the design, because nothing here says when a frame begins.
     pub(super) fn deliver(
         &mut self,
         beats: &[Vec<u16>],
@@ -243,7 +247,7 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// A frame that comes so that what is before it leaves, under the thresholds that are there.
+    /// Offers a frame that pushes the earlier ones out, without a change of the thresholds.
     pub(super) fn push_out(&mut self, beats: &[Vec<u16>], gaps: Gaps) -> Result<(), CosimError> {
         for (place, pixels) in beats.iter().enumerate() {
             self.beat(Some(pixels), place == 0, gaps)?;
@@ -251,7 +255,7 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// The same up to the first pixel that leaves.
+    /// Offers a frame that pushes the earlier ones out, up to the first pixel that leaves.
     pub(super) fn push_until_leaving(&mut self, beats: &[Vec<u16>]) -> Result<(), CosimError> {
         for (place, pixels) in beats.iter().enumerate() {
             if self.core.is_high(PortRole::ForwardValid) {
@@ -262,7 +266,7 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// A beat as soon as it is taken and its gap is over.
+    /// Offers a beat as soon as the core is ready and its gap is over.
     fn beat(&mut self, pixels: Option<&[u16]>, sof: bool, gaps: Gaps) -> Result<(), CosimError> {
         self.wait(pixels)?;
         let pause = gaps.before_pixel(&mut self.random);
@@ -291,7 +295,7 @@ impl<'a> Driver<'a> {
         }
     }
 
-    /// Levels for a frame that comes, and minima, too, where these must stand still.
+    /// Aims levels at a frame that comes, and also minima if these must not change within a frame.
     fn aim_at(&mut self, frame: &Frame, largest: Option<u32>) {
         if self.scout.is_some() {
             let now = self.square(frame);
@@ -308,14 +312,15 @@ impl<'a> Driver<'a> {
         self.thresholds = self.aimer.exact(region, &stream, reference, shown, largest, random);
     }
 
-    /// The first square of a frame: its first region, or all of a region with its halo.
+    /// Returns the first square of a frame: its first region, or the whole of a region with its
+    /// halo.
     fn square(&self, frame: &Frame) -> Vec<u16> {
         let side = self.square_side;
         let places = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
         places.map(|(x, y)| frame.clamped(x.into(), y.into())).collect()
     }
 
-    /// Lets clocks pass until the core takes the next beat, which is `next`.
+    /// Lets clocks pass until the core is ready for the next beat, `next`.
     fn wait(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
         while !self.core.is_ready() {
             self.busy(next)?;
@@ -323,7 +328,7 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// Lets everything leave of the frames that were taken, as far as it needs no further frame.
+    /// Lets clocks pass until all pixels have left that need no further frame.
     pub(super) fn drain(&mut self) -> Result<(), CosimError> {
         while !self.core.is_ready() || self.core.is_pending() {
             self.busy(None)?;
@@ -332,7 +337,7 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// Lets the core work until only so many clocks are left until it is ready.
+    /// Lets the core work until `left` clocks remain until it is ready.
     pub(super) fn work_until(&mut self, left: u64) -> Result<(), CosimError> {
         while self.core.clocks_until_ready() > left {
             self.busy(None)?;
@@ -349,7 +354,7 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// One clock at which nothing is taken.
+    /// Simulates one clock at which nothing is taken.
     pub(super) fn busy(&mut self, next: Option<&[u16]>) -> Result<(), CosimError> {
         if self.core.is_ready() {
             return self.clock(false, false, None, None);
@@ -358,7 +363,7 @@ impl<'a> Driver<'a> {
         self.clock(false, valid, None, offered)
     }
 
-    /// Clocks without a beat; the pixel port shows anything.
+    /// Simulates clocks without a beat; the pixel port has any value.
     pub(super) fn idle(&mut self, clocks: u64) -> Result<(), CosimError> {
         for _ in 0..clocks {
             self.clock(false, false, None, None)?;
@@ -366,7 +371,8 @@ impl<'a> Driver<'a> {
         Ok(())
     }
 
-    /// One edge. Without pixels garbage is applied, and without a mark any.
+    /// Simulates one edge. Without pixels the port has random values, and without a mark the mark
+    /// is random.
     fn clock(
         &mut self,
         reset: bool,
@@ -428,7 +434,7 @@ impl<'a> Driver<'a> {
         self.recorder.push(&self.input, &self.expected)
     }
 
-    /// Whether thresholds have no relation to the data at this clock.
+    /// Returns true if thresholds are unrelated to the data at this clock.
     fn thresholds_are_restless(&self) -> bool {
         match self.aim {
             ThresholdAim::Design => false,

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as the pixel port takes it.
+//! The order in which the pixel port takes a frame.
 
 use crate::level::Level;
 use foveate_design::{Design, Feed, Hardware, PipelinedDesign, RasterDesign, SerialDesign};
 use foveate_frame::Frame;
 use foveate_model::region_stream;
 
-/// In which order, and how many at a time, the pixel port takes the pixels of a frame.
+/// The order of the pixels of a frame at the pixel port, and the number taken at a time.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum FrameFeed<'a> {
-    /// One at a time of a square that is a region with its halo.
+    /// One pixel at a time of a square, which is a region with its halo.
     Square(PipelinedDesign<'a>),
-    /// One of every region, with their halos.
+    /// One pixel of every region with its halo at a time.
     Regions(PipelinedDesign<'a>),
-    /// One of every lane, slot by slot.
+    /// One pixel of every lane at a time, slot by slot.
     Lanes(SerialDesign<'a>),
-    /// One at a time, row by row.
+    /// One pixel at a time, in row-major order.
     Pixels(SerialDesign<'a>),
-    /// A word at a time, row by row.
+    /// One word at a time, in row-major order.
     Words(RasterDesign<'a>),
 }
 
 impl<'a> FrameFeed<'a> {
-    /// That of module `rcm`, and of an array of one unit.
+    /// Returns the feed of module `rcm`, and of an array of one unit.
     pub(crate) fn of(design: &'a Design) -> Self {
         match design.hardware() {
             Hardware::Pipelined(own) => Self::Regions(design.on(own)),
@@ -34,7 +34,7 @@ impl<'a> FrameFeed<'a> {
         }
     }
 
-    /// That of what is simulated at a level.
+    /// Returns the feed of the hardware that is simulated at a level.
     pub(super) fn at(level: Level, design: &'a Design) -> Self {
         match (level, Self::of(design)) {
             (Level::Rpu, Self::Regions(design)) => Self::Square(design),
@@ -42,7 +42,7 @@ impl<'a> FrameFeed<'a> {
         }
     }
 
-    /// Pixels that the port takes at once.
+    /// Returns the number of pixels that the port takes at once.
     pub(crate) fn width(&self) -> usize {
         let width = match self {
             Self::Square(_) | Self::Pixels(_) => 1,
@@ -53,7 +53,7 @@ impl<'a> FrameFeed<'a> {
         width as usize
     }
 
-    /// The design.
+    /// Returns the design.
     pub(super) fn design(&self) -> &'a Design {
         match self {
             Self::Square(design) | Self::Regions(design) => design.design(),
@@ -62,7 +62,7 @@ impl<'a> FrameFeed<'a> {
         }
     }
 
-    /// Columns and rows of what is fed: the frame, or the square.
+    /// Returns the columns and rows of a fed frame or square.
     pub(super) fn size(&self) -> (u32, u32) {
         match self {
             Self::Square(design) => (design.stream_side(), design.stream_side()),
@@ -72,7 +72,8 @@ impl<'a> FrameFeed<'a> {
         }
     }
 
-    /// Side of the squares that are drawn, each by itself: a region, or all of the square.
+    /// Returns the side of the squares that are drawn independently: a region, or a region with its
+    /// halo.
     pub(super) fn square_side(&self) -> u32 {
         match self {
             Self::Square(design) => design.stream_side(),
@@ -82,7 +83,7 @@ impl<'a> FrameFeed<'a> {
         }
     }
 
-    /// What the port takes of a frame, one after the other. What it shows in places without a pixel is `nothing`.
+    /// Returns the beats of a frame, in order. Places without a pixel get the values of `nothing`.
     pub(crate) fn beats(&self, frame: &Frame, nothing: impl FnMut() -> u16) -> Vec<Vec<u16>> {
         match *self {
             Self::Square(_) => frame.pixels().iter().map(|&pixel| vec![pixel]).collect(),
@@ -94,7 +95,7 @@ impl<'a> FrameFeed<'a> {
     }
 }
 
-/// The streams of all regions, one after the other.
+/// Returns the streams of all regions, one after the other.
 fn streams(design: &Design, frame: &Frame) -> Vec<u16> {
     let mut streams = Vec::new();
     for region in 0..design.regions() {
@@ -109,7 +110,7 @@ fn regions(design: &Design, frame: &Frame) -> Vec<Vec<u16>> {
     (0..length).map(beat).collect()
 }
 
-/// The stream of slot 0 of every lane, then that of slot 1, ...
+/// Returns the beats of slot 0 of every lane, then those of slot 1, and so on.
 fn lanes(
     design: SerialDesign<'_>,
     frame: &Frame,
@@ -126,7 +127,7 @@ fn lanes(
         .collect()
 }
 
-/// The padded frame, row by row.
+/// Returns the pixels of the padded frame in row-major order, one per beat.
 fn rows(design: SerialDesign<'_>, frame: &Frame) -> Vec<Vec<u16>> {
     let side = i64::from(design.region_size());
     let (width, height) = (i64::from(design.columns()) * side, i64::from(design.rows()) * side);
@@ -134,7 +135,8 @@ fn rows(design: SerialDesign<'_>, frame: &Frame) -> Vec<Vec<u16>> {
     (0..height).flat_map(row).collect()
 }
 
-/// The words of a frame, row by row. Pixels of the last word of a row that lie beyond the frame are `nothing`.
+/// Returns the words of a frame in row-major order. Pixels of the last word of a row that lie
+/// beyond the frame get the values of `nothing`.
 fn words(
     design: RasterDesign<'_>,
     frame: &Frame,

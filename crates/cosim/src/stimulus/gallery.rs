@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whole frames from motifs: an artist for every region.
+//! Whole frames of motifs, with one drawing state for every region.
 
 use super::feed::FrameFeed;
 use super::motif::{Artist, Motif};
@@ -7,15 +7,15 @@ use super::random::Random;
 use crate::error::CosimError;
 use foveate_frame::Frame;
 
-/// The artists of what is fed.
+/// The drawing states of all squares of a frame.
 pub(super) struct Gallery {
-    /// One per square.
+    /// The drawing state of each square.
     artists: Vec<Artist>,
-    /// Side of a square.
+    /// The side of a square, in pixels.
     side: u32,
-    /// Columns and rows of all squares together, without what is beyond the frame.
+    /// The columns and rows of the frame, which cuts off the last squares.
     size: (u32, u32),
-    /// Bits of a pixel.
+    /// The number of bits of a pixel.
     bits: u32,
 }
 
@@ -27,8 +27,8 @@ impl Gallery {
         Self { artists, side, size, bits: design.pixel_bits() }
     }
 
-    /// Lets every artist draw the next picture, with `mixed` every region another motif, and with
-    /// `configured` every other near a minimum of the design.
+    /// Draws the next frame. With `mixed` every region starts at another motif, and with
+    /// `configured` about half of the regions are drawn near a minimum of the design.
     pub(super) fn draw(
         &mut self,
         motifs: &[Motif],
@@ -40,7 +40,7 @@ impl Gallery {
         for (region, artist) in self.artists.iter_mut().enumerate() {
             let shift = if mixed { region } else { 0 };
             let motif = motifs[(turn + shift) % motifs.len()];
-            // A step of a mean is a minimum of its own.
+            // `MeanStep` already aims at a threshold.
             if configured && motif != Motif::MeanStep && random.one_in(2) {
                 artist.draw_near_minimum(motif);
             } else {
@@ -49,7 +49,7 @@ impl Gallery {
         }
     }
 
-    /// What the artists have drawn.
+    /// Returns the drawn frame.
     pub(super) fn frame(&self) -> Result<Frame, CosimError> {
         let (side, (width, height)) = (self.side, self.size);
         let columns = width.div_ceil(side);

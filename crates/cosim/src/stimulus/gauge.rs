@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Scores of a square of pixels under the configured thresholds, to draw squares that meet a
-//! minimum exactly. Only the choice of vectors depends on it: the model says what is right.
+//! The scores of a square of pixels under the configured thresholds, for squares that meet a
+//! minimum exactly. They only affect the choice of vectors; the expected outputs come from the
+//! model.
 
 use foveate_design::{Design, Filter, SpatialFeature};
 use foveate_model::denoise::median;
@@ -9,13 +10,13 @@ use foveate_model::window::Window;
 use foveate_model::{RegionView, changed_pixels};
 use std::ops::Range;
 
-/// Reads the scores of squares of one size.
+/// A function that computes the scores of squares of one size.
 #[derive(Clone, Debug)]
 pub(super) struct Gauge {
     meters: Vec<Meter>,
     denoise: bool,
     side: usize,
-    /// Columns and rows on each side that are halo.
+    /// The width of the halo on each side, in pixels.
     margin: usize,
 }
 
@@ -23,7 +24,7 @@ pub(super) struct Gauge {
 enum Meter {
     /// The score of a feature.
     Spatial(SpatialFeature),
-    /// Pixels that have changed by more than the level.
+    /// The number of pixels that have changed by more than the level.
     Changes { level: u32, minimum: u64 },
 }
 
@@ -40,12 +41,12 @@ impl Gauge {
         Self { meters, denoise: design.filter() == Filter::Median3x3, side, margin }
     }
 
-    /// How many scores there are.
+    /// Returns the number of scores.
     pub(super) fn meters(&self) -> usize {
         self.meters.len()
     }
 
-    /// The minimum of a score.
+    /// Returns the minimum of a score.
     pub(super) fn minimum(&self, meter: usize) -> u64 {
         match &self.meters[meter] {
             Meter::Spatial(feature) => feature.min_score(),
@@ -53,7 +54,7 @@ impl Gauge {
         }
     }
 
-    /// Squares that follow this one.
+    /// Returns a scorer for squares that follow `before`.
     pub(super) fn after(&self, before: &[u16]) -> Following<'_> {
         Following { gauge: self, before: self.scored(before) }
     }
@@ -63,33 +64,33 @@ impl Gauge {
     }
 }
 
-/// Squares that follow another.
+/// A scorer for squares that follow another square.
 pub(super) struct Following<'a> {
     gauge: &'a Gauge,
     before: Vec<u16>,
 }
 
 impl Following<'_> {
-    /// A score of such a square.
+    /// Returns a score of the square `now`.
     pub(super) fn read(&self, meter: usize, now: &[u16]) -> u64 {
         let Gauge { meters, side, margin, .. } = self.gauge;
         let own = *margin..side - margin;
         let now = self.gauge.scored(now);
         let seen = Seen { now: &now, before: &self.before, side: *side, own };
         match &meters[meter] {
-            // Of a feature without a level it means nothing.
+            // A feature without a level ignores the argument.
             Meter::Spatial(feature) => score(feature, feature.level().unwrap_or(0), &seen),
             &Meter::Changes { level, .. } => changed_pixels(&seen, level).into(),
         }
     }
 }
 
-/// The region in the middle of a square that follows another.
+/// The region in the middle of a square that follows another one.
 struct Seen<'a> {
     now: &'a [u16],
     before: &'a [u16],
     side: usize,
-    /// Its columns, and its rows.
+    /// The columns of the region, and its rows.
     own: Range<usize>,
 }
 
@@ -117,7 +118,7 @@ impl RegionView for Seen<'_> {
     }
 }
 
-/// The window around a pixel of a square, whose border repeats.
+/// Returns the window around a pixel of a square; beyond the square its border repeats.
 pub(super) fn window(square: &[u16], at: usize) -> Window {
     let side = square.len().isqrt();
     let around = |place: usize| [place.saturating_sub(1), place, (place + 1).min(side - 1)];
@@ -125,7 +126,7 @@ pub(super) fn window(square: &[u16], at: usize) -> Window {
     std::array::from_fn(|number| square[rows[number / 3] * side + columns[number % 3]])
 }
 
-/// The median of every window.
+/// Returns the median of every window.
 pub(super) fn filtered(square: &[u16]) -> Vec<u16> {
     (0..square.len()).map(|at| median(&window(square, at))).collect()
 }

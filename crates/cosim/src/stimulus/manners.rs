@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What is offered to an array or core while it takes nothing.
+//! The pixels that are offered to an array or core while it takes nothing.
 
 use super::random::Random;
 
-/// What is offered while nothing is taken.
+/// The policy for the pixel port while nothing is taken.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum Manners {
-    /// Nothing.
+    /// Nothing is offered.
     Quiet,
-    /// The next pixel, until it is taken.
+    /// The next pixel is offered until it is taken.
     Patient,
-    /// Garbage, which must not be taken, at every other clock.
+    /// Random pixels, which must not be taken, are offered at about every second clock.
     Rude,
 }
 
 impl Manners {
-    /// Any, mostly the rude ones.
+    /// Returns a random policy, most often `Rude`.
     pub(super) fn any(random: &mut Random) -> Self {
         match random.up_to(3) {
             0 => Self::Quiet,
@@ -24,7 +24,8 @@ impl Manners {
         }
     }
 
-    /// Whether something is offered at a clock at which nothing is taken, and what; without it garbage.
+    /// Returns the valid bit for a clock at which nothing is taken, and the pixels; `None` stands
+    /// for random pixels.
     pub(super) fn offer<'a>(
         self,
         next: Option<&'a [u16]>,

@@ -1,34 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The memory outside of a core, which sometimes has not the word that the core asks for, or another.
+//! An external frame store that sometimes lacks the word that the core asks for, or returns a wrong
+//! one.
 
 use super::queue::Queue;
 use super::random::Random;
 use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 
-/// A wrong word comes once in so many.
+/// One in `WRONG` words is wrong.
 const WRONG: u64 = 5;
 
-/// What a memory does wrong.
+/// A fault of the frame store.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Lapse {
-    /// Nothing.
+    /// No fault.
     None,
-    /// Now and then it has no word, and that comes at the next edge: all that follow are off by one.
+    /// Some words are late by one request, so all words after one are off by one.
     Late,
-    /// Now and then it has no word, which never comes.
+    /// Some words are missing and never come.
     Gone,
-    /// Some of its words are others.
+    /// Some words are wrong.
     Wrong,
 }
 
-/// The memory.
+/// An external frame store with a fault.
 pub(super) struct Memory {
     queue: Queue,
     lapse: Lapse,
-    /// The numbers of the words that are late or gone, counted from the first that the core asks for.
+    /// The indices of the words that are late or missing, counted from the first word that the core
+    /// asks for.
     missing: [u64; 2],
-    /// Words that the core has asked for since reset.
+    /// The number of words that the core has asked for since reset.
     asked: u64,
     random: Random,
     timing: RasterTiming,
@@ -36,7 +38,8 @@ pub(super) struct Memory {
 }
 
 impl Memory {
-    /// None where the frame store is inside, so that nothing is drawn.
+    /// Returns the store, or `None` if the core stores its own references; then nothing is drawn
+    /// from `random`.
     pub(super) fn of(design: &Design, max: u16, random: &mut Random) -> Option<Self> {
         let design = match design.hardware() {
             Hardware::Raster(own) => design.on(own),
@@ -53,23 +56,25 @@ impl Memory {
         })
     }
 
-    /// A reset: it is empty, and from here on fails like this.
+    /// Empties the store for a reset, and sets its fault from now on.
     pub(super) fn begin(&mut self, lapse: Lapse) {
         self.queue.forget();
         self.lapse = lapse;
         self.asked = 0;
         let (row, words) = (u64::from(self.timing.row_words), self.timing.words());
-        // At the ends of rows and frames, and anywhere in the second frame with references.
+        // One word is missing at the ends of rows and frames, and one anywhere in the second frame
+        // with references.
         let places = [0, 1, row - 1, row, words - 1, words];
         let directed = places[self.random.index(places.len() - 1)];
         self.missing = [directed, words + self.random.up_to(words - 1)];
     }
 
-    /// What is at the ports of references at the next edge, where the core shows this before it.
+    /// Returns the valid bit and the word at the reference ports for the next edge; `before` is the
+    /// core before that edge.
     pub(super) fn show(&mut self, before: &dyn CycleModel) -> (bool, Vec<u16>) {
         let oldest = self.queue.oldest().map(<[u16]>::to_vec);
         if !before.is_high(PortRole::ReferenceReady) {
-            // Nobody may look at it.
+            // The core must not use this word.
             let word = oldest.filter(|_| self.random.one_in(2));
             return (self.random.one_in(2), word.unwrap_or_else(|| self.garbage()));
         }
@@ -88,7 +93,7 @@ impl Memory {
         (true, if is_wrong { self.garbage() } else { word })
     }
 
-    /// Keeps what the core shows after an edge.
+    /// Stores the word that the core outputs after an edge.
     pub(super) fn keep(&mut self, after: &dyn CycleModel) {
         self.queue.keep(after);
     }

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Vectors for a design: what goes into the hardware, with what the model says comes out.
+//! Vectors for a design: the inputs of the hardware, and the outputs that the model expects.
 //!
-//! A recording is a row of *sequences*, each begun by a reset: directed ones from [`motif`]s, with
-//! thresholds that hit the data exactly ([`aim`]) and pixels with and without gaps, then the frames
-//! of the caller. Sequences end drained, in mid-frame or in mid-flush, so that each reset finds
-//! something else under way. Everything follows from the design, the seed and the frames.
+//! A recording is a list of *sequences*, each begun by a reset. Directed sequences of [`motif`]s
+//! come first, with thresholds that meet the data exactly ([`aim`]) and pixels with and without
+//! gaps, then the frames of the caller. A sequence ends when everything has left, within a frame or
+//! within a flush, so that each reset finds the core in another state. The vectors follow from the
+//! design, the seed and the frames alone.
 
 mod ahead;
 mod aim;
@@ -42,32 +43,34 @@ pub(crate) use sink::ends_region;
 use std::sync::atomic::AtomicBool;
 use turns::Extent;
 
-/// Regions of the largest array: each is an RPU of the model, with buffers of its own.
+/// The largest number of regions of an array. Each is an RPU of the model, with buffers of its own.
 const MAX_REGIONS: u64 = 1 << 16;
-/// Pixels that all regions of an array take in per frame. The model keeps several frames of them, and
-/// some kilobytes per region: at these bounds the whole takes some gigabytes.
+/// The largest number of pixels that all regions of an array take per frame. The model keeps
+/// several frames of them, and some kilobytes per region: at these limits it takes some gigabytes.
 const MAX_PIXELS: u64 = 1 << 26;
 
-/// What vectors are made from.
+/// The settings from which vectors are made.
 #[derive(Clone, Debug)]
 pub struct Stimulus {
-    /// How much of the hardware they are for.
+    /// The part of the hardware that the vectors are for.
     pub level: Level,
-    /// Equal seeds give equal vectors.
+    /// The seed of all random data; equal seeds give equal vectors.
     pub seed: u64,
-    /// How often the directed sequences are run through, each time with other data and gaps;
-    /// 0 leaves only the frames.
+    /// The number of times that the directed sequences are played, each time with other data and
+    /// gaps. With 0 only the frames are played.
     pub rounds: u32,
-    /// Frames of the caller, of the size and depth of the design.
+    /// The frames of the caller, of the size and depth of the design.
     pub frames: Vec<Frame>,
-    /// Clocks in a round that are enough: where all directed sequences take more, about as many of them
-    /// are recorded as take so many, but always the first three, the most telling. Without it all are.
+    /// The number of clocks in a round that are enough, or `None` for all. If all directed
+    /// sequences take more, about as many of them are recorded as fit into this number, but always
+    /// the first three, which are the most telling.
     pub enough: Option<u64>,
 }
 
-/// Directed sequences that every round has, from the first on: extremes, a reset in a frame, and what comes third.
+/// The number of directed sequences that every round has: extremes, a reset in a frame, and the
+/// third of the organization.
 const MOST_TELLING: usize = 3;
-/// Frame times that a directed sequence takes: some frames, with gaps.
+/// The approximate length of a directed sequence, in frame times: some frames, with gaps.
 const FRAMES_OF_A_SEQUENCE: u64 = 6;
 
 impl Default for Stimulus {
@@ -77,10 +80,12 @@ impl Default for Stimulus {
 }
 
 impl Stimulus {
-    /// Runs the model and records. `progress` hears how many sequences of how many are done.
+    /// Runs the model and records its inputs and outputs. `progress` is called with the number of
+    /// finished sequences and the number of all sequences.
     ///
     /// # Errors
-    /// When a frame is not of the design's kind, the array is too large, or the files find no room.
+    /// Fails if a frame has another size or depth than the design, the array is too large, or there
+    /// is no room for the files.
     pub fn record(
         &self,
         design: &Design,
@@ -89,10 +94,11 @@ impl Stimulus {
         self.record_until(design, &AtomicBool::new(false), progress)
     }
 
-    /// As [`Stimulus::record`], but stops with an error as soon as `cancel` is set.
+    /// Records like [`Stimulus::record`], but stops with an error as soon as `cancel` is set.
     ///
     /// # Errors
-    /// As [`Stimulus::record`], and one of which [`CosimError::is_interrupted`] is true.
+    /// Fails like [`Stimulus::record`], and with an error for which [`CosimError::is_interrupted`]
+    /// is true if it was cancelled.
     pub fn record_until(
         &self,
         design: &Design,
@@ -102,7 +108,8 @@ impl Stimulus {
         self.record_without(design, |_| false, cancel, progress)
     }
 
-    /// The same without the directed sequences of some names: what such a recording lacks must be missed.
+    /// Records without the directed sequences for whose names `is_left_out` returns true. Tests use
+    /// it to show that the situations of these sequences are then missing.
     fn record_without(
         &self,
         design: &Design,
@@ -130,7 +137,7 @@ impl Stimulus {
         Extent { rounds: self.rounds, most }
     }
 
-    /// Refuses an array that would not fit into memory, before any of it is made.
+    /// Refuses an array that would not fit into memory, before any part of it is made.
     fn check_size(&self, design: &Design) -> Result<(), CosimError> {
         let regions = u64::from(match self.level {
             Level::Rpu => design.unit().regions,
@@ -148,7 +155,7 @@ impl Stimulus {
         Ok(())
     }
 
-    /// What can be refused before anything is made.
+    /// Refuses missing frames and frames of another size or depth.
     fn check(&self, design: &Design) -> Result<(), CosimError> {
         if self.rounds == 0 && self.frames.is_empty() {
             return Err(CosimError::Nothing);
@@ -170,7 +177,7 @@ mod tests {
     use super::*;
     use foveate_design::Config;
 
-    /// What is missing in a recording without sequences.
+    /// Returns the situations that do not occur in a recording without some sequences.
     fn missing(toml: &str, is_left_out: fn(&str) -> bool) -> Vec<String> {
         let toml = format!("frame={{width=32,height=24}}\n{toml}");
         let design = Config::from_toml(&toml).unwrap().validate().unwrap();

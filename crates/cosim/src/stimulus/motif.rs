@@ -1,85 +1,89 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a region shows: the hard cases, each drawn into a square of pixels.
+//! The contents of a region: the hard cases, each drawn into a square of pixels.
 
 use super::gauge::Gauge;
 use super::random::Random;
 use foveate_design::Design;
 
-/// One way to fill a square, some of them from what it held before.
+/// A way to fill a square. Some motifs change the last picture of the square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motif {
-    /// All zero.
+    /// All pixels are 0.
     Zero,
-    /// All at the maximum.
+    /// All pixels have the largest value.
     Max,
-    /// One level throughout.
+    /// All pixels have one random level.
     Flat,
-    /// One-pixel checkerboard at full swing.
+    /// A checkerboard with squares of one pixel, of 0 and the largest value.
     Checkerboard,
-    /// One pixel at a corner, or beside it, above or below the rest by a chosen amount.
+    /// One pixel at a corner, or beside it, is above or below the others by a chosen amount.
     HotCorner,
     /// Two halves that differ by a chosen amount.
     Step,
-    /// One quadrant at the maximum and the others at zero, or the other way around, by turns: the largest
-    /// gradient of each direction, the strongest corner, and each time the largest change.
+    /// One quadrant has the largest value and the others 0, or the other way around, in turn. This
+    /// gives the largest gradient in each direction, the strongest corner, and each time the
+    /// largest change.
     Quadrant,
     /// A ramp of constant slope, so that every pixel is an edge.
     Ramp,
-    /// A pixel with 4 to 8 contiguous neighbors that differ by a chosen amount.
+    /// A pixel with 4 to 8 contiguous neighbors that differ from it by a chosen amount.
     Ring,
-    /// A mean that ends in one half, or misses it by one pixel; of the region, or of its blocks by turns.
+    /// A mean whose fraction is one half, or misses it by one pixel; in turn of the region and of
+    /// its blocks.
     HalfMean,
-    /// Some pixels at one value, the others at another; half and half is the largest variance.
+    /// Some pixels have one value, the others another; half of each gives the largest variance.
     TwoPoint,
     /// Independent random pixels of the whole range.
     Noise,
-    /// Independent random extremes.
+    /// Independent random pixels of 0 and the largest value.
     Binary,
-    /// Random and smooth.
+    /// A random and smooth surface.
     Smooth,
-    /// As before.
+    /// The last picture.
     Same,
-    /// As before, some pixels off by one.
+    /// The last picture, with some pixels off by one.
     Flicker,
-    /// One level more than before.
+    /// The last picture, one level brighter.
     Fade,
-    /// A chosen amount more, or less, than before.
+    /// The last picture, brighter or darker by a chosen amount.
     LightStep,
-    /// So much more, or less, than before that a mean just meets the summary level, or is above it; one block or all.
+    /// The last picture, changed so that the mean of one block or of all just meets the summary
+    /// level, or exceeds it.
     MeanStep,
-    /// As before, but for the first pixels, as many as the temporal threshold or one off.
+    /// The last picture, with its first pixels changed: as many as the temporal minimum, or one
+    /// off.
     Bump,
-    /// As before, with one pixel moved.
+    /// The last picture, with one pixel moved.
     MovingPixel,
 }
 
-/// Motifs of which every frame differs from the one before in some regions and not in others.
+/// The motifs with which every frame differs from the last one in some regions and not in others.
 pub(super) const TELLING: &[Motif] =
     &[Motif::Smooth, Motif::Bump, Motif::Noise, Motif::Same, Motif::Step, Motif::Ring];
 
-/// How many squares are tried to meet a minimum.
+/// The number of squares that are tried to meet a minimum.
 const TRIALS: usize = 64;
 
-/// Draws motifs for one region.
+/// The drawing state of one region.
 #[derive(Clone, Debug)]
 pub(crate) struct Artist {
     pub(super) side: usize,
-    /// Columns and rows on each side that are halo and no pixels of the region.
+    /// The width of the halo on each side, in pixels.
     pub(super) margin: usize,
     pub(super) max: u16,
-    /// Pixels of the region.
+    /// The number of pixels of the region.
     pub(super) count: usize,
-    /// Side of a block whose mean is formed, where there are some.
+    /// The side of a block with a mean, if regions have blocks.
     pub(super) block: Option<usize>,
-    /// How much a pixel counts in the mean of the design: 2^f.
+    /// The weight of a pixel in the mean of the design, 2^f.
     pub(super) mean_unit: usize,
     pub(super) counts: Vec<u32>,
     pub(super) amounts: Vec<u16>,
-    /// Changes that meet the temporal or the summary level, or miss it by one.
+    /// The changes that meet the temporal or the summary level, or miss it by one.
     pub(super) changes: Vec<u16>,
-    /// The summary level, where there is one.
+    /// The summary level, or 0 without summaries.
     pub(super) summary_level: u16,
-    /// How many quadrants have been drawn.
+    /// The number of quadrants drawn so far.
     pub(super) quadrants: usize,
     gauge: Gauge,
     pub(crate) pixels: Vec<u16>,
@@ -87,7 +91,7 @@ pub(crate) struct Artist {
 }
 
 impl Artist {
-    /// An artist for squares of `side` pixels, who starts with a black one.
+    /// Creates the state for squares of `side` pixels a side, with a black first picture.
     pub(crate) fn new(design: &Design, side: u32, random: Random) -> Self {
         let max = u16::try_from(design.pixel_max()).expect("a pixel has at most 16 bits");
         let (side, own) = (side as usize, design.region_size() as usize);
@@ -96,8 +100,9 @@ impl Artist {
         let levels = design.features().iter().filter_map(|feature| feature.level());
         let mut amounts = vec![1, 2.min(max), max / 2, max];
         for level in levels.chain([design.temporal().level]) {
-            // A single pixel that is off by h has edges of 2h around it, a straight step of h edges
-            // of 4h, a diagonal one of 6h; corners and changes are compared with h itself.
+            // A single pixel that is off by h has gradients of 2h around it. A straight step of h
+            // has gradients of 4h, a diagonal one of 6h. Corners and changes are compared with h
+            // itself.
             for part in [1, 2, 4, 6].map(|divisor| level / divisor) {
                 let near = [part.saturating_sub(1), part, part + 1];
                 amounts.extend(near.map(|h| u16::try_from(h).unwrap_or(max).min(max)));
@@ -129,7 +134,7 @@ impl Artist {
         }
     }
 
-    /// Draws the next picture over the last.
+    /// Draws the next picture over the last one.
     pub(crate) fn draw(&mut self, motif: Motif) {
         let before = std::mem::take(&mut self.pixels);
         self.pixels = match motif {
@@ -173,8 +178,8 @@ impl Artist {
         };
     }
 
-    /// Draws, then takes back as many of the last pixels as it needs for one of the scores to come
-    /// as near as can be to its configured minimum, or to one less or more.
+    /// Draws the next picture, then restores as many of the last pixels as needed for one of the
+    /// scores to come as near as possible to its configured minimum, or to one less or more.
     pub(crate) fn draw_near_minimum(&mut self, motif: Motif) {
         let before = self.pixels.clone();
         self.draw(motif);
@@ -195,7 +200,8 @@ impl Artist {
     }
 }
 
-/// A pixel more or less by an amount, the other way where there is no room.
+/// Returns a pixel that is brighter or darker by an amount; it is moved the other way if there is
+/// no room.
 pub(super) fn moved(pixel: u16, amount: u16, up: bool, max: u16) -> u16 {
     let (more, less) = (pixel.checked_add(amount).filter(|&v| v <= max), pixel.checked_sub(amount));
     let wanted = if up { more.or(less) } else { less.or(more) };

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a session waits for: until everything of a frame has left.
+//! The time that a session waits until all pixels of a frame have left.
 
 use foveate_design::{Design, Hardware, PipelinedDesign, PipelinedTiming};
 
-/// How long a core goes on after a frame.
+/// The time that a core needs after a frame.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pace {
-    /// Clocks after which everything has settled that does not wait for another frame; `None` where the core says
-    /// so itself, by what it takes and what it shows.
+    /// The number of clocks after which everything is decided that does not wait for another frame;
+    /// `None` if the core shows this by its own outputs.
     pub(super) settle: Option<u64>,
-    /// Frames that must follow until the pixels of a frame have left.
+    /// The number of frames that must follow before the pixels of a frame have left.
     pub(super) frames_behind: u32,
-    /// Clocks that are simulated after the last of a sequence has left, at most.
+    /// The largest number of clocks that are simulated after a sequence has left.
     pub(super) silence: u64,
 }
 
@@ -29,7 +29,8 @@ impl Pace {
     }
 }
 
-/// Clocks after the last pixel of a frame in which a pipelined array settles, as far as it does without another frame.
+/// Returns the number of clocks after the last pixel of a frame after which a pipelined array has
+/// decided everything that does not wait for another frame.
 pub(crate) fn settling_clocks(design: PipelinedDesign<'_>) -> u64 {
     u64::from(PipelinedTiming::of(design).decision_latency) + 4
 }

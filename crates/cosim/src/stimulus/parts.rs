@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The caller's frames, as the simulated hardware sees them.
+//! The caller's frames, cut to the parts that the simulated hardware sees.
 
 use crate::error::CosimError;
 use crate::level::Level;
@@ -7,7 +7,8 @@ use foveate_design::{Design, Hardware};
 use foveate_frame::Frame;
 use foveate_model::{region_border, region_stream};
 
-/// Clocks of all the parts that go through a single lane or core, at most; they are spread over the frame.
+/// The largest number of clocks of all parts that go through a single lane or core; the parts are
+/// spread over the frame.
 const MAX_CLOCKS: u64 = 1 << 21;
 
 /// A part of the caller's frames, which goes through the simulated hardware as a sequence.
@@ -15,23 +16,23 @@ const MAX_CLOCKS: u64 = 1 << 21;
 pub(super) struct Part {
     /// The name of its sequence.
     pub(super) name: String,
-    /// Its region, or its first, where it is not all of the frame.
+    /// The region of the part, or its first region; `None` if the part is a whole frame or a tile.
     pub(super) region: Option<u32>,
-    /// The sides of its region at the frame's border, where these are an input.
+    /// The sides of the region at the frame's border, if these are an input.
     pub(super) border: u8,
     cut: Cut,
 }
 
-/// Which part it is. What is beyond it repeats its border, as at the border of a frame.
+/// The position of a part. Pixels beyond the frame repeat its border.
 #[derive(Clone, Copy, Debug)]
 enum Cut {
-    /// The upper left of the frame, as much as the simulated design takes.
+    /// The upper left part of the frame, in the size of the simulated design.
     UpperLeft,
     /// A region with its halo.
     Region(u32),
-    /// The regions of a lane from this one on, side by side.
+    /// The regions of a lane, side by side, from this region on.
     Lane(u32),
-    /// As much as the simulated design takes from this place on.
+    /// A tile at this place, in the size of the simulated design.
     Tile { left: u32, top: u32 },
 }
 
@@ -40,8 +41,8 @@ impl Part {
         Self { name: name.to_owned(), region, border: 0, cut }
     }
 
-    /// The parts that are simulated: of an array one; of a lone unit as many, evenly spread over the frames of the
-    /// `whole` design, as so many frames allow.
+    /// Returns the parts that are simulated. An array has one part. A lone unit has as many parts,
+    /// evenly spread over the frames of the `whole` design, as are affordable for `frames` frames.
     pub(super) fn all_of(
         whole: &Design,
         simulated: &Design,
@@ -58,7 +59,7 @@ impl Part {
         }
     }
 
-    /// The parts that go through a lone unit, `affordable` at most.
+    /// Returns the parts that go through a lone unit, `affordable` at most.
     fn of_unit(whole: &Design, simulated: &Design, affordable: u64) -> Vec<Self> {
         let spread = |all: u32| {
             let affordable = affordable.clamp(1, all.into());
@@ -66,7 +67,7 @@ impl Part {
             (0..affordable).map(move |number| u32::try_from(nth(number)).expect("less than all"))
         };
         match whole.hardware() {
-            // They take a clock per pixel, and each region is another RPU.
+            // A region takes one clock per pixel, and each region has an RPU of its own.
             Hardware::Pipelined(_) => (0..whole.regions())
                 .map(|region| {
                     let part = Self::of("frames", Some(region), Cut::Region(region));
@@ -93,7 +94,7 @@ impl Part {
         }
     }
 
-    /// It of a frame of the `whole` design.
+    /// Cuts the part out of a frame of the `whole` design.
     pub(super) fn cut(
         &self,
         whole: &Design,

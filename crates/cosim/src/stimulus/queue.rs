@@ -1,32 +1,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The queue in front of a frame store outside of a core: it keeps the words that the core stores, and gives them
-//! back in the frame after.
+//! The queue of an external frame store. It keeps the words that the core stores, and returns them
+//! in the next frame.
 
 use foveate_design::PortRole;
 use foveate_model::CycleModel;
 use std::collections::VecDeque;
 
-/// Words that were stored and not taken back, the oldest first.
+/// The words that were stored and not yet returned, the oldest first.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Queue(VecDeque<Vec<u16>>);
 
 impl Queue {
-    /// The word that the core should take next.
+    /// Returns the word that the core should take next.
     pub(crate) fn oldest(&self) -> Option<&[u16]> {
         self.0.front().map(Vec::as_slice)
     }
 
-    /// Its oldest word is gone.
+    /// Removes the oldest word.
     pub(crate) fn pop(&mut self) {
         self.0.pop_front();
     }
 
-    /// After a reset it is empty.
+    /// Removes all words, for a reset.
     pub(crate) fn forget(&mut self) {
         self.0.clear();
     }
 
-    /// Keeps the word that the core shows after an edge, if it shows one.
+    /// Stores the word that the core outputs after an edge, if there is one.
     pub(crate) fn keep(&mut self, after: &dyn CycleModel) {
         if after.is_high(PortRole::StoreValid) {
             let mut word = Vec::new();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Random numbers that are the same for a seed on every machine and in every version.
+//! Random numbers that are equal for equal seeds on every machine and in every version.
 
 /// SplitMix64 (Steele, Lea and Flood, 2014): one multiply-xor hash of a counter per number.
 #[derive(Clone, Debug)]
@@ -10,7 +10,8 @@ impl Random {
         Self(seed)
     }
 
-    /// Another stream, for a part that must not depend on how much the others draw.
+    /// Returns another generator, for a part that must not depend on the number of values that
+    /// others draw.
     pub(crate) fn fork(&mut self) -> Self {
         Self(self.next())
     }
@@ -23,36 +24,36 @@ impl Random {
         z ^ (z >> 31)
     }
 
-    /// A number in `0..=max`.
+    /// Returns a number in `0..=max`.
     pub(crate) fn up_to(&mut self, max: u64) -> u64 {
         match max.checked_add(1) {
-            // The bias of the remainder is of no importance here.
+            // The bias of the remainder does not matter here.
             Some(count) => self.next() % count,
             None => self.next(),
         }
     }
 
-    /// A number in `0..=max`.
+    /// Returns a number in `0..=max`.
     pub(crate) fn up_to_u32(&mut self, max: u32) -> u32 {
         u32::try_from(self.up_to(max.into())).expect("it is at most `max`")
     }
 
-    /// A number in `0..=max`, as an index.
+    /// Returns a number in `0..=max`, as an index.
     pub(crate) fn index(&mut self, max: usize) -> usize {
         usize::try_from(self.up_to(max as u64)).expect("it is at most `max`")
     }
 
-    /// A pixel in `0..=max`.
+    /// Returns a pixel in `0..=max`.
     pub(crate) fn pixel(&mut self, max: u16) -> u16 {
         u16::try_from(self.up_to(max.into())).expect("it is at most `max`")
     }
 
-    /// True once in `count` times.
+    /// Returns true in one of `count` cases.
     pub(crate) fn one_in(&mut self, count: u64) -> bool {
         self.up_to(count.saturating_sub(1)) == 0
     }
 
-    /// One of some things.
+    /// Returns one of the given items, or `None` if there are none.
     pub(crate) fn of<T: Copy>(&mut self, things: &[T]) -> Option<T> {
         let last = things.len().checked_sub(1)?;
         Some(things[self.index(last)])

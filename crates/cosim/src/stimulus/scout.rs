@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Tells when a pipelined array decides, so that minima and the summary level can be aimed at just that clock.
+//! The prediction of the clocks at which a pipelined array decides, so that minima and the summary
+//! level can be aimed at these clocks.
 
 use foveate_design::{Design, FeatureKind, Hardware, PortRole};
 use foveate_model::{CoreInput, CycleModel, FrameSync, PipelinedRpu, RpuInput, Thresholds};
 
-/// An RPU of its own: a decision comes at the same clock in every lane. Neither pixels nor borders nor thresholds move it
-/// in time.
+/// A separate RPU that runs along with the array. A decision comes at the same clock in every lane,
+/// and pixels, borders and thresholds do not change that clock.
 pub(super) struct Scout {
     rpu: PipelinedRpu,
-    /// What stands in front of it, as in front of the lanes.
+    /// The frame synchronization in front of the RPU, equal to the one in front of the lanes.
     sync: FrameSync,
     kinds: Vec<FeatureKind>,
-    /// The largest summary level, where irrelevant regions send their means.
+    /// The largest summary level; `None` if irrelevant regions send no means.
     summary_level: Option<u32>,
 }
 
 impl Scout {
-    /// None where thresholds stand still while a frame is under way. `finds_frames` says whether what finds the frames of
-    /// the design is simulated.
+    /// Returns the prediction, or `None` if thresholds must not change within a frame.
+    /// `finds_frames` says that the frame synchronization of the design is simulated.
     pub(super) fn of(design: &Design, finds_frames: bool) -> Option<Self> {
         let own = match design.hardware() {
             Hardware::Pipelined(own) => design.on(own),
@@ -28,8 +29,9 @@ impl Scout {
         Some(Self { rpu: PipelinedRpu::new(own), sync, kinds: design.kinds(), summary_level })
     }
 
-    /// Whether a decision is there after this edge. It must see every edge of a sequence whose thresholds are aimed; of
-    /// others it needs none, since the reset that begins a sequence brings it back into step.
+    /// Steps by one edge, and returns true if it makes a decision. Every edge of a sequence with
+    /// aimed thresholds must be stepped. Other sequences need no steps, because the reset at the
+    /// start of a sequence synchronizes it again.
     pub(super) fn decides(&mut self, input: &CoreInput<'_>) -> bool {
         let &CoreInput { reset, valid, sof, border, pixels, thresholds, .. } = input;
         let valid = if reset {
@@ -42,8 +44,8 @@ impl Scout {
         self.rpu.step(&input, thresholds).decision_valid
     }
 
-    /// The scores and the temporal count of a lane after this edge. What is decided then does not depend on the minima of
-    /// the edge, so that a copy can look ahead.
+    /// Returns the scores and the temporal count of a lane after this edge. They do not depend on
+    /// the minima at the edge, so a copy of the core can compute them in advance.
     pub(super) fn look_ahead(
         &self,
         core: &dyn CycleModel,
@@ -66,8 +68,9 @@ impl Scout {
         (scores, u32::try_from(count).expect("a count has at most 32 bits"))
     }
 
-    /// The least summary level at which the lane sends no summary after this edge: the widest difference of its means
-    /// from those on the screen. None where no level decides it.
+    /// Returns the smallest summary level at which the lane sends no summary after this edge, which
+    /// is the widest difference of its means from those on the screen. Returns `None` if the level
+    /// does not decide it.
     pub(super) fn decisive_summary_level(
         &self,
         core: &dyn CycleModel,

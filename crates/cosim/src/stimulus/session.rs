@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A recording under way: draws the frames of each sequence and offers them to the core.
+//! The state of a recording: it draws the frames of each sequence and offers them to the core.
 
 use super::ahead::ThresholdAim;
 use super::damage::{Damaged, Delivery, Directed, Stop, directed};
@@ -20,9 +20,9 @@ use foveate_design::{Design, PortRole};
 use foveate_frame::Frame;
 use std::sync::atomic::AtomicBool;
 
-/// A recording under way.
+/// The state of a recording.
 pub(super) struct Session<'a> {
-    /// The design whose frames the caller gives.
+    /// The design of the caller's frames.
     whole: &'a Design,
     /// The design that is simulated.
     design: &'a Design,
@@ -82,7 +82,8 @@ impl<'a> Session<'a> {
         turns.record(self, play, given, progress)
     }
 
-    /// One directed sequence. Gaps and sinks differ from sequence to sequence and from round to round.
+    /// Plays one directed sequence. Gaps and sinks differ from sequence to sequence and from round
+    /// to round.
     fn directed(
         &mut self,
         sequence: &Sequence,
@@ -90,7 +91,7 @@ impl<'a> Session<'a> {
         number: usize,
     ) -> Result<(), CosimError> {
         let gaps = match sequence.end {
-            // The edge of the loss is not to be missed.
+            // With gaps the edge of the loss could be missed.
             End::Losing => Gaps::None,
             _ => Gaps::ALL[(round + number) % Gaps::ALL.len()],
         };
@@ -109,7 +110,7 @@ impl<'a> Session<'a> {
             let drawn = self.gallery.frame()?;
             let until = match sequence.end {
                 End::Loading(_) if frame == last => {
-                    // At least one beat, so that the reset comes within the frame.
+                    // At least one beat is taken, so that the reset comes within the frame.
                     Until::Beat(self.random.index(self.beats() - 1).max(1))
                 }
                 End::Losing if frame == last => Until::Loss,
@@ -123,7 +124,7 @@ impl<'a> Session<'a> {
         self.end(sequence.end, gaps)
     }
 
-    /// A damaged stream.
+    /// Plays a sequence of damaged frames.
     fn damaged(
         &mut self,
         sequence: &Damaged,
@@ -156,7 +157,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// A part of the caller's frames, back to back as far as the gaps let them.
+    /// Plays a part of the caller's frames, back to back as far as the gaps allow.
     fn given(&mut self, number: usize, part: &Part, frames: &[Frame]) -> Result<(), CosimError> {
         let gaps = Gaps::ALL[number % Gaps::ALL.len()];
         self.driver.name(&part.name, 0, part.region);
@@ -183,27 +184,28 @@ impl<'a> Session<'a> {
         self.driver.take(frame, &beats, until, gaps)
     }
 
-    /// What comes on its way of the frame that is drawn.
+    /// Offers the drawn frame, with the damage of `delivery`.
     fn deliver(&mut self, delivery: Delivery, gaps: Gaps) -> Result<(), CosimError> {
         let frame = self.gallery.frame()?;
         let beats = self.feed(&frame);
         self.driver.deliver(&beats, delivery, gaps)
     }
 
-    /// A frame as the pixel port takes it; what that shows in places without a pixel is random.
+    /// Returns the beats of a frame for the pixel port; places without a pixel are random.
     fn feed(&mut self, frame: &Frame) -> Vec<Vec<u16>> {
         let max = u16::try_from(self.design.pixel_max()).expect("a pixel has at most 16 bits");
         let random = &mut self.random;
         self.feed.beats(frame, || random.pixel(max))
     }
 
-    /// Beats of a frame.
+    /// Returns the number of beats of a frame.
     fn beats(&self) -> usize {
         let beats = self.design.timing().pixels_per_frame();
         usize::try_from(beats).expect("a frame is in memory")
     }
 
-    /// A pause after a frame, or none; where the core tells when everything has left, it may come to that.
+    /// Pauses between two frames, or not. A core that shows when everything has left is sometimes
+    /// drained.
     fn between_frames(&mut self, last: &Frame, gaps: Gaps) -> Result<(), CosimError> {
         match self.pace.settle {
             Some(settle) => {
@@ -215,7 +217,7 @@ impl<'a> Session<'a> {
         }
     }
 
-    /// Brings the core to the place at which the next reset is to find it.
+    /// Brings the core to the state in which the next reset is to find it.
     fn end(&mut self, end: End, gaps: Gaps) -> Result<(), CosimError> {
         let left = self.driver.core().clocks_until_ready();
         match end {
@@ -236,7 +238,7 @@ impl<'a> Session<'a> {
                 let clocks = self.random.up_to(4);
                 self.driver.work_until(left.saturating_sub(clocks))
             }
-            // What is on its way to the ports must not come out.
+            // A score that is on its way to the ports must not come out.
             End::Working { first_score } if self.random.one_in(2) => {
                 self.driver.work_until(first_score + 1)
             }
@@ -258,7 +260,7 @@ impl<'a> Session<'a> {
             End::Leaving(most) => {
                 let is_leaving =
                     |driver: &Driver<'_>| driver.core().is_high(PortRole::ForwardValid);
-                // Where pixels wait for further frames, the last comes again.
+                // If pixels wait for further frames, the last frame is played again.
                 for _ in 0..self.pace.frames_behind {
                     if is_leaving(&self.driver) {
                         break;
@@ -267,7 +269,8 @@ impl<'a> Session<'a> {
                     let beats = self.feed(&self.gallery.frame()?);
                     self.driver.push_until_leaving(&beats)?;
                 }
-                // What is still in windows is not pending, but the core is not ready.
+                // Pixels in the windows are not pending, but the core is not ready while there are
+                // some.
                 let is_under_way =
                     |driver: &Driver<'_>| driver.core().is_pending() || !driver.core().is_ready();
                 while !is_leaving(&self.driver) && is_under_way(&self.driver) {
@@ -286,8 +289,8 @@ impl<'a> Session<'a> {
         Ok(())
     }
 
-    /// Lets everything leave, every other time to a sink that is always ready. Where the pixels of a frame wait for
-    /// further ones, the last comes again.
+    /// Lets all pixels leave, about every second time to a sink that is always ready. If the pixels
+    /// of a frame wait for further frames, the last frame is played again.
     fn drain(&mut self, last: &Frame, gaps: Gaps) -> Result<(), CosimError> {
         if self.driver.has_sink() && self.random.one_in(2) {
             self.driver.calm_sink();

@@ -1,49 +1,52 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Who takes the pixels that leave: when a sink is ready.
+//! The sink that takes the pixels that leave a core, and the clocks at which it is ready.
 
 use super::random::Random;
 use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 
-/// A sink stalls where no region ends at one of so many clocks.
+/// An unlucky sink begins to stall at one of `UNLUCKY` clocks at which no region ends.
 const UNLUCKY: u64 = 24;
 
-/// The sink that loses most of those that stall.
+/// The offset of the turn with which the first stalling sink is the one that loses most regions.
 const MOST_LOSSES: usize = 3;
 
-/// How a sink behaves.
+/// The pattern of clocks at which a sink is ready.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Mood {
-    /// Ready at every clock.
+    /// The sink is ready at every clock.
     Willing,
-    /// Ready at about every other clock.
+    /// The sink is ready at about every second clock.
     Hesitant,
-    /// Ready at few clocks.
+    /// The sink is ready at few clocks.
     Slow,
-    /// Ready and not in turns of up to so many clocks.
+    /// The sink is ready and not ready in turn, for up to the given number of clocks each.
     Turns(u64),
-    /// Ready until a region ends, when a word of the next may have been fetched, or until anywhere in it; then not for up to
-    /// so many clocks. At an edge at which a region is lost in the middle it may be ready, and go on or not.
+    /// The sink is ready until a region ends, when a word of the next region may have been fetched,
+    /// or until a random word within a region. Then it stalls for up to the given number of clocks.
+    /// At an edge at which a region is lost in the middle it may be ready, and may stall on.
     Unlucky(u64),
 }
 
-/// A sink under way.
+/// The state of a sink.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sink {
     mood: Mood,
     is_ready: bool,
-    /// Clocks that its turn goes on.
+    /// The number of clocks until the sink changes between ready and not ready.
     left: u64,
-    /// Clocks of a row of words.
+    /// The number of clocks of a row of regions.
     row: u64,
-    /// Clocks of the rows after which regions are lost, and two rows of regions more.
+    /// The number of clocks of the rows after which regions are lost, and of two more rows of
+    /// regions.
     long: u64,
-    /// Which mood comes first.
+    /// The number that is added to the turn, which decides the behavior of the first sequence.
     first: usize,
 }
 
 impl Sink {
-    /// None where nobody may stall. A recording that has few sequences begins with a sink that loses regions.
+    /// Returns a sink, or `None` if no sink may stall. A recording with few sequences begins with a
+    /// sink that loses regions.
     pub(super) fn of(design: &Design, is_brief: bool) -> Option<Self> {
         let timing = match design.hardware() {
             Hardware::Raster(own) => RasterTiming::of(design.on(own)),
@@ -56,7 +59,8 @@ impl Sink {
         timing.forwards.then_some(Self { mood, is_ready: false, left: 0, row, long, first })
     }
 
-    /// Begins anew. One that stalls does so for up to two rows of regions more than the buffer holds.
+    /// Begins a sequence. A sink that stalls does so for up to two rows of regions more than the
+    /// buffer holds.
     pub(super) fn begin(&mut self, stalls: bool, turn: usize) {
         let mood = match (stalls, (turn + self.first) % 4) {
             (true, 0) => Mood::Slow,
@@ -70,12 +74,12 @@ impl Sink {
         *self = Self { mood, is_ready: false, left: 0, ..*self };
     }
 
-    /// From here on it is ready at every clock.
+    /// Makes the sink ready at every clock from now on.
     pub(super) fn calm(&mut self) {
         self.mood = Mood::Willing;
     }
 
-    /// Whether it is ready at the next edge, in front of this core.
+    /// Returns true if the sink of this core is ready at the next edge.
     pub(super) fn next(&mut self, core: &dyn CycleModel, random: &mut Random) -> bool {
         match self.mood {
             Mood::Willing => true,
@@ -106,7 +110,7 @@ impl Sink {
     }
 }
 
-/// Whether the last word of a region leaves that was not lost in the middle.
+/// Returns true if the last word of a region leaves, and the region was not lost in the middle.
 pub(crate) fn ends_region(core: &dyn CycleModel) -> bool {
     core.is_high(PortRole::ForwardValid)
         && core.is_high(PortRole::ForwardLast)

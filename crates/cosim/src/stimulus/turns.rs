@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sequences of a recording, one after the other: the directed ones in every round, then the frames of the caller.
+//! The order of the sequences of a recording: the directed ones in every round, then the frames of
+//! the caller.
 
 use crate::error::CosimError;
 
-/// How much is recorded of the directed sequences.
+/// The number of directed sequences that are recorded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
-    /// How often they are run through.
+    /// The number of rounds.
     pub(super) rounds: u32,
-    /// How many of them, from the first on.
+    /// The largest number of directed sequences per round, from the first on.
     pub(super) most: usize,
 }
 
 impl Extent {
-    /// Whether some sequences may be left out.
+    /// Returns true if some sequences may be left out.
     pub(super) fn is_brief(self) -> bool {
         self.most != usize::MAX
     }
 }
 
-/// What is recorded, in this order.
+/// The sequences of a recording, in their order.
 pub(super) struct Turns<'a, Sequence, Part> {
     pub(super) extent: Extent,
     pub(super) directed: &'a [Sequence],
@@ -28,8 +29,8 @@ pub(super) struct Turns<'a, Sequence, Part> {
 }
 
 impl<Sequence, Part> Turns<'_, Sequence, Part> {
-    /// Records all of it in a session. `directed` is told the round and the number of its sequence, `given` the
-    /// number of its part, and `progress` how many sequences of how many are done.
+    /// Records all sequences. `directed` gets the round and the index of its sequence, `given` the
+    /// index of its part, and `progress` the number of finished sequences and the number of all.
     pub(super) fn record<Session>(
         self,
         session: &mut Session,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The sequences of a recording: each a reset, some frames, a way to stream them, and the place at which the next
-//! reset finds the core.
+//! The sequences of a recording: each has a reset, some frames, a pattern of gaps, and the state in
+//! which the next reset finds the core.
 
 mod pipelined;
 mod raster;
@@ -12,56 +12,58 @@ use super::motif::Motif;
 use super::random::Random;
 use foveate_design::{Design, Hardware};
 
-/// A sequence of frames with one thing in common.
+/// A sequence of frames with one property in common.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sequence {
-    /// Its name in reports.
+    /// The name of the sequence in reports.
     pub(super) name: &'static str,
-    /// What the regions show, frame by frame.
+    /// The motifs of the regions, frame by frame.
     pub(super) motifs: &'static [Motif],
-    /// Whether every region starts at another motif.
+    /// True if every region starts at another motif.
     pub(super) mixed: bool,
-    /// How it ends.
+    /// The state of the core at the end of the sequence.
     pub(super) end: End,
-    /// How thresholds are chosen.
+    /// The choice of thresholds.
     pub(super) aim: ThresholdAim,
-    /// Whether the sink, where there is one, stalls so long that regions are lost.
+    /// True if the sink stalls so long that regions are lost.
     pub(super) stalls: bool,
-    /// What a memory outside does wrong, where there is one.
+    /// The fault of the external frame store, if there is one.
     pub(super) lapse: Lapse,
 }
 
-/// Where the reset that begins the next sequence comes.
+/// The state at which the reset of the next sequence comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
-    /// Some clocks after everything has left.
+    /// Some clocks after all pixels have left.
     Drained,
-    /// Between the beats of a frame, up to so many clocks after one.
+    /// Between the beats of a frame, up to the given number of clocks after one.
     Loading(u64),
-    /// At one of so many clocks after the last beat of a frame.
+    /// Up to the given number of clocks after the last beat of a frame.
     Flushing(u64),
-    /// At the clock at which the lanes begin with a frame, or soon after it.
+    /// The clock at which the lanes begin with a frame, or soon after it.
     Begun,
-    /// At any clock of the work on a frame; every other time just before the first score is at the ports, so many clocks
-    /// before the core is ready.
+    /// Any clock of the work on a frame, or, about every second time, the clock before the first
+    /// score is at the ports. `first_score` is the number of clocks from that score until the core
+    /// is ready.
     Working { first_score: u64 },
-    /// At one of so many clocks from the first score on.
+    /// Up to the given number of clocks after the first score.
     Rotating(u64),
-    /// At one of the last so many clocks before the core is ready.
+    /// Up to the given number of clocks before the core is ready.
     Finishing(u64),
-    /// At one of so many clocks from the first pixel on that leaves.
+    /// Up to the given number of clocks after the first pixel that leaves.
     Leaving(u64),
-    /// At the edge at which a region would be lost in the middle, if one would.
+    /// The edge at which a region would be lost in the middle, if there is one.
     Losing,
 }
 
 impl Sequence {
-    /// Frames whose regions show different motifs, thresholds that hit them exactly; then everything leaves.
+    /// A sequence whose regions show different motifs, with thresholds that meet them exactly; at
+    /// the end everything leaves.
     const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Self {
         Self::aimed(ThresholdAim::Exact, name, motifs)
     }
 
-    /// The same with thresholds that are chosen in another way.
+    /// A sequence like that of `mixed`, with another choice of thresholds.
     const fn aimed(aim: ThresholdAim, name: &'static str, motifs: &'static [Motif]) -> Self {
         Self {
             name,
@@ -74,13 +76,14 @@ impl Sequence {
         }
     }
 
-    /// Frames with as many relevant regions as can be, and a reset.
+    /// A sequence with as many relevant regions as possible, which ends at `end`.
     const fn cut(name: &'static str, motifs: &'static [Motif], end: End) -> Self {
         Self { end, ..Self::aimed(ThresholdAim::Least, name, motifs) }
     }
 }
 
-/// Every region shows a summary, the same again behind a reset, pixels, and that summary again.
+/// Returns sequences in which every region shows a summary, the same one behind a reset, pixels,
+/// and that summary again.
 const fn means_around_a_reset() -> [Sequence; 2] {
     use Motif::{Noise, Same, Zero};
     let aimed = Sequence::aimed;
@@ -100,7 +103,7 @@ const fn means_around_a_reset() -> [Sequence; 2] {
     ]
 }
 
-/// Every sequence of a design, the most telling first.
+/// Returns all sequences of a design, the most telling first.
 pub(super) fn sequences(design: &Design) -> Vec<Sequence> {
     match design.hardware() {
         Hardware::Pipelined(own) => pipelined::sequences(design.on(own)),
@@ -109,21 +112,22 @@ pub(super) fn sequences(design: &Design) -> Vec<Sequence> {
     }
 }
 
-/// When pixels come.
+/// The pattern of pauses between pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Gaps {
-    /// One at every clock, frames back to back.
+    /// A pixel comes at every clock, and frames follow at once.
     None,
-    /// At random, frames mostly back to back.
+    /// Pauses are random, and most frames follow at once.
     Random,
-    /// In bursts with pauses of many clocks; frames often apart far enough to flush.
+    /// Pixels come in bursts, with pauses of many clocks; frames are often far enough apart for a
+    /// flush.
     Bursts,
 }
 
 impl Gaps {
     pub(super) const ALL: [Self; 3] = [Self::None, Self::Random, Self::Bursts];
 
-    /// Clocks without a pixel in front of the next one.
+    /// Returns the number of clocks without a pixel before the next one.
     pub(super) fn before_pixel(self, random: &mut Random) -> u64 {
         match self {
             Self::None => 0,
@@ -133,7 +137,8 @@ impl Gaps {
         }
     }
 
-    /// Clocks without a pixel between two frames; `settle` are enough for everything to settle.
+    /// Returns the number of clocks without a pixel between two frames; after `settle` clocks
+    /// everything has settled.
     pub(super) fn between_frames(self, settle: u64, random: &mut Random) -> u64 {
         match self {
             Self::None => 0,

@@ -7,11 +7,11 @@ use super::super::pace::settling_clocks;
 use super::{End, Sequence, means_around_a_reset};
 use foveate_design::PipelinedDesign;
 
-/// Every sequence, the most telling first.
+/// Returns all sequences, the most telling first.
 pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
     let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
     let flushing = End::Flushing(settling_clocks(design));
-    // At once, while most is under way.
+    // The reset comes at once, while most is under way.
     let loading = End::Loading(0);
     let cut = |end, sequence| Sequence { end, ..sequence };
     let configured = ThresholdAim::Design;
@@ -39,7 +39,8 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
         ),
     ];
     if design.periphery().is_some() {
-        // Means that meet the level or miss it by one: irrelevant regions, some of them relevant in between.
+        // The changes of means meet the level or miss it by one. The regions are irrelevant, some
+        // of them relevant in between.
         list.extend([
             aimed(
                 configured,
@@ -57,7 +58,7 @@ pub(super) fn sequences(design: PipelinedDesign<'_>) -> Vec<Sequence> {
         list.extend(means_around_a_reset());
     }
     let leaving = aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise]);
-    // The reset is that of the next sequence. The last two belong together.
+    // The reset at the end is that of the next sequence. The last two sequences belong together.
     list.insert(list.len() - 2, cut(End::Leaving(0), leaving));
     list
 }

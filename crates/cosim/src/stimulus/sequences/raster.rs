@@ -7,8 +7,8 @@ use super::super::motif::Motif::*;
 use super::{End, Sequence, means_around_a_reset};
 use foveate_design::{RasterDesign, RasterTiming};
 
-/// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
-/// that what they leave behind meets another kind of frame each time.
+/// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
+/// alternate with the others, so that the remaining state meets another kind of frame each time.
 pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
     let loading = End::Loading(2);
@@ -52,7 +52,7 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     ];
     if design.periphery().is_some() {
         sequences.extend(means());
-        // All of them send means, and one is on the ports; a reset must follow.
+        // All regions send means, and one mean is on the ports; a reset must follow.
         sequences.push(Sequence {
             mixed: false,
             end: End::Leaving(0),
@@ -66,8 +66,9 @@ pub(super) fn sequences(design: RasterDesign<'_>) -> Vec<Sequence> {
     sequences
 }
 
-/// Means that meet the level or miss it by one, some that are lost, some that are shown on while their region is held, and some that
-/// leave beside regions that stay relevant and drift away from what was last sent.
+/// Returns sequences with means that meet the level or miss it by one, means that are lost, means
+/// that stay on the screen while their region is held, and means that leave beside relevant regions
+/// which drift away from what was last sent.
 fn means() -> [Sequence; 6] {
     let (mixed, aimed) = (Sequence::mixed, Sequence::aimed);
     let configured = ThresholdAim::Design;
@@ -91,7 +92,7 @@ fn means() -> [Sequence; 6] {
     ]
 }
 
-/// What a core must survive whose frame store is outside.
+/// Returns the sequences with a faulty external frame store.
 fn failing(flushing: End) -> [Sequence; 7] {
     let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
     let loading = End::Loading(2);

@@ -6,8 +6,8 @@ use super::super::motif::Motif::*;
 use super::{End, Sequence, means_around_a_reset};
 use foveate_design::{Phase, SerialDesign, SerialTiming};
 
-/// Every sequence, the most telling first. Resets that cut a frame short alternate with the others, so
-/// that what they leave behind meets another kind of frame each time.
+/// Returns all sequences, the most telling first. Sequences that end with a reset within a frame
+/// alternate with the others, so that the remaining state meets another kind of frame each time.
 pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
     let (mixed, aimed, cut) = (Sequence::mixed, Sequence::aimed, Sequence::cut);
     let loading = End::Loading(2);
@@ -47,7 +47,8 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
         },
     ];
     if design.periphery().is_some() {
-        // Means that meet the level or miss it by one; in arrays of a few regions by turns.
+        // The changes of means meet the level or miss it by one; in arrays of a few regions in
+        // turn.
         list.splice(
             3..3,
             [
@@ -75,7 +76,7 @@ pub(super) fn sequences(design: SerialDesign<'_>) -> Vec<Sequence> {
         end: End::Leaving(0),
         ..aimed(ThresholdAim::Unaimed, "reset while pixels leave", &[Noise])
     };
-    // The reset is that of the next sequence. The last two belong together.
+    // The reset at the end is that of the next sequence. The last two sequences belong together.
     list.insert(list.len() - 2, leaving);
     list
 }
