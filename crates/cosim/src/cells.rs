@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Simulation models of the cells of a netlist: those of Yosys, or our own if Yosys has none.
+//! The simulation models of the cells of a netlist: those of Yosys, or our own where Yosys has
+//! none.
 //!
-//! Our own models are for block RAM and DSP, and only for the modes that Yosys uses for a design. Any
+//! Our models are for block RAM and DSP, and only for the modes that Yosys uses for a design. Any
 //! other mode is refused when the netlist is compiled.
 
 use crate::error::CosimError;
@@ -9,23 +10,23 @@ use crate::harness::rendered;
 use askama::Template;
 use foveate_toolchain::yosys;
 
-/// Text of a DSP slice that multiplies.
+/// The text of the model of a DSP slice that multiplies.
 const DSP: &str = include_str!("../tb/cells/dsp48e2.v");
 
-/// A block RAM with a port to read and a port to write, or one that does both.
+/// A block RAM with one port for reads and one for writes, or with one port for both.
 #[derive(Template)]
 #[template(path = "cells/block_ram.v")]
 struct BlockRam {
     name: &'static str,
     address_bits: u32,
-    /// Bytes of its widest word at one port, each with a parity bit.
+    /// The number of bytes of the widest word of one port; each byte has a parity bit.
     bytes: u32,
-    /// The parameters with its contents at the start.
+    /// The names of the parameters with the initial contents.
     contents: Vec<String>,
 }
 
 impl BlockRam {
-    /// One of 2^`address_bits` data bits.
+    /// Creates a block RAM with 2^`address_bits` data bits.
     fn new(name: &'static str, address_bits: u32, bytes: u32) -> Self {
         let slices = (1 << address_bits) / 256;
         let parity = (0..slices / 8).map(|slice| format!("INITP_{slice:02X}"));
@@ -34,7 +35,7 @@ impl BlockRam {
     }
 }
 
-/// Our model of a cell.
+/// Returns our model of a cell, if there is one.
 fn own(cell: &str) -> Option<String> {
     match cell {
         "DSP48E2" => Some(DSP.to_owned()),
@@ -44,10 +45,10 @@ fn own(cell: &str) -> Option<String> {
     }
 }
 
-/// The models of these cells, one after the other; `library` is the text of Yosys'.
+/// Returns the models of the cells, one after the other. `library` is the text of Yosys' models.
 ///
 /// # Errors
-/// When a cell has no model.
+/// Fails if a cell has no model.
 pub fn cell_models(
     library: &str,
     cells: impl IntoIterator<Item = String>,
@@ -61,9 +62,9 @@ pub fn cell_models(
     Ok(text)
 }
 
-/// Whether a block RAM of this netlist has the upper half of a word's parity bits wired to those of the lower
-/// half, as Yosys did before April 2026 where a word has more than 36 bits: <https://github.com/YosysHQ/yosys/pull/5833>.
-/// Bits of data are among them.
+/// Returns true if a block RAM of this netlist has the upper half of a word's parity bits wired to
+/// those of the lower half. Yosys did so before April 2026 if a word has more than 36 bits:
+/// <https://github.com/YosysHQ/yosys/pull/5833>. Some of these bits hold data.
 #[must_use]
 pub fn wired_wrongly(netlist: &str) -> bool {
     let port = |cell: &str, name: &str| {

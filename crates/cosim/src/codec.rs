@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What goes into a core and what comes out, in records.
+//! The conversion of a core's inputs and outputs to records.
 
 use crate::layout::Layout;
 use foveate_design::{Design, FeatureKind, PortRole};
 use foveate_model::{CoreInput, CycleModel};
 
-/// Puts what is applied to a core, and what its model shows, into records.
+/// A converter of the inputs of a core, and of the outputs of its model, to records.
 #[derive(Clone, Debug)]
 pub struct Codec {
-    /// The features of the design in their order.
+    /// The features of the design, in their order.
     kinds: Vec<FeatureKind>,
-    /// What one port shows.
+    /// The values of one port.
     values: Vec<u64>,
 }
 
 impl Codec {
-    /// The codec of a design.
+    /// Creates the codec of a design.
     #[must_use]
     pub fn new(design: &Design) -> Self {
         Self { kinds: design.kinds(), values: Vec::new() }
     }
 
-    /// What is applied at an edge.
+    /// Writes the inputs at an edge into a record.
     pub fn inputs(&mut self, layout: &Layout, input: &CoreInput<'_>, record: &mut [u8]) {
         for field in layout.fields() {
             self.values.clear();
@@ -30,7 +30,7 @@ impl Codec {
         }
     }
 
-    /// What the outputs show after an edge.
+    /// Writes the outputs after an edge into a record.
     pub fn outputs(&mut self, layout: &Layout, model: &dyn CycleModel, record: &mut [u8]) {
         for field in layout.fields() {
             self.values.clear();
@@ -39,7 +39,7 @@ impl Codec {
         }
     }
 
-    /// Appends what is applied to the input of a role.
+    /// Appends the values of the input with this role.
     fn apply(&mut self, role: PortRole, input: &CoreInput<'_>) {
         let place = |kind| {
             let place = self.kinds.iter().position(|&own| own == kind);
@@ -60,7 +60,7 @@ impl Codec {
             PortRole::SummaryLevel => thresholds.summary_level.into(),
             PortRole::Pixel => return self.apply_pixels(input.pixels),
             PortRole::ReferencePixel => return self.apply_pixels(input.reference_pixels),
-            // The clock, which is in no record, and outputs.
+            // The role is an output, or the clock, which is in no record.
             _ => return,
         };
         self.values.push(value);
@@ -82,7 +82,7 @@ mod tests {
         Config::from_toml(&toml).unwrap().validate().unwrap()
     }
 
-    /// A port that the model does not know is not taken for one that shows 0.
+    /// A port that the model does not know must not be taken for a port that is 0.
     #[test]
     #[should_panic(expected = "ready_o: a value for each place")]
     fn a_port_that_the_model_does_not_answer_is_noticed() {

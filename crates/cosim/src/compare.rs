@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Finds where outputs differ, each port for the first time: in two files of records, or in what a replay
-//! bench prints.
+//! The search for the first difference of each port: in two files of records, or in the output of a
+//! replay bench.
 
 use crate::error::CosimError;
 use crate::layout::Layout;
@@ -13,26 +13,27 @@ use std::path::Path;
 pub struct Difference {
     /// The clock, from 0.
     pub clock: u64,
-    /// The port.
+    /// The name of the port.
     pub port: String,
     /// The lane of the port.
     pub lane: u32,
-    /// What the model says, hexadecimal.
+    /// The value of the model, in hexadecimal.
     pub expected: String,
-    /// What the simulator says, hexadecimal; `x` and `z` as Icarus prints them.
+    /// The value of the simulator, in hexadecimal; `x` and `z` are those that Icarus prints.
     pub got: String,
 }
 
-/// How far two files agree.
+/// The result of a comparison of two files.
 pub(crate) struct Compared {
-    /// Complete records that the simulator wrote, up to the end of the sequence with the first difference.
+    /// The number of complete records that the simulator wrote, up to the end of the sequence with
+    /// the first difference.
     pub(crate) records: u64,
-    /// The first of each port until the end of that sequence.
+    /// The first difference of each port until the end of that sequence.
     pub(crate) differences: Vec<Difference>,
 }
 
-/// Compares what a simulator wrote with what the recording expects, up to the end of the first sequence
-/// with a difference.
+/// Compares the outputs of a simulator with those of the recording, up to the end of the first
+/// sequence with a difference.
 pub(crate) fn compare(recording: &Recording, actual: &Path) -> Result<Compared, CosimError> {
     let layout = recording.outputs();
     let bytes = layout.record_bytes();
@@ -101,7 +102,7 @@ fn add_differences(
     }
 }
 
-/// Reads a line that a replay bench prints for a mismatch.
+/// Parses a line that a replay bench prints for a mismatch.
 pub(crate) fn parse_mismatch(line: &str) -> Option<Difference> {
     let mut words = line.strip_prefix("MISMATCH ")?.split_whitespace();
     let mut difference = Difference {
@@ -124,7 +125,7 @@ pub(crate) fn parse_mismatch(line: &str) -> Option<Difference> {
     Some(difference)
 }
 
-/// Reads how many clocks a replay bench says it has passed.
+/// Parses the number of clocks in the line that a replay bench prints at its end.
 pub(crate) fn parse_clocks(line: &str) -> Option<u64> {
     line.strip_prefix("PASS ")?.strip_suffix(" clocks")?.parse().ok()
 }
@@ -147,7 +148,7 @@ mod tests {
         assert_eq!(parse_clocks("FAIL 17 clocks"), None);
     }
 
-    /// A recording of `clocks` clocks whose output is the clock number, in two lanes.
+    /// Returns a recording of `clocks` clocks whose output is the clock number, in two lanes.
     fn counting(clocks: u8) -> Recording {
         let ports = [port("a_i", Direction::Input, 1, 1), port("b_o", Direction::Output, 4, 2)];
         let mut recorder = Recorder::new(&ports).unwrap();

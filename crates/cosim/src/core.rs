@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The core of a design as a folder: its Verilog with what is around it, its benches with their vectors, and
-//! its timing diagram.
+//! The core of a design as a folder: its Verilog with the files around it, its benches with their
+//! vectors, and its timing diagram.
 
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
@@ -11,7 +11,7 @@ use foveate_staging::{FolderKind, StagedFolder};
 
 use crate::{CosimError, ShippedBench, timing_diagram};
 
-/// The folder that is written, and the only kind that it replaces.
+/// The kind of folder that is written, and the only kind that may be replaced.
 pub const CORE: FolderKind = FolderKind {
     what: "a generated core (its foveate_rcm.core)",
     is: |folder| folder.join("foveate_rcm.core").is_file(),
@@ -20,16 +20,17 @@ pub const CORE: FolderKind = FolderKind {
 /// A core that has been written.
 #[derive(Debug)]
 pub struct WrittenCore {
-    /// Its files, relative to the folder.
+    /// The paths of its files, relative to the folder.
     pub files: Vec<String>,
-    /// The bench of each module on top: one RPU or lane, and the array; of a raster core the one.
+    /// The bench of each top module: of one RPU or lane, and of the array. A raster core has only
+    /// the bench of the array.
     pub benches: Vec<ShippedBench>,
-    /// What the names of its modules begin with.
+    /// The prefix of the module names.
     pub prefix: Prefix,
 }
 
 impl WrittenCore {
-    /// Says which benches will not pass, and why.
+    /// Returns a warning for each bench that will not pass, with the reason.
     pub fn warnings(&self) -> impl Iterator<Item = String> {
         self.benches.iter().filter_map(|bench| {
             let shortcoming = bench.shortcoming.as_ref()?;
@@ -41,11 +42,11 @@ impl WrittenCore {
     }
 }
 
-/// Writes the core of a design to a folder, which appears when it is complete. Names of its modules begin with
-/// `prefix`; `overwrite` replaces an earlier core.
+/// Writes the core of a design to a folder, which appears when it is complete. Module names begin
+/// with `prefix`; `overwrite` replaces an earlier core.
 ///
 /// # Errors
-/// When the folder cannot be written or holds something else, and when `cancel` is set.
+/// Fails if the folder cannot be written or holds something else, and if `cancel` is set.
 pub fn write_core(
     design: &Design,
     prefix: &Prefix,

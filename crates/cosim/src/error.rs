@@ -6,7 +6,7 @@ use foveate_staging::{StagedFolder, StagingError};
 use foveate_toolchain::ToolError;
 use std::path::{Path, PathBuf};
 
-/// Why a co-simulation could not come to a result.
+/// The reason for which a co-simulation has no result.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum CosimError {
@@ -20,11 +20,11 @@ pub enum CosimError {
          or the netlist of a design without that cell"
     )]
     NoModel {
-        /// The cell.
+        /// The name of the cell.
         cell: String,
     },
 
-    /// The netlist is not that of the Verilog.
+    /// The netlist does not implement the Verilog.
     #[error(
         "{yosys} wires block RAM of 64 bits and more wrongly (YosysHQ/yosys#5833), so its netlist is not this design; \
          take a Yosys of May 2026 or later (FOVEATE_YOSYS), fewer `hardware.pixels_per_clock`, or co-simulate the RTL"
@@ -34,32 +34,32 @@ pub enum CosimError {
         yosys: String,
     },
 
-    /// The design does not allow what was asked for.
+    /// The design does not allow the requested settings.
     #[error(transparent)]
     Design(#[from] ConfigError),
 
     /// The hierarchy that Verilator wrote cannot be read.
     #[error("the hierarchy that Verilator wrote cannot be read: {why}; Verilator 5 is expected")]
     Elaboration {
-        /// What is wrong with it.
+        /// The problem with the hierarchy.
         why: String,
     },
 
-    /// The Verilog has no module of the name that is to be simulated.
+    /// The Verilog has no module with the name that is to be simulated.
     #[error("the Verilog ({files}) has no module `{top}`; give the sources of the whole core")]
     NoTop {
-        /// The module.
+        /// The name of the module.
         top: String,
-        /// The files that were looked at.
+        /// The files that were searched.
         files: String,
     },
 
     /// The Verilog's top module lacks a port of the design.
     #[error("module `{top}` has no port `{port}`; the Verilog may belong to another design")]
     NoPort {
-        /// The module.
+        /// The name of the module.
         top: String,
-        /// The port.
+        /// The name of the port.
         port: String,
     },
 
@@ -69,13 +69,13 @@ pub enum CosimError {
          the Verilog may belong to another design"
     )]
     PortWidth {
-        /// The module.
+        /// The name of the module.
         top: String,
-        /// The port.
+        /// The name of the port.
         port: String,
-        /// Its bits in the Verilog.
+        /// The number of bits in the Verilog.
         found: u32,
-        /// Its bits in the design.
+        /// The number of bits in the design.
         wanted: u32,
     },
 
@@ -85,19 +85,19 @@ pub enum CosimError {
     )]
     Nothing,
 
-    /// The array is larger than what fits into memory.
+    /// The array is too large for memory.
     #[error(
         "an array of {regions} regions, which take {pixels} pixels per frame, is too large to simulate; \
          the limits are {max_regions} regions and {max_pixels} pixels, so simulate a part of it as `rcm`"
     )]
     TooLarge {
-        /// Its regions.
+        /// The number of its regions.
         regions: u64,
-        /// Pixels that they take per frame, those of their neighborhoods included.
+        /// The number of pixels that they take per frame, with those of their neighborhoods.
         pixels: u64,
-        /// The most regions.
+        /// The largest number of regions.
         max_regions: u64,
-        /// The most pixels.
+        /// The largest number of pixels.
         max_pixels: u64,
     },
 
@@ -107,33 +107,33 @@ pub enum CosimError {
          set frame.width, frame.height and frame.pixel_bits to match"
     )]
     FrameShape {
-        /// Number of the frame.
+        /// The index of the frame.
         index: usize,
-        /// Its size and depth.
+        /// The size and depth of the frame.
         found: String,
-        /// Those of the design.
+        /// The size and depth of the design.
         wanted: String,
     },
 
     /// The model refused a frame or an input.
     #[error("the model refused its input: {reason}")]
     Model {
-        /// Its words.
+        /// The reason that the model gave.
         reason: String,
     },
 
     /// The simulator ended early.
     #[error("{simulator} ended after {got} of {clocks} clocks ({status}){log}")]
     Short {
-        /// The simulator.
+        /// The name of the simulator.
         simulator: String,
-        /// Clocks that it had to simulate.
+        /// The number of clocks to simulate.
         clocks: u64,
-        /// Clocks that it has simulated.
+        /// The number of clocks that were simulated.
         got: u64,
-        /// How it ended.
+        /// The exit status.
         status: String,
-        /// What it said, if anything.
+        /// The last line of the simulator's output, if there is one.
         log: String,
     },
 
@@ -141,13 +141,13 @@ pub enum CosimError {
     #[error(transparent)]
     Output(#[from] StagingError),
 
-    /// The vectors, which lie among the temporary files, cannot be written.
+    /// The vectors, which are temporary files, cannot be written.
     #[error(
         "cannot {action} `{}`: {source}; set TMPDIR to a writable folder with free space",
         path.display()
     )]
     Temporary {
-        /// What was tried, such as "write".
+        /// The attempted action, such as "write".
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
@@ -158,7 +158,7 @@ pub enum CosimError {
     /// A file could not be used.
     #[error("cannot {action} `{}`: {source}", path.display())]
     Io {
-        /// What was tried, such as "write".
+        /// The attempted action, such as "write".
         action: &'static str,
         /// The file or folder.
         path: PathBuf,
@@ -168,7 +168,8 @@ pub enum CosimError {
 }
 
 impl From<ToolError> for CosimError {
-    /// Verilog that does not fit the design is no failure of the tool that noticed.
+    /// Converts a tool's error. Verilog that does not fit the design is not a failure of the tool
+    /// that noticed it.
     fn from(error: ToolError) -> Self {
         match error {
             ToolError::PortWidth { top, port, found, wanted } => {
@@ -181,13 +182,14 @@ impl From<ToolError> for CosimError {
 }
 
 impl CosimError {
-    /// Whether the user has asked to stop.
+    /// Returns true if the user has stopped the run.
     #[must_use]
     pub fn is_interrupted(&self) -> bool {
         matches!(self, Self::Tool(error) if error.is_interrupted())
     }
 
-    /// Whether a place is at fault that the user chooses, and no tool.
+    /// Returns true if the error is about a file or folder that the user chooses, and not about a
+    /// tool.
     #[must_use]
     pub fn is_environment(&self) -> bool {
         match self {
@@ -197,7 +199,8 @@ impl CosimError {
         }
     }
 
-    /// As it is told: with paths in the folder of an output as the user will know them.
+    /// Returns the error with paths as the user knows them: those in a staged folder are shown in
+    /// the output folder.
     #[must_use]
     pub fn named(self, staged: &StagedFolder) -> Self {
         match self {
@@ -209,7 +212,7 @@ impl CosimError {
         }
     }
 
-    /// For `map_err`: the folder of temporary files is at fault.
+    /// Returns a function for `map_err` that reports a failure in the folder of temporary files.
     pub(crate) fn temporary(
         action: &'static str,
         path: &Path,
@@ -217,7 +220,7 @@ impl CosimError {
         move |source| Self::Temporary { action, path: path.to_owned(), source }
     }
 
-    /// For `map_err`: names the file and what was tried with it.
+    /// Returns a function for `map_err` that reports a file and the attempted action.
     pub(crate) fn io(action: &'static str, path: &Path) -> impl FnOnce(std::io::Error) -> Self {
         move |source| Self::Io { action, path: path.to_owned(), source }
     }

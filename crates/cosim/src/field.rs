@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! One port in a record.
+//! The place of one port in a record.
 
 use crate::gate::Gate;
 use foveate_design::Port;
 use std::fmt::Write as _;
 
-/// Bytes of a record that are looked at at once.
+/// The number of bytes that are read at once.
 const WORD: usize = size_of::<u128>();
 
-/// Where one port lies in a record.
+/// The place of one port in a record.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Field {
     /// The port.
     pub port: Port,
-    /// Its first byte.
+    /// The offset of its first byte.
     pub offset: usize,
-    /// How many bytes it takes.
+    /// The number of its bytes.
     pub bytes: usize,
-    /// When it is compared.
+    /// The condition under which it is compared.
     pub gate: Gate,
 }
 
@@ -34,7 +34,7 @@ impl Field {
         rest[..bytes].copy_from_slice(&word.to_le_bytes()[..bytes]);
     }
 
-    /// Writes every lane, lane 0 first; faster than one after the other.
+    /// Writes every lane, lane 0 first; this is faster than one lane at a time.
     #[inline]
     pub(crate) fn set_all(&self, record: &mut [u8], values: impl Iterator<Item = u64>) {
         const STEP: usize = size_of::<u64>();
@@ -53,11 +53,12 @@ impl Field {
         rest[..bytes].copy_from_slice(&waiting.to_le_bytes()[..bytes]);
     }
 
-    /// Writes every lane, each with as many values as it holds: one, or the pixels of a word, the first in the lowest
-    /// bits.
+    /// Writes every lane. Each lane holds one value, or the pixels of a word with the first pixel
+    /// in the lowest bits.
     ///
     /// # Panics
-    /// When there is not a value for each place: who should know the port does not.
+    /// Panics if the number of values does not fit, because the model then does not support the
+    /// port.
     #[inline]
     pub(crate) fn set_values(&self, record: &mut [u8], values: &[u64]) {
         let (held, bits) = self.word(values.len());
@@ -67,7 +68,7 @@ impl Field {
         self.set_all(record, values.chunks(held).map(word));
     }
 
-    /// Reads every lane, as `set_values` has written so many pixels.
+    /// Reads the `count` pixels of all lanes, as `set_values` has written them.
     pub fn words(&self, record: &[u8], count: usize) -> impl Iterator<Item = u64> {
         let (held, bits) = self.word(count);
         let lanes = (0..self.port.lanes).map(|lane| self.get(record, lane));
@@ -82,7 +83,8 @@ impl Field {
         lanes.flat_map(pixels)
     }
 
-    /// Pixels of a lane, and bits of a pixel, where all lanes have so many pixels.
+    /// Returns the number of pixels of a lane and of bits of a pixel, if all lanes together have
+    /// `pixels` pixels.
     #[inline]
     fn word(&self, pixels: usize) -> (usize, u32) {
         let held = (pixels / self.port.lanes as usize).max(1);
@@ -98,14 +100,14 @@ impl Field {
         u64::try_from(value).expect("the mask has 64 bits")
     }
 
-    /// Its bytes.
+    /// Returns the bytes of the port.
     #[must_use]
     #[inline]
     pub fn slice<'a>(&self, record: &'a [u8]) -> &'a [u8] {
         &record[self.offset..self.end()]
     }
 
-    /// The whole port as one hexadecimal number, as many digits as its bits need.
+    /// Returns the whole port as one hexadecimal number, with as many digits as its bits need.
     #[must_use]
     pub fn hex(&self, record: &[u8]) -> String {
         let mut digits = String::with_capacity(2 * self.bytes);
@@ -122,7 +124,7 @@ impl Field {
         self.offset + self.bytes
     }
 
-    /// First byte of a lane, and its first bit in that byte.
+    /// Returns the first byte of a lane, and its first bit in that byte.
     #[inline]
     fn place(&self, lane: u32) -> (usize, u32) {
         debug_assert!(lane < self.port.lanes, "lane {lane} of {}", self.port.name);
@@ -132,7 +134,7 @@ impl Field {
 }
 
 impl Gate {
-    /// Whether no lane of a value is compared at this clock.
+    /// Returns true if no lane of a value is compared at this clock.
     #[inline]
     pub(crate) fn is_shut(self, fields: &[Field], expected: &[u8]) -> bool {
         match self {
@@ -143,11 +145,11 @@ impl Gate {
         }
     }
 
-    /// How many of all lanes of a value are compared at this clock.
+    /// Returns the number of lanes of a value that are compared at this clock.
     #[inline]
     pub(crate) fn open_lanes(self, fields: &[Field], expected: &[u8], all: u32) -> u32 {
         match self {
-            // A bit for each lane.
+            // The valid field has one bit for each lane.
             Self::SameLane(valid) => {
                 fields[valid].slice(expected).iter().map(|byte| byte.count_ones()).sum()
             }
@@ -156,7 +158,7 @@ impl Gate {
         }
     }
 
-    /// Whether a lane is compared at a clock at which the gate is not shut.
+    /// Returns true if a lane is compared at a clock at which the gate is not shut.
     #[inline]
     pub(crate) fn lets_pass(self, fields: &[Field], expected: &[u8], lane: u32) -> bool {
         match self {
@@ -166,8 +168,8 @@ impl Gate {
     }
 }
 
-/// The bytes from one on as a number, zeros behind the end of the record: a lane of up to 64 bits is whole in it, wherever in its
-/// first byte it begins.
+/// Returns the bytes from `start` on as a number, with zeros behind the end of the record. A lane
+/// of up to 64 bits fits into it, at whichever bit of its first byte it begins.
 #[inline]
 fn word_at(record: &[u8], start: usize) -> u128 {
     let rest = &record[start..];
@@ -181,7 +183,7 @@ fn word_at(record: &[u8], start: usize) -> u128 {
     )
 }
 
-/// Ones in the lowest bits.
+/// Returns a mask with ones in the lowest `width` bits.
 #[inline]
 pub(crate) fn mask(width: u32) -> u64 {
     u64::MAX.checked_shr(u64::BITS.saturating_sub(width)).unwrap_or(0)

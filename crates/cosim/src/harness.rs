@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Sources made from a port list alone: the C++ harness for Verilator and the replay bench.
+//! The sources that are made from a port list alone: the C++ harness for Verilator and the replay
+//! bench.
 
 use crate::field::Field;
 use crate::gate::Gate;
@@ -8,7 +9,8 @@ use askama::Template;
 use foveate_design::{Direction, Port, PortRole};
 use foveate_emit::Parameter;
 
-/// The C++ main that clocks module `top` with packed records; see [`Layout`] for their bytes.
+/// Returns the C++ main that clocks module `top` with packed records; [`Layout`] describes their
+/// bytes.
 #[must_use]
 pub fn cpp_harness(top: &str, ports: &[Port]) -> String {
     let clock = clock_name(ports);
@@ -16,28 +18,28 @@ pub fn cpp_harness(top: &str, ports: &[Port]) -> String {
     rendered(&Harness { top, clock, inputs, outputs })
 }
 
-/// The name of the bench that [`replay_bench`] writes for module `top`.
+/// Returns the name of the bench that [`replay_bench`] writes for module `top`.
 #[must_use]
 pub fn bench_name(top: &str) -> String {
     format!("{top}_replay")
 }
 
-/// The file that it belongs into.
+/// Returns the name of the file of that bench.
 #[must_use]
 pub fn bench_file(top: &str) -> String {
     format!("{}.v", bench_name(top))
 }
 
-/// A bench in Verilog-2005 that replays vectors through module `top` and compares every output at
-/// every clock. `parameters` of the module are set to their values. What the bench reads is written by
-/// [`crate::Packer`].
+/// Returns a bench in Verilog-2005 that replays vectors through module `top` and compares every
+/// output at every clock. `parameters` are those of the module, with their values.
+/// [`crate::Packer`] writes the vectors.
 #[must_use]
 pub fn replay_bench(top: &str, ports: &[Port], parameters: &[Parameter]) -> String {
     told_bench(top, ports, parameters, &[], None)
 }
 
-/// As [`replay_bench`]; `about` are lines of its first comment, and with a `shortcoming` of the vectors
-/// it says `INCOMPLETE` where it would say `PASS`.
+/// Returns the bench of [`replay_bench`] with the lines `about` in its first comment. With a
+/// `shortcoming` of the vectors it prints `INCOMPLETE` instead of `PASS`.
 pub(crate) fn told_bench(
     top: &str,
     ports: &[Port],
@@ -88,13 +90,14 @@ struct Bench<'a> {
     inputs: Vec<BenchPort>,
     outputs: Vec<BenchPort>,
     has_lanes: bool,
-    /// Values of a line, and the number of the bit that says that a number of clocks comes first.
+    /// The number of values of a line. It is also the index of the bit that says that a number of
+    /// clocks comes first.
     columns: usize,
     about: &'a [String],
     shortcoming: Option<&'a str>,
 }
 
-/// The pieces of text in which a port appears in the bench.
+/// The pieces of text with which a port appears in the bench.
 #[derive(Default)]
 struct BenchPort {
     name: String,
@@ -104,7 +107,8 @@ struct BenchPort {
     lanes: u32,
     lane: String,
     expected_lane: String,
-    /// What must hold for the port to be compared, and `&&`; nothing where it always is.
+    /// The condition for a comparison of the port, followed by `&&`; empty if the port is always
+    /// compared.
     gate: String,
 }
 
@@ -144,14 +148,14 @@ fn gate(field: &Field, fields: &[Field]) -> String {
     }
 }
 
-/// The clock, by role; a hand-made module has one of the same name.
+/// Returns the name of the clock. A hand-made module without a clock role has `clk_i`.
 fn clock_name(ports: &[Port]) -> &str {
     let is_clock =
         |port: &&Port| port.direction == Direction::Input && matches!(port.role, PortRole::Clock);
     ports.iter().find(is_clock).map_or("clk_i", |port| port.name.as_str())
 }
 
-/// A filled template, ending in the newline that askama drops.
+/// Returns a filled template, with the final newline that askama drops.
 pub(crate) fn rendered(template: &impl Template) -> String {
     template.render().expect("no template calls something that can fail") + "\n"
 }

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which modules of a folder of Verilog a simulation reaches.
+//! The modules of a folder of Verilog that a simulation reaches.
 //!
-//! It is read from the text: a module reaches those that it instantiates, in every branch of a
-//! `generate`, whether the design takes that branch or not. So a leaf that a generated core brings
-//! along but does not need counts as reached; a file that nothing instantiates does not.
+//! They are read from the text. A module reaches the modules that it instantiates in any branch of
+//! a `generate`, even if the design does not take that branch. So a leaf that a generated core
+//! contains but does not need counts as reached; a file that nothing instantiates does not.
 
 use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeSet;
 use std::fmt;
 
-/// Modules of one file that no simulation has reached.
+/// The modules of one file that no simulation has reached.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NotSimulated {
-    /// The file.
+    /// The path of the file.
     pub file: String,
-    /// Its modules that were not reached, in their order; never empty.
+    /// The modules that were not reached, in their order in the file; never empty.
     pub modules: Vec<String>,
 }
 
@@ -26,21 +26,22 @@ impl fmt::Display for NotSimulated {
     }
 }
 
-/// A module as far as the hierarchy is concerned.
+/// A module, reduced to what the hierarchy needs.
 #[derive(Debug, PartialEq, Eq)]
 struct Module {
     name: String,
-    /// Names that stand where an instance names its module. Some are no modules.
+    /// The names at places at which an instance names its module. Some of them are not modules.
     instantiates: BTreeSet<String>,
 }
 
-/// Whether a file declares the module.
+/// Returns true if a file declares the module.
 pub(crate) fn declares(sources: &[SourceFile], module: &str) -> bool {
     sources.iter().flat_map(|file| modules(&file.contents)).any(|found| found.name == module)
 }
 
-/// The prefixes under which there is a core among the files: a module `rpu` or `rcm` with that prefix. Where one has
-/// none it is that core alone: what else ends like this is somebody's own.
+/// Returns the prefixes of the cores among the files: those of the modules `rpu` and `rcm` with a
+/// prefix. If one core has no prefix, only that core is returned, because other modules whose names
+/// end in `_rpu` or `_rcm` may belong to the user.
 #[must_use]
 pub fn prefixes(sources: &[SourceFile]) -> BTreeSet<Prefix> {
     let modules = sources.iter().flat_map(|file| modules(&file.contents));
@@ -51,7 +52,7 @@ pub fn prefixes(sources: &[SourceFile]) -> BTreeSet<Prefix> {
     if found.contains(&Prefix::default()) { BTreeSet::from([Prefix::default()]) } else { found }
 }
 
-/// The modules, by file, that are neither among `tops` nor below them.
+/// Returns the modules, by file, that are neither among `tops` nor below them.
 #[must_use]
 pub fn not_simulated(sources: &[SourceFile], tops: &[&str]) -> Vec<NotSimulated> {
     let files: Vec<(&str, Vec<Module>)> =
@@ -71,7 +72,7 @@ pub fn not_simulated(sources: &[SourceFile], tops: &[&str]) -> Vec<NotSimulated>
     files.iter().filter_map(unreached).collect()
 }
 
-/// The modules that a text declares.
+/// Returns the modules that a text declares.
 fn modules(text: &str) -> Vec<Module> {
     let tokens = tokens(text);
     let (mut modules, mut under_way) = (Vec::new(), None);
@@ -91,7 +92,7 @@ fn modules(text: &str) -> Vec<Module> {
     modules
 }
 
-/// Whether `name #(`, `name instance (` or `name instance [` stands here.
+/// Returns true if the tokens begin with `name #(`, `name instance (` or `name instance [`.
 fn is_instance(tokens: &[String]) -> bool {
     let token = |index: usize| tokens.get(index).map_or("", String::as_str);
     let is_name = |text: &str| text.starts_with(|c: char| c.is_alphabetic() || c == '_');
@@ -99,7 +100,7 @@ fn is_instance(tokens: &[String]) -> bool {
     is_name(token(0)) && (named || (token(1) == "#" && token(2) == "("))
 }
 
-/// Words and single signs; comments, strings and attributes are left out.
+/// Splits a text into words and single characters, without comments, strings and attributes.
 fn tokens(text: &str) -> Vec<String> {
     let is_word = |c: char| c.is_alphanumeric() || c == '_' || c == '$';
     let (mut tokens, mut rest) = (Vec::new(), text);
@@ -114,7 +115,7 @@ fn tokens(text: &str) -> Vec<String> {
         } else if first == '"' {
             string_length(rest)
         } else if first == '\\' {
-            // An escaped name ends with a blank, and is the name without the backslash.
+            // An escaped name ends at a blank; the token is the name without the backslash.
             let length = rest.find(char::is_whitespace).unwrap_or(rest.len());
             tokens.push(rest[1..length].to_owned());
             length
@@ -133,12 +134,13 @@ fn tokens(text: &str) -> Vec<String> {
     tokens
 }
 
-/// What follows the beginning of an attribute; `(*)` in a sensitivity list is none.
+/// Returns the text after the beginning of an attribute; `(*)` in a sensitivity list is not an
+/// attribute.
 fn attribute(text: &str) -> Option<&str> {
     text.strip_prefix("(*").filter(|rest| !rest.trim_start().starts_with(')'))
 }
 
-/// Bytes of the string that begins here, with its quotation marks.
+/// Returns the number of bytes of the string that begins here, with its quotation marks.
 fn string_length(text: &str) -> usize {
     let mut escaped = false;
     for (at, sign) in text.char_indices().skip(1) {

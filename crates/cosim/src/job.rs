@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A whole co-simulation: vectors from the model, through the RTL, to a report.
+//! A whole co-simulation: vectors from the model, a run of the RTL, and a report.
 
 use crate::error::CosimError;
 use crate::level::Level;
@@ -17,7 +17,8 @@ use foveate_toolchain::{Cache, Source, Toolchain, sources_sha256};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Arrays of more regions than this share the code of one RPU, or lane; see [`Dut::no_inline`].
+/// The number of regions above which the copies of an RPU or lane share their code; see
+/// [`Dut::no_inline`].
 const INLINED_REGIONS: u32 = 16;
 
 /// A co-simulation to run.
@@ -25,52 +26,53 @@ const INLINED_REGIONS: u32 = 16;
 pub struct Job {
     /// The design.
     pub design: Design,
-    /// The Verilog: what the emitter makes of the design, or what a user made of that.
+    /// The Verilog: the files that the emitter makes of the design, or an edited version of them.
     pub sources: Vec<SourceFile>,
-    /// What the names of its modules begin with.
+    /// The prefix of the module names.
     pub prefix: Prefix,
-    /// What synthesis has made of the Verilog; it is simulated instead, in Icarus.
+    /// The netlist that synthesis has made of the Verilog, if it is simulated instead. Only Icarus
+    /// simulates it.
     pub netlist: Option<Netlist>,
     /// The vectors.
     pub stimulus: Stimulus,
     /// The simulator.
     pub simulator: Simulator,
-    /// Whether to write waves.
+    /// True if waves are written.
     pub trace: bool,
-    /// The folder for what a failing run leaves. A run with waves and without mismatch leaves
-    /// them in a folder of this name too.
+    /// The folder for the replay of a failing run. A run with waves and without a mismatch writes
+    /// the waves to a folder of this name, too.
     pub output: PathBuf,
-    /// The longest that the simulation itself may take.
+    /// The longest time that the simulation itself may take.
     pub limit: Duration,
 }
 
-/// What a job is busy with; for progress bars.
+/// The current step of a job, for progress bars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Progress {
-    /// The model makes the vectors: sequences done, and how many there are.
+    /// The model makes the vectors.
     Vectors {
-        /// Sequences that are complete.
+        /// The number of sequences that are complete.
         done: u64,
-        /// All of them.
+        /// The number of all sequences.
         total: u64,
     },
     /// The simulation is built, simulated and compared.
     Simulation {
-        /// Clocks that are to be simulated.
+        /// The number of clocks to simulate.
         clocks: u64,
     },
 }
 
 impl Job {
-    /// A job with the Verilog that the emitter makes for the level of the stimulus.
+    /// Creates a job with the Verilog that the emitter makes for the level of the stimulus.
     ///
     /// # Errors
-    /// When the level's grid makes a frame that no design can have.
+    /// Fails if the level's grid makes a frame that no design can have.
     pub fn new(design: &Design, stimulus: Stimulus, output: &Path) -> Result<Self, ConfigError> {
         let part = stimulus.level.design(design)?;
-        // The array takes its grid from its parameters, so that its Verilog is that of the design.
+        // The array takes its grid from its parameters, so the Verilog is that of the design.
         let mut sources = verilog(design, stimulus.level.top());
-        // A larger grid than the design's may elaborate more.
+        // A larger grid than the design's may elaborate more modules.
         let is_new = |file: &SourceFile| sources.iter().all(|other| other.path != file.path);
         let more: Vec<_> =
             verilog(&part, stimulus.level.top()).into_iter().filter(is_new).collect();
@@ -88,22 +90,23 @@ impl Job {
         })
     }
 
-    /// What synthesis makes of the Verilog, for [`Job::netlist`].
+    /// Synthesizes the Verilog to a netlist, for [`Job::netlist`].
     ///
     /// # Errors
-    /// When Yosys is missing or refuses the Verilog, or a cell has no model.
+    /// Fails if Yosys is missing or refuses the Verilog, or a cell has no model.
     pub fn synthesize(&self, toolchain: &Toolchain, cache: &Cache) -> Result<Netlist, CosimError> {
         let design = self.stimulus.level.design(&self.design)?;
         let top = self.stimulus.level.top();
         Netlist::of(&design, top, &self.prefix, self.named_sources(), toolchain, cache)
     }
 
-    /// Runs it to a report; a mismatch is a result and no error.
+    /// Runs the job and returns its report. A mismatch is a result and not an error.
     ///
     /// # Errors
-    /// When there is no result: a tool is missing or fails, a frame does not fit, a folder cannot
-    /// be written, or the toolchain's flag has stopped it. An earlier replay in the folder of the
-    /// output is gone then as well: what is there after a run is of that run.
+    /// Fails if there is no result: a tool is missing or fails, a frame does not fit, a folder
+    /// cannot be written, or the toolchain's flag has stopped the run. An earlier replay in the
+    /// output folder is removed in any case, so a replay that is there after a run belongs to that
+    /// run.
     pub fn run(
         &self,
         toolchain: &Toolchain,
@@ -123,10 +126,10 @@ impl Job {
         Ok(report)
     }
 
-    /// The same on vectors that were made before: those of its design and its stimulus.
+    /// Runs the job on vectors that were made before, for its design and its stimulus.
     ///
     /// # Errors
-    /// As for [`Job::run`].
+    /// Fails for the reasons that [`Job::run`] lists.
     pub fn run_on(
         &self,
         recording: &Recording,
@@ -138,7 +141,8 @@ impl Job {
         self.simulate(recording, toolchain, cache, progress)
     }
 
-    /// Refuses what cannot come to an end before anything is made, and removes what an earlier run has left.
+    /// Refuses a job that cannot end before anything is made, and removes the replay of an earlier
+    /// run.
     fn prepare(&self, toolchain: &Toolchain) -> Result<(), CosimError> {
         self.stimulus.level.design(&self.design)?;
         replay::check(&self.output)?;
@@ -179,19 +183,19 @@ impl Job {
         Ok(report)
     }
 
-    /// Name for people, such as `rpu verilator`.
+    /// Returns the name of the job for people, such as `rpu verilator`.
     #[must_use]
     pub fn name(&self) -> String {
         let netlist = if self.netlist.is_some() { " netlist" } else { "" };
         format!("{}{netlist} {}", self.stimulus.level, self.simulator)
     }
 
-    /// The Verilog as the tools take it.
+    /// Returns the Verilog in the form that the tools take.
     fn named_sources(&self) -> Vec<Source> {
         self.sources.iter().map(|file| (file.path.clone(), file.contents.clone())).collect()
     }
 
-    /// The module that is simulated; `design` is that of the level.
+    /// Returns the module that is simulated; `design` is the design at the level.
     #[must_use]
     pub fn dut(&self, design: &Design) -> Dut {
         let top = self.stimulus.level.top();

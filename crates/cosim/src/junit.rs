@@ -6,7 +6,8 @@ use crate::summary::Summary;
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use std::time::Duration;
 
-/// One test case per run, and one that says whether all of the Verilog was simulated where it was given.
+/// Returns one test case per run, and a failed or skipped one if some of the given Verilog was not
+/// simulated.
 #[must_use]
 pub fn junit_xml(summary: &Summary) -> String {
     let mut suite = TestSuite::new("foveate cosim");
@@ -58,7 +59,7 @@ fn status(report: &CosimReport) -> TestCaseStatus {
     status
 }
 
-/// One test case for a run that came to no result.
+/// Returns one test case for a run without a result.
 #[must_use]
 pub fn junit_error(name: &str, problem: &str) -> String {
     let mut status = TestCaseStatus::non_success(NonSuccessKind::Error);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Packed records: the inputs, or the outputs, of one clock as bytes.
 //!
-//! A record holds the ports in the order of the port list, the clock left out. Each port takes
+//! A record holds the ports in the order of the port list, without the clock. Each port takes
 //! `ceil(bits / 8)` bytes, lowest byte first; bits above the port's are 0. Lanes lie side by side
-//! as in the Verilog vector: lane i takes bits `i * width ..= i * width + width - 1`. So a port's
-//! bytes, read as one little-endian number, are the value of the Verilog vector.
+//! as in the Verilog vector: lane i takes bits `i * width ..= i * width + width - 1`. So the bytes
+//! of a port, read as one little-endian number, are the value of the Verilog vector.
 
 use crate::field::Field;
 use crate::gate::Gate;
@@ -18,7 +18,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// The record of all inputs but the clock.
+    /// Returns the layout of all inputs but the clock.
     #[must_use]
     pub fn inputs(ports: &[Port]) -> Self {
         let wanted = |port: &&Port| {
@@ -27,7 +27,7 @@ impl Layout {
         Self::of(ports.iter().filter(wanted))
     }
 
-    /// The record of all outputs.
+    /// Returns the layout of all outputs.
     #[must_use]
     pub fn outputs(ports: &[Port]) -> Self {
         Self::of(ports.iter().filter(|port| port.direction == Direction::Output))
@@ -46,40 +46,40 @@ impl Layout {
         Self { fields, bytes: offset }
     }
 
-    /// The ports and their places.
+    /// Returns the ports and their places.
     #[must_use]
     #[inline]
     pub fn fields(&self) -> &[Field] {
         &self.fields
     }
 
-    /// Bytes of a record.
+    /// Returns the number of bytes of a record.
     #[must_use]
     pub fn record_bytes(&self) -> usize {
         self.bytes
     }
 
-    /// A record of zeros.
+    /// Returns a record of zeros.
     #[must_use]
     pub fn record(&self) -> Vec<u8> {
         vec![0; self.bytes]
     }
 
-    /// Whether every value is compared at every clock.
+    /// Returns true if every value is compared at every clock.
     #[must_use]
     pub fn is_ungated(&self) -> bool {
         self.fields.iter().all(|field| field.gate == Gate::Always)
     }
 
-    /// Values of a record that are compared: one per port and lane, where a valid bit belongs to the port
-    /// only those with the bit.
+    /// Returns the number of values of a record that are compared: one per port and lane. If a
+    /// valid bit belongs to the port, only lanes with that bit count.
     #[must_use]
     pub fn values(&self, expected: &[u8]) -> u64 {
         let lanes = |field: &Field| field.gate.open_lanes(&self.fields, expected, field.port.lanes);
         self.fields.iter().map(|field| u64::from(lanes(field))).sum()
     }
 
-    /// Values that are compared and differ.
+    /// Returns the number of values that are compared and differ.
     #[must_use]
     pub fn differing(&self, expected: &[u8], got: &[u8]) -> u64 {
         let differs = |field: &&Field| field.slice(expected) != field.slice(got);
@@ -90,7 +90,7 @@ impl Layout {
         self.fields.iter().filter(differs).map(lanes).sum()
     }
 
-    /// The lanes of a port that are compared, by the valid bits of the expected record.
+    /// Returns the lanes of a port that are compared, by the valid bits of the expected record.
     pub(crate) fn compared_lanes<'a>(
         &'a self,
         field: &'a Field,
@@ -101,8 +101,8 @@ impl Layout {
     }
 }
 
-/// The gate of a port among the others of a layout: the valid bit of its lane where there is one per
-/// lane, else that of any lane.
+/// Returns the gate of a port among the ports of a layout: the valid bit of its lane if there is
+/// one per lane, or else the valid bit of any lane.
 fn gate(port: &Port, ports: &[&Port]) -> Gate {
     let valid = |role| ports.iter().position(|other| other.role == role);
     let valid = match port.qualifier {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How much of the hardware is simulated.
+//! The part of the hardware that is simulated.
 
 use crate::hierarchy::declares;
 use foveate_design::{Array, ConfigError, Design};
@@ -7,22 +7,22 @@ use foveate_emit::{Prefix, SourceFile, Top};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// Lanes of an array that Verilator builds in a minute or two.
+/// The largest number of lanes of an array that Verilator builds in a minute or two.
 const MAX_UNITS: u32 = 1024;
 
-/// How much of the hardware is simulated.
+/// The part of the hardware that is simulated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Level {
-    /// One RPU, through which the regions of the frames go one after the other; of a serial design one
-    /// lane, with as many of them as share it.
+    /// One RPU, through which the regions of the frames go one after the other. Of a serial design
+    /// it is one lane, with as many regions as share it.
     #[default]
     Rpu,
-    /// An RCM of that many regions.
+    /// An RCM with the given grid of regions.
     Rcm {
-        /// Regions side by side.
+        /// The number of columns of regions.
         columns: u32,
-        /// Regions one below the other.
+        /// The number of rows of regions.
         rows: u32,
     },
     /// The RCM of the design's own frame.
@@ -30,9 +30,9 @@ pub enum Level {
 }
 
 impl Level {
-    /// The array that stands for the design's own where that would take long: 3x2 regions, so that
-    /// rows and columns cannot be confused; more where a lane serves more, so that there are two
-    /// lanes; never more than the frame has.
+    /// Returns the array that stands for the design's own if that would take long. It has 3x2
+    /// regions, so that rows and columns cannot be confused, or more if a lane serves more regions,
+    /// so that there are two lanes. It never has more regions than the frame.
     #[must_use]
     pub fn sample(design: &Design) -> Self {
         let (all_columns, all_rows) = (design.columns(), design.rows());
@@ -47,8 +47,9 @@ impl Level {
         Self::Rcm { columns, rows: rows_for(columns) }
     }
 
-    /// Whether the design's own array is simulated by default: its widths, memories and counters follow from its
-    /// size, and it has no more lanes than Verilator builds in a minute or two.
+    /// Returns true if the design's own array is simulated by default: its widths, memories and
+    /// counters follow from its size, and it has no more lanes than Verilator builds in a minute or
+    /// two.
     #[must_use]
     pub fn is_whole_affordable(design: &Design) -> bool {
         match design.unit().array {
@@ -57,10 +58,10 @@ impl Level {
         }
     }
 
-    /// The levels that between them simulate Verilog that somebody gives: one for each of the modules
-    /// `rpu` and `rcm` that is there under this prefix, the array as [`Level::sample`] and, if it is more than that and
-    /// [affordable](Self::is_whole_affordable), whole. Without either it is `rpu`, whose simulation says what
-    /// is missing.
+    /// Returns the levels that together simulate the Verilog of a user: one for each of the modules
+    /// `rpu` and `rcm` that is there under this prefix. The array is simulated as [`Level::sample`]
+    /// and, if the whole array is larger and [affordable](Self::is_whole_affordable), also whole.
+    /// Without either module it is `rpu`, whose simulation reports what is missing.
     #[must_use]
     pub fn all_of(design: &Design, sources: &[SourceFile], prefix: &Prefix) -> Vec<Self> {
         let mut levels = vec![Self::Rpu, Self::sample(design)];
@@ -72,7 +73,7 @@ impl Level {
         if found.is_empty() { vec![Self::Rpu] } else { found }
     }
 
-    /// Whether it simulates the design's own array.
+    /// Returns true if the level simulates the design's own array.
     #[must_use]
     pub fn is_whole(self, design: &Design) -> bool {
         match self {
@@ -82,7 +83,7 @@ impl Level {
         }
     }
 
-    /// The module that is simulated.
+    /// Returns the module that is simulated.
     #[must_use]
     pub fn top(self) -> Top {
         match self {
@@ -91,10 +92,10 @@ impl Level {
         }
     }
 
-    /// The design with the frame that this level simulates.
+    /// Returns the design with the frame that this level simulates.
     ///
     /// # Errors
-    /// When the grid makes a frame that no design can have.
+    /// Fails if the grid makes a frame that no design can have.
     pub fn design(self, design: &Design) -> Result<Design, ConfigError> {
         match self {
             Self::Full => Ok(design.clone()),
@@ -104,7 +105,8 @@ impl Level {
     }
 }
 
-/// The design for a frame of so many regions, of which as much lies beyond the frame as in the design.
+/// Returns the design for a frame of the given grid of regions. The part of the last regions that
+/// lies beyond the frame is that of the design.
 fn with_grid(design: &Design, columns: u32, rows: u32) -> Result<Design, ConfigError> {
     let mut config = design.config();
     let side = design.region_size();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which region a differing value belongs to.
+//! The region to which a differing value belongs.
 
 use crate::compare::Difference;
 use crate::layout::Layout;
 use crate::level::Level;
 use foveate_design::{BeatRegion, Design};
 
-/// The region of a difference, as far as the expected outputs of that clock tell. `first` is the region of
-/// the frame that goes through the only RPU, or lane, if it is one of a frame of the caller.
+/// Returns the region of a difference, if the expected outputs of that clock show it. `first` is
+/// the region of the caller's frame that goes through the only RPU or lane, if it is known.
 pub(crate) fn region(
     design: &Design,
     level: Level,
@@ -24,7 +24,8 @@ pub(crate) fn region(
     }
 }
 
-/// The stream of the port tells, by its lane or by the port that names the region of a beat.
+/// Returns the region in the simulated array. The stream of the port gives it, by its lane or by
+/// the port that numbers the region of a beat.
 fn in_array(
     design: &Design,
     layout: &Layout,
@@ -58,7 +59,7 @@ mod tests {
         Config::from_toml(&toml).unwrap().validate().unwrap()
     }
 
-    /// The region of a difference at a port and lane, where the record shows these values.
+    /// Returns the region of a difference at a port and lane, for a record with the given values.
     fn found(
         design: &Design,
         shown: &[(PortRole, u32, u64)],

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A mismatch in the words of the vectors: every port that differs, where and when.
+//! A mismatch in terms of the vectors: every port that differs, with its place and time.
 
 use crate::compare::Difference;
 use crate::error::CosimError;
@@ -11,36 +11,37 @@ use foveate_design::{Design, PortRole};
 use serde::{Deserialize, Serialize};
 use std::fmt;
 
-/// The first output that differs, and what else differs until the end of its sequence.
+/// The first output that differs, and the other ports that differ until the end of its sequence.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct Mismatch {
-    /// The sequence of frames.
+    /// The name of the sequence of frames.
     pub sequence: String,
-    /// The frame of the sequence that was entering, from 0.
+    /// The index of the frame in the sequence that was entering, from 0.
     pub frame: u64,
-    /// The clock edge, counted from the first of the run.
+    /// The clock edge, counted from the first edge of the run.
     pub clock: u64,
-    /// The clock edge, counted from the first of the frame.
+    /// The clock edge, counted from the first edge of the frame.
     pub clock_in_frame: u64,
-    /// The region, unless a single RPU was fed with made-up pixels.
+    /// The region; `None` if a single RPU gets generated pixels.
     pub region: Option<u32>,
     /// The output port.
     pub port: String,
-    /// Which score stands at the ports of a serial array, where the port is of such: the feature, or
-    /// `temporal count`.
+    /// The score at the ports of a serial array, if the port belongs to a score: the name of a
+    /// feature, or `temporal count`.
     pub score: Option<String>,
-    /// What the hardware is busy with: the pixel that enters, or slot, phase and step of its work.
+    /// The activity of the hardware: the pixel that enters, or the slot, phase and step of its
+    /// work.
     pub at: String,
-    /// What the model says, hexadecimal.
+    /// The value of the model, in hexadecimal.
     pub expected: String,
-    /// What the simulator says, hexadecimal; `x` where it does not know.
+    /// The value of the simulator, in hexadecimal; unknown digits are `x`.
     pub got: String,
-    /// Each port that differs before the sequence ends, at its first clock; ports that differ at the same
-    /// clock in the order of the module. The first is that of the fields above.
+    /// The ports that differ before the sequence ends, each at its first clock. Ports that differ
+    /// at the same clock are in the order of the module. The first one is that of the fields above.
     pub ports: Vec<PortMismatch>,
 }
 
-/// The first time that a port differs. The fields are those of [`Mismatch`].
+/// The first clock at which a port differs. The fields are those of [`Mismatch`].
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[allow(missing_docs, reason = "they are those of Mismatch")]
 pub struct PortMismatch {
@@ -54,7 +55,8 @@ pub struct PortMismatch {
 }
 
 impl Mismatch {
-    /// Differences of one sequence, in order, in the words of the vectors; nothing if there are none.
+    /// Returns the mismatch for the differences of one sequence, which are in order, or `None` if
+    /// there are none.
     pub(crate) fn of(
         differences: &[Difference],
         design: &Design,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the hardware is busy with at a clock: which pixel enters, or which phase of its work it is in.
+//! The activity of the hardware at a clock: the pixel that enters, or the phase of its work.
 //!
-//! It is counted from what the vectors put in and what the model answers, from the reset of the
+//! It is counted from the inputs of the vectors and the outputs of the model, from the reset of the
 //! sequence on.
 
 use crate::error::CosimError;
@@ -15,17 +15,18 @@ use foveate_design::{
 use foveate_model::FrameSync;
 use std::fmt;
 
-/// What the hardware is busy with after an edge. Frames count from 0 with the reset of the sequence.
+/// The activity of the hardware after an edge. Frames are counted from 0 after the reset of the
+/// sequence.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Moment {
-    /// The reset.
+    /// The core is in reset.
     Reset,
-    /// The edge has taken this pixel of a frame's stream: its number, column and row, negative in a halo. A raster
-    /// core takes words; the place is that of the first pixel.
+    /// The edge has taken this pixel of a frame's stream: its number, column and row, which are
+    /// negative in a halo. A raster core takes words; the place is that of the first pixel.
     Pixel { unit: &'static str, frame: u64, number: u64, of: u64, x: i64, y: i64 },
-    /// Nothing was taken; so many pixels or words of this frame are in.
+    /// Nothing was taken; `taken` pixels or words of this frame have come in.
     Waiting { unit: &'static str, frame: u64, taken: u64, of: u64 },
-    /// The core completes this frame by itself; so many pixels or words of it are in.
+    /// The core completes this frame by itself; `taken` pixels or words of it have come in.
     Completing { unit: &'static str, frame: u64, taken: u64, of: u64 },
     /// The lanes work on a frame.
     Work { frame: u64, slot: u64, phase: Phase, step: u64, of: u64 },
@@ -52,7 +53,7 @@ impl fmt::Display for Moment {
 }
 
 impl Moment {
-    /// The score that passes the ports, by name.
+    /// Returns the name of the score that passes the ports.
     pub(crate) fn score(&self) -> Option<&'static str> {
         match self {
             Self::Work { phase: Phase::RotateCount, .. } => Some("temporal count"),
@@ -62,13 +63,13 @@ impl Moment {
     }
 }
 
-/// How a frame comes in.
+/// The way in which a frame comes in.
 enum Intake<'a> {
-    /// A pixel of every region at a time.
+    /// One pixel of every region at a time.
     Regions(PipelinedDesign<'a>),
-    /// A pixel of every lane at a time, or one of the frame; then the lanes work on it.
+    /// One pixel of every lane at a time, or one pixel of the frame; then the lanes work on it.
     Lanes(SerialDesign<'a>, SerialTiming),
-    /// A word of the frame at a time.
+    /// One word of the frame at a time.
     Words(RasterTiming),
 }
 
@@ -84,7 +85,7 @@ impl<'a> Intake<'a> {
         }
     }
 
-    /// What comes at a time.
+    /// Returns the name of the unit that comes at a time.
     fn unit(&self) -> &'static str {
         match self {
             Self::Regions(_) | Self::Lanes(..) => "pixel",
@@ -92,7 +93,7 @@ impl<'a> Intake<'a> {
         }
     }
 
-    /// When the lanes do what, where the frame is worked on after it has come.
+    /// Returns the timing of the lanes, if they work on a frame after it has come in.
     fn work(&self) -> Option<&SerialTiming> {
         match self {
             Self::Lanes(_, timing) => Some(timing),
@@ -100,7 +101,8 @@ impl<'a> Intake<'a> {
         }
     }
 
-    /// Clocks after a pixel or word, the column and row of which are given, in which none is taken inside of a frame.
+    /// Returns the number of clocks after a pixel or word, at the given column and row, in which
+    /// none is taken within a frame.
     fn pause_after(&self, number: u64, (x, y): (i64, i64)) -> u64 {
         match self {
             Self::Words(timing) if (number + 1).is_multiple_of(timing.taken_words.into()) => {
@@ -114,7 +116,8 @@ impl<'a> Intake<'a> {
         }
     }
 
-    /// Column and row of a pixel of the stream, of the frame where it comes row by row, else of a region.
+    /// Returns the column and row of a pixel of the stream: of the frame if it comes in row-major
+    /// order, or else of a region.
     fn place(&self, number: u64) -> (i64, i64) {
         let signed = |value: u64| i64::try_from(value).expect("a place in a frame");
         let in_region = |design: &Design| {
@@ -140,23 +143,25 @@ impl<'a> Intake<'a> {
     }
 }
 
-/// Follows a sequence clock by clock.
+/// A state machine that follows a sequence clock by clock.
 pub(crate) struct Follower<'a> {
     intake: Intake<'a>,
-    /// Pixels or words of a frame.
+    /// The number of pixels or words of a frame.
     pixels: u64,
-    /// Clocks that the last pixel of a frame goes on entering.
+    /// The number of clocks for which the last pixel of a frame continues to enter.
     lag: u64,
-    /// Pixels of this frame that are in, and frames that are.
+    /// The number of pixels or words of this frame that have come in; `frames` is the number of
+    /// whole frames.
     taken: u64,
     frames: u64,
-    /// Clocks since the last pixel of a serial frame was in, while the lanes work on it.
+    /// The number of clocks since the last pixel of a serial frame came in, while the lanes work on
+    /// it.
     since: Option<u64>,
-    /// Whether a pixel is taken at the next edge.
+    /// True if a pixel is taken at the next edge.
     is_ready: bool,
-    /// What finds the frames, where that is simulated.
+    /// The frame synchronization, if it is simulated.
     sync: Option<FrameSync>,
-    /// Clocks until a core that completes a frame takes the next pixel.
+    /// The number of clocks until a core that completes a frame takes the next pixel.
     busy: u64,
 }
 
@@ -172,7 +177,7 @@ impl<'a> Follower<'a> {
         Self { intake, pixels, lag, taken, frames, since, is_ready, sync, busy }
     }
 
-    /// One clock: what goes in, and whether the array is ready after it.
+    /// Advances by one clock, with its inputs and with the readiness of the array after it.
     fn step(&mut self, reset: bool, (valid, sof): (bool, bool), ready_after: bool) -> Moment {
         let was_ready = std::mem::replace(&mut self.is_ready, ready_after);
         if reset {
@@ -221,7 +226,7 @@ impl<'a> Follower<'a> {
     }
 }
 
-/// The phase of a step of a frame.
+/// Returns the phase of a step of a frame.
 fn work(timing: &SerialTiming, frame: u64, step: u64) -> Moment {
     let (slot, mut left) = (step / timing.slot_steps(), step % timing.slot_steps());
     for &(phase, of) in timing.phases() {
@@ -233,10 +238,11 @@ fn work(timing: &SerialTiming, frame: u64, step: u64) -> Moment {
     unreachable!("the phases of a slot take {} steps", timing.slot_steps())
 }
 
-/// What the hardware is busy with at each of these clocks, which are in order and of one sequence.
+/// Returns the activity of the hardware at each of these clocks, which are in order and of one
+/// sequence.
 ///
 /// # Errors
-/// When the vectors cannot be read.
+/// Fails if the vectors cannot be read.
 pub(crate) fn moments(
     design: &Design,
     recording: &Recording,
@@ -275,7 +281,8 @@ mod tests {
     use crate::stimulus::Stimulus;
     use foveate_design::Config;
 
-    /// Every clock of a recording with its moment and expected outputs, sequence after sequence.
+    /// Calls `see` for every clock of a recording with its moment and expected outputs, sequence
+    /// after sequence. Returns the number of clocks.
     fn followed(toml: &str, level: Level, mut see: impl FnMut(&Layout, Moment, &[u8])) -> u64 {
         let design = Config::from_toml(toml).unwrap().validate().unwrap();
         let stimulus = Stimulus { level, rounds: 1, ..Stimulus::default() };
@@ -296,7 +303,7 @@ mod tests {
         recording.clocks()
     }
 
-    /// The model shows scores in their phases and pixels in theirs, and in no other.
+    /// The model shows scores and pixels in their own phases, and in no other.
     #[test]
     fn phases_are_those_in_which_the_model_shows_something() {
         let base = "[frame]\nwidth = 12\nheight = 8\n[region]\nsize = 4\n[[spatial]]\n\
@@ -329,7 +336,8 @@ mod tests {
         }
     }
 
-    /// A pipelined decision comes its latency after the last pixel of a frame.
+    /// The halo of a region is counted, and a decision of a pipelined core comes after the last
+    /// pixel of a frame.
     #[test]
     fn pixels_are_counted_with_their_halo() {
         let toml = "[region]\nsize = 4\nneighborhood = \"shared\"\n[denoise]\nfilter = \"none\"\n";
@@ -358,7 +366,8 @@ mod tests {
         assert!(corners > 20 && decisions > 20, "{corners} {decisions}");
     }
 
-    /// 31x7 pixels in words of two: rows of 16 words; the decisions of a frame come after its last word.
+    /// A frame of 31x7 pixels in words of two has rows of 16 words, and its last decision comes
+    /// after its last word.
     #[test]
     fn the_words_of_a_raster_core_are_counted() {
         let toml = "[frame]\nwidth = 31\nheight = 7\n[region]\nsize = 4\n[hardware]\n\

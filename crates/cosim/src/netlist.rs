@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The netlist that synthesis makes of the RTL, to be simulated instead of it.
+//! The netlist that synthesis makes of the RTL, which is simulated instead of it.
 //!
-//! It is the netlist that the area estimate counts, of the same Yosys run, under [models](crate::cells) of
-//! its cells. Memories start unknown, and so do registers without an initial value, so that an X which
-//! the RTL would not show does not hide; registers with one start with it, as on the device.
+//! It is the netlist that the area estimate counts, of the same Yosys run, with
+//! [models](crate::cells) of its cells. Memories start unknown, and so do registers without an
+//! initial value, so that an X shows even where the RTL would not have one. Registers with an
+//! initial value start with it, as on the device.
 
 use crate::cells::{cell_models, wired_wrongly};
 use crate::error::CosimError;
@@ -14,32 +15,32 @@ use foveate_toolchain::{
 };
 use serde::{Deserialize, Serialize};
 
-/// The netlist itself, as a file.
+/// The name of the file with the netlist.
 const NETLIST_FILE: &str = "netlist/netlist.v";
-/// The models of its cells.
+/// The name of the file with the models of the cells.
 const MODELS_FILE: &str = "netlist/cells.v";
 
 /// A synthesized design.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Netlist {
-    /// What made it.
+    /// The tool that made the netlist.
     pub tool: ToolRecord,
-    /// Its Verilog and that of its cells.
+    /// The Verilog of the netlist and of its cells.
     pub sources: Vec<Source>,
 }
 
-/// A netlist as a report describes it.
+/// The description of a netlist in a report.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NetlistRecord {
-    /// What made it.
+    /// The tool that made the netlist.
     pub tool: ToolRecord,
-    /// SHA-256 of its Verilog and that of its cells.
+    /// The SHA-256 of the Verilog of the netlist and of its cells.
     pub sha256: String,
 }
 
 impl Netlist {
-    /// Synthesizes `top` of a design, that of the level, from Verilog for it. At the level of one RPU it is
-    /// that of the array of the design, as in the estimate. Names of its modules begin with `prefix`.
+    /// Synthesizes `top` of the design at a level, from Verilog for it. At the level of one RPU the
+    /// netlist is that of the design's array, as in the estimate. Module names begin with `prefix`.
     pub(crate) fn of(
         design: &Design,
         top: Top,
@@ -50,7 +51,7 @@ impl Netlist {
     ) -> Result<Self, CosimError> {
         match design.unit().array {
             Array::Copies => {
-                // Verilog of one RPU lacks the array around it, which comes last.
+                // The Verilog of one RPU lacks the array around it, which comes last.
                 let array = prefix.apply(foveate_emit::verilog(design, Top::Rcm));
                 let array = array.into_iter().next_back().map(Source::from);
                 let is_new = |array: &Source| verilog.iter().all(|(name, _)| *name != array.0);
@@ -76,17 +77,18 @@ impl Netlist {
         Ok(Self { tool: synthesis.tool, sources })
     }
 
-    /// What a report says of it.
+    /// Returns the description of the netlist for a report.
     pub(crate) fn record(&self) -> NetlistRecord {
         let sha256 = sources_sha256(&self.sources);
         NetlistRecord { tool: self.tool.clone(), sha256 }
     }
 }
 
-/// The memory of the leaf `raster_valid` in which any bits will do to begin with, if they are bits.
+/// The memory of the leaf `raster_valid` that may start with any bits, but not with X.
 const ANY_BITS: &str = "lost_bits_q.";
 
-/// The netlist with bits in that memory: the leaf makes them of an X in simulation, but a table cannot.
+/// Returns the netlist with fixed initial bits in that memory. In a simulation the leaf turns an X
+/// into bits, but a lookup table cannot.
 fn chosen(netlist: &str) -> String {
     let mut lines: Vec<String> = netlist.lines().map(str::to_owned).collect();
     let mut begins = 0;
@@ -96,7 +98,7 @@ fn chosen(netlist: &str) -> String {
         }
         if lines[at].starts_with("  ) ") && lines[at].contains(ANY_BITS) {
             for line in lines[begins..at].iter_mut().filter(|line| line.contains(".INIT")) {
-                // Not all alike.
+                // The bits must not be all equal.
                 *line = line.replace("xx", "59").replace('x', "0");
             }
         }

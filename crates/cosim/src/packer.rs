@@ -1,34 +1,35 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Vectors as text for a replay bench: only what changes from clock to clock, and stretches in which
-//! nothing does as one line.
+//! Vectors as text for a replay bench. A line has only the values that change, and a stretch of
+//! equal clocks is one line.
 
 use crate::field::Field;
 use crate::layout::Layout;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// Most clocks of a line; the bench counts them in 32 bits.
+/// The largest number of clocks of a line; the bench counts them in 32 bits.
 const LONGEST: u64 = u32::MAX as u64;
 
-/// Writes vectors as the lines that [`crate::replay_bench`] reads.
+/// A writer of vectors, as the lines that [`crate::replay_bench`] reads.
 ///
-/// The first number of a line has a bit for each value that differs from the line before, inputs first,
-/// then expected outputs, in the order of their layouts; these values follow. The bit above all of them
-/// says that the number of clocks comes first for which the line is good; without it that is one. A line
-/// `0` ends the vectors. All numbers are hexadecimal.
+/// The first number of a line has a bit for each value that differs from the line before: first the
+/// inputs, then the expected outputs, each in the order of their layout. The changed values follow.
+/// The bit above all of these says that the number of clocks for which the line holds comes before
+/// the values; without it the line holds for one clock. A line `0` ends the vectors. All numbers
+/// are hexadecimal.
 #[derive(Debug)]
 pub struct Packer<W: Write> {
     out: W,
     inputs: Layout,
     outputs: Layout,
-    /// The values of the last line.
+    /// The values of the last line that was written.
     written: Option<Clock>,
-    /// The clocks of the next line, all alike.
+    /// The values of the next line, and its number of equal clocks.
     waiting: Option<(Clock, u64)>,
     line: String,
 }
 
-/// What is applied in a clock, and what is expected.
+/// The inputs and the expected outputs of a clock.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct Clock {
     input: Vec<u8>,
@@ -36,16 +37,16 @@ struct Clock {
 }
 
 impl<W: Write> Packer<W> {
-    /// Vectors with records of these layouts.
+    /// Creates a writer for records of these layouts.
     pub fn new(inputs: &Layout, outputs: &Layout, out: W) -> Self {
         let (inputs, outputs) = (inputs.clone(), outputs.clone());
         Self { out, inputs, outputs, written: None, waiting: None, line: String::new() }
     }
 
-    /// Adds so many clocks with the same inputs and expected outputs.
+    /// Adds `clocks` clocks with the same inputs and expected outputs.
     ///
     /// # Errors
-    /// When writing fails.
+    /// Fails if writing fails.
     pub fn push(&mut self, input: &[u8], expected: &[u8], clocks: u64) -> io::Result<()> {
         let mut expected = expected.to_vec();
         if let Some((waiting, run)) = &mut self.waiting {
@@ -63,7 +64,7 @@ impl<W: Write> Packer<W> {
     /// Ends the vectors.
     ///
     /// # Errors
-    /// When writing fails.
+    /// Fails if writing fails.
     pub fn finish(mut self) -> io::Result<W> {
         self.flush()?;
         self.out.write_all(b"0\n")?;
@@ -71,7 +72,7 @@ impl<W: Write> Packer<W> {
         Ok(self.out)
     }
 
-    /// Writes the line that waits. One that says nothing new says how long that lasts.
+    /// Writes the waiting line. A line without changes always has its number of clocks.
     fn flush(&mut self) -> io::Result<()> {
         let Some((clock, run)) = self.waiting.take() else { return Ok(()) };
         let before = self.written.as_ref();
@@ -101,20 +102,21 @@ impl<W: Write> Packer<W> {
     }
 }
 
-/// The values of a record that differ from those before, as hexadecimal numbers.
+/// Returns the values of a record that differ from those before, as hexadecimal numbers.
 fn changed(layout: &Layout, record: &[u8], before: Option<&Vec<u8>>) -> Vec<Option<String>> {
     let differs = |field: &Field| before.is_none_or(|old| field.slice(old) != field.slice(record));
     let value = |field: &Field| differs(field).then(|| shortest(&field.hex(record)));
     layout.fields().iter().map(value).collect()
 }
 
-/// A hexadecimal number without leading zeros.
+/// Returns a hexadecimal number without leading zeros.
 fn shortest(hex: &str) -> String {
     let digits = hex.trim_start_matches('0');
     if digits.is_empty() { "0".to_owned() } else { digits.to_owned() }
 }
 
-/// Values that are not compared in a clock stay as they were, so that they take no room.
+/// Keeps the last value of each output that is not compared in this clock, so that it needs no
+/// text.
 fn keep_uncompared(layout: &Layout, before: &[u8], record: &mut [u8]) {
     for field in layout.fields() {
         if field.gate.is_shut(layout.fields(), record) {
@@ -146,7 +148,7 @@ mod tests {
             ([0xff, 0], [1, 7], 1),
             ([0xff, 0], [1, 7], 1),
             ([0xfe, 0], [1, 7], 1),
-            // Without its valid bit a value is as it was.
+            // Without its valid bit a value is not written.
             ([0xfe, 0], [0, 9], 1000),
             ([0xfe, 0], [0, 3], 24),
             ([0xfe, 3], [1, 3], 1),

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Vectors on disk: what goes in, and what the model says must come out, clock by clock.
+//! Vectors on disk: the inputs, and the outputs that the model expects, clock by clock.
 //!
-//! Both are files of packed records (see [`Layout`]) in a folder of their own, so that the length
-//! of a run is bounded by the disk and not by memory, and the simulator reads the one directly.
+//! Both are files of packed records (see [`Layout`]) in a folder of their own. So the length of a
+//! run is limited by the disk and not by memory, and the simulator reads the inputs directly.
 
 use crate::error::CosimError;
 use crate::layout::Layout;
@@ -17,29 +17,30 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 
-/// Where a stretch of clocks belongs, to name a mismatch in the words of the vectors.
+/// The sequence and frame of a stretch of clocks, for messages about a mismatch.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Span {
-    /// The first clock of the stretch; it ends where the next begins.
+    /// The first clock of the stretch, which ends where the next one begins.
     pub first_clock: u64,
     /// The name of the sequence of frames.
     pub sequence: String,
-    /// The frame of the sequence that enters, from 0.
+    /// The index of the frame in the sequence that enters, from 0.
     pub frame: u64,
-    /// The region whose pixels enter, where one region is simulated at a time.
+    /// The region whose pixels enter, if one region is simulated at a time.
     pub region: Option<u32>,
 }
 
-/// The vectors that a replay bench reads.
+/// The name of the file with the vectors of a replay bench.
 pub(crate) const VECTORS_FILE: &str = "vectors.hex";
-/// Where sequences end, for the same bench.
+/// The name of the file with the ends of sequences, for the same bench.
 pub(crate) const ENDS_FILE: &str = "ends.hex";
 
-/// Finished vectors, for any number of runs, also at the same time. The files vanish with the value.
+/// Finished vectors, for any number of runs, also at the same time. The files are removed when the
+/// value is dropped.
 #[derive(Debug)]
 pub struct Recording {
     folder: ScratchFolder,
-    /// Whether the folder has the files of the replay bench.
+    /// True if the folder has the files of the replay bench.
     has_bench_files: Mutex<bool>,
     inputs: Layout,
     outputs: Layout,
@@ -50,34 +51,34 @@ pub struct Recording {
 }
 
 impl Recording {
-    /// How often each situation occurred that the design can have.
+    /// Returns the number of times that each situation occurred that the design can have.
     #[must_use]
     pub fn situations(&self) -> &Occurrences {
         &self.situations
     }
 
-    /// The layout of an input record.
+    /// Returns the layout of an input record.
     #[must_use]
     pub fn inputs(&self) -> &Layout {
         &self.inputs
     }
 
-    /// The layout of an output record.
+    /// Returns the layout of an output record.
     #[must_use]
     pub fn outputs(&self) -> &Layout {
         &self.outputs
     }
 
-    /// Clocks, one record of each kind per clock.
+    /// Returns the number of clocks; each clock has one input and one output record.
     #[must_use]
     pub fn clocks(&self) -> u64 {
         self.clocks
     }
 
-    /// The expected outputs of one clock.
+    /// Returns the expected outputs of one clock.
     ///
     /// # Errors
-    /// When they cannot be read.
+    /// Fails if they cannot be read.
     pub(crate) fn expected_at(&self, clock: u64) -> Result<Vec<u8>, CosimError> {
         let (path, mut record) = (self.expected_path(), self.outputs.record());
         let mut file = open(&path)?;
@@ -87,10 +88,10 @@ impl Recording {
         Ok(record)
     }
 
-    /// Values that are compared in the first `clocks` clocks.
+    /// Returns the number of values that are compared in the first `clocks` clocks.
     ///
     /// # Errors
-    /// When the expected outputs cannot be read.
+    /// Fails if the expected outputs cannot be read.
     pub fn comparisons(&self, clocks: u64) -> Result<u64, CosimError> {
         let mut record = self.outputs.record();
         if self.outputs.is_ungated() {
@@ -105,27 +106,27 @@ impl Recording {
         Ok(values)
     }
 
-    /// Frames that were begun.
+    /// Returns the number of frames that were begun.
     #[must_use]
     pub fn frames(&self) -> u64 {
         self.frames
     }
 
-    /// Sequences of frames.
+    /// Returns the number of sequences of frames.
     #[must_use]
     pub fn sequences(&self) -> u64 {
         let starts = self.spans.chunk_by(|a, b| a.sequence == b.sequence && a.region == b.region);
         starts.count() as u64
     }
 
-    /// The stretch to which a clock belongs.
+    /// Returns the stretch to which a clock belongs.
     #[must_use]
     pub fn span(&self, clock: u64) -> Option<&Span> {
         let after = self.spans.partition_point(|span| span.first_clock <= clock);
         after.checked_sub(1).and_then(|index| self.spans.get(index))
     }
 
-    /// The clocks of the sequence to which a clock belongs, from its reset on.
+    /// Returns the clocks of the sequence to which a clock belongs, from its reset on.
     #[must_use]
     pub fn sequence(&self, clock: u64) -> Range<u64> {
         let after = self.spans.partition_point(|span| span.first_clock <= clock);
@@ -135,20 +136,20 @@ impl Recording {
         start..after.iter().find(starts).map_or(self.clocks, |span| span.first_clock)
     }
 
-    /// Writes the clocks at which sequences end, which a replay bench reads.
+    /// Writes the clocks at which sequences end, for a replay bench.
     ///
     /// # Errors
-    /// When the file cannot be written.
+    /// Fails if the file cannot be written.
     fn write_ends(&self, path: &Path) -> Result<(), CosimError> {
         let starts = self.spans.iter().filter(|span| span.frame == 0).map(|span| span.first_clock);
         let ends = starts.filter(|&clock| clock > 0).map(|clock| format!("{clock:x}\n"));
         std::fs::write(path, ends.collect::<String>()).map_err(CosimError::io("write", path))
     }
 
-    /// Shows each of these clocks with its input record and its expected outputs.
+    /// Calls `see` for each of these clocks, with its input record and its expected outputs.
     ///
     /// # Errors
-    /// When they cannot be read.
+    /// Fails if the files cannot be read.
     pub(crate) fn walk(
         &self,
         clocks: Range<u64>,
@@ -171,28 +172,28 @@ impl Recording {
         Ok(())
     }
 
-    /// The file of input records.
+    /// Returns the path of the file of input records.
     #[must_use]
     pub fn inputs_path(&self) -> PathBuf {
         inputs_path(self.folder.path())
     }
 
-    /// The file of expected output records.
+    /// Returns the path of the file of expected output records.
     #[must_use]
     pub fn expected_path(&self) -> PathBuf {
         expected_path(self.folder.path())
     }
 
-    /// The folder of the files.
+    /// Returns the folder of the files.
     #[must_use]
     pub fn folder(&self) -> &Path {
         self.folder.path()
     }
 
-    /// A new folder for what one run writes, which vanishes with the recording.
+    /// Creates a folder for the files of one run, which is removed with the recording.
     ///
     /// # Errors
-    /// When there is no place for it.
+    /// Fails if the folder cannot be created.
     pub(crate) fn folder_of_a_run(&self) -> Result<PathBuf, CosimError> {
         let folder = tempfile::Builder::new()
             .prefix("run-")
@@ -201,10 +202,11 @@ impl Recording {
         Ok(folder.keep())
     }
 
-    /// The folder with [`VECTORS_FILE`] and [`ENDS_FILE`], which are written when they are asked for the first time.
+    /// Returns the folder with [`VECTORS_FILE`] and [`ENDS_FILE`], which are written at the first
+    /// call.
     ///
     /// # Errors
-    /// When a file cannot be read or written.
+    /// Fails if a file cannot be read or written.
     pub(crate) fn bench_folder(&self) -> Result<&Path, CosimError> {
         let mut has_files = self.has_bench_files.lock().unwrap_or_else(PoisonError::into_inner);
         if !*has_files {
@@ -218,13 +220,13 @@ impl Recording {
     /// Writes the first `limit` clocks as the vectors of a replay bench.
     ///
     /// # Errors
-    /// When a file cannot be read or written.
+    /// Fails if a file cannot be read or written.
     pub fn write_hex(&self, path: &Path, limit: u64) -> Result<(), CosimError> {
         let file = File::create(path).map_err(CosimError::io("write", path))?;
         self.pack(limit, BufWriter::with_capacity(1 << 18, file), path).map(drop)
     }
 
-    /// The first `limit` clocks as vectors of a replay bench; errors name `to`.
+    /// Packs the first `limit` clocks as vectors of a replay bench; errors name `to`.
     fn pack<W: Write>(&self, limit: u64, out: W, to: &Path) -> Result<W, CosimError> {
         let (inputs, expected) = (self.inputs_path(), self.expected_path());
         let mut sources = [open(&inputs)?, open(&expected)?];
@@ -240,16 +242,17 @@ impl Recording {
     }
 }
 
-/// The first `limit` clocks of a recording as text for a replay bench; [`Packer`] says what is in a line.
+/// Returns the first `limit` clocks of a recording as text for a replay bench; [`Packer`] describes
+/// its lines.
 ///
 /// # Errors
-/// When the recording cannot be read.
+/// Fails if the recording cannot be read.
 pub fn vectors_hex(recording: &Recording, limit: u64) -> Result<String, CosimError> {
     let bytes = recording.pack(limit, Vec::new(), Path::new("vectors"))?;
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-/// Writes a recording.
+/// A writer of a recording.
 #[derive(Debug)]
 pub struct Recorder {
     recording: Recording,
@@ -259,10 +262,10 @@ pub struct Recorder {
 }
 
 impl Recorder {
-    /// An empty recording for a module with these ports.
+    /// Creates an empty recording for a module with these ports.
     ///
     /// # Errors
-    /// When there is no place for temporary files.
+    /// Fails if there is no place for temporary files.
     pub fn new(ports: &[Port]) -> Result<Self, CosimError> {
         let parent = std::env::temp_dir();
         let folder =
@@ -288,30 +291,30 @@ impl Recorder {
         })
     }
 
-    /// Counts the situations of this module of a design from here on.
+    /// Counts the situations of this module of a design from now on.
     pub(crate) fn watch(&mut self, design: &Design, top: Top) {
         self.watch = Some(Watch::new(design, top, self.inputs(), self.outputs()));
     }
 
-    /// The layout of an input record.
+    /// Returns the layout of an input record.
     #[must_use]
     pub fn inputs(&self) -> &Layout {
         &self.recording.inputs
     }
 
-    /// The layout of an output record.
+    /// Returns the layout of an output record.
     #[must_use]
     pub fn outputs(&self) -> &Layout {
         &self.recording.outputs
     }
 
-    /// Clocks so far.
+    /// Returns the number of clocks so far.
     #[must_use]
     pub fn clocks(&self) -> u64 {
         self.recording.clocks
     }
 
-    /// Names the clocks from here on, and counts a frame.
+    /// Names the sequence, frame and region of the following clocks, and counts a frame.
     pub fn begin_frame(&mut self, sequence: &str, frame: u64, region: Option<u32>) {
         let first_clock = self.recording.clocks;
         self.recording.frames += 1;
@@ -322,7 +325,7 @@ impl Recorder {
     /// Adds one clock: the inputs of an edge, and the outputs after it.
     ///
     /// # Errors
-    /// When the files cannot be written.
+    /// Fails if the files cannot be written.
     pub fn push(&mut self, input: &[u8], expected: &[u8]) -> Result<(), CosimError> {
         if let Some(watch) = &mut self.watch {
             watch.see(input, expected, 1);
@@ -337,7 +340,7 @@ impl Recorder {
     /// Ends the recording.
     ///
     /// # Errors
-    /// When the files cannot be written.
+    /// Fails if the files cannot be written.
     pub fn finish(mut self) -> Result<Recording, CosimError> {
         let folder = self.recording.folder.path();
         self.input.flush().map_err(CosimError::temporary("write", folder))?;
@@ -357,7 +360,7 @@ fn expected_path(folder: &Path) -> PathBuf {
     folder.join("expected.bin")
 }
 
-/// A large buffer in front of a file.
+/// Opens a file with a large buffer.
 pub(crate) fn open(path: &Path) -> Result<BufReader<File>, CosimError> {
     let file = File::open(path).map_err(CosimError::io("read", path))?;
     Ok(BufReader::with_capacity(1 << 18, file))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The folder that a failing run leaves: everything that shows the mismatch again, without Foveate.
+//! The folder that a failing run leaves. It reproduces the mismatch without Foveate.
 
 use crate::error::CosimError;
 use crate::harness::{bench_file, bench_name, rendered, replay_bench};
@@ -14,14 +14,14 @@ use std::path::{Path, PathBuf};
 
 pub(crate) const SCRIPT: &str = "replay.sh";
 pub(crate) const README: &str = "README.md";
-/// What a core on a bus was given.
+/// The name of the file with the traffic of a core on a bus.
 pub(crate) const TRAFFIC_FILE: &str = "traffic.txt";
-/// The folder that is written, and the only kind that it replaces.
+/// The kind of folder that is written, and the only kind that may be replaced.
 pub const REPLAY: FolderKind = FolderKind {
     what: "a replay (its replay.sh) or waves (its waves.fst)",
     is: |folder| [SCRIPT, WAVES_FILE].iter().any(|name| folder.join(name).is_file()),
 };
-/// Clocks that are kept behind the last port's first mismatch.
+/// The number of clocks that are kept after the last port's first mismatch.
 const MARGIN: u64 = 16;
 
 #[derive(Template)]
@@ -49,7 +49,7 @@ struct Readme<'a> {
     fingerprint: &'a str,
 }
 
-/// What a replay shows, for its README.
+/// The subject of a replay, for its README.
 pub(crate) struct About<'a> {
     pub(crate) mismatch: &'a Mismatch,
     pub(crate) fingerprint: &'a str,
@@ -60,12 +60,13 @@ pub(crate) fn check(folder: &Path) -> Result<(), CosimError> {
     Ok(StagedFolder::check(folder, REPLAY, true)?)
 }
 
-/// Removes what an earlier run has left, so that it is not taken for what this one leaves.
+/// Removes the replay of an earlier run, so that it is not mistaken for that of this run.
 pub(crate) fn remove(folder: &Path) -> Result<(), CosimError> {
     Ok(StagedFolder::remove(folder, REPLAY)?)
 }
 
-/// Writes the folder beside its place, then puts it there; an earlier replay makes way.
+/// Writes the folder under a temporary name, then moves it to its place, where it replaces an
+/// earlier replay.
 pub(crate) fn write(
     folder: &Path,
     run: &Run<'_>,

@@ -13,64 +13,66 @@ use std::path::PathBuf;
 /// The result of one co-simulation.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CosimReport {
-    /// Name for people, such as `rpu verilator`.
+    /// The name of the run for people, such as `rpu verilator`.
     pub name: String,
-    /// Fingerprint of the design, as in the README of its core. What was simulated of it says
-    /// [`CosimReport::grid`].
+    /// The fingerprint of the design, as in the README of its core. [`CosimReport::grid`] is the
+    /// part of it that was simulated.
     pub design: String,
-    /// How much of the hardware was simulated.
+    /// The part of the hardware that was simulated.
     pub level: Level,
-    /// Regions side by side, and one below the other.
+    /// The columns and rows of regions.
     pub grid: (u32, u32),
     /// The simulator.
     pub simulator: Simulator,
     /// The version that the simulator reports.
     pub simulator_version: String,
-    /// SHA-256 of the Verilog: the hash of the text that `sha256sum` prints for all files in the order of
-    /// their names. The area estimate reports the same hash for the same Verilog.
+    /// The SHA-256 of the Verilog: the hash of the text that `sha256sum` prints for all files in
+    /// the order of their names. The area estimate reports the same hash for the same Verilog.
     pub rtl_sha256: String,
-    /// The netlist that was simulated instead, if it was.
+    /// The netlist that was simulated instead of the Verilog, if there was one.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub netlist: Option<NetlistRecord>,
-    /// Seed of the vectors.
+    /// The seed of the vectors.
     pub seed: u64,
-    /// Sequences of frames, each after a reset.
+    /// The number of sequences of frames; each begins with a reset.
     pub sequences: u64,
-    /// Frames that were streamed.
+    /// The number of frames that were streamed.
     pub frames: u64,
-    /// Clock edges, up to the first mismatch.
+    /// The number of clock edges, up to the first mismatch.
     pub clocks: u64,
-    /// Values that were compared: every output of every region at each of these edges.
+    /// The number of values that were compared: every output of every region at each of these
+    /// edges.
     pub comparisons: u64,
-    /// How often each situation occurred that the design can have; none where only frames were asked for.
+    /// The number of times that each situation occurred that the design can have; empty if only
+    /// frames were played.
     #[serde(default)]
     pub situations: Occurrences,
     /// The first mismatch.
     pub mismatch: Option<Mismatch>,
-    /// The folder that replays it.
+    /// The folder that replays the mismatch.
     pub replay: Option<PathBuf>,
-    /// Waves of a run without a mismatch, if they were asked for.
+    /// The file with the waves of a run without a mismatch, if they were asked for.
     pub waves: Option<PathBuf>,
-    /// Where the time went.
+    /// The time of each step.
     pub seconds: Seconds,
 }
 
 impl CosimReport {
-    /// Whether model and RTL agree. Without a single comparison they do not.
+    /// Returns true if model and RTL agree. A run without a comparison has not passed.
     #[must_use]
     pub fn passed(&self) -> bool {
         self.mismatch.is_none() && self.comparisons > 0
     }
 }
 
-/// Durations in seconds.
+/// The durations of the steps, in seconds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Seconds {
-    /// To make the vectors and run the model.
+    /// The time to make the vectors and run the model.
     pub vectors: f64,
-    /// To build the simulation; almost nothing if it was found in the cache.
+    /// The time to build the simulation; almost zero if it was found in the cache.
     pub build: f64,
-    /// To simulate and compare.
+    /// The time to simulate and compare.
     pub run: f64,
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Runs a recording through a simulator and finds the first output that differs.
+//! A run of a recording through a simulator, which finds the first outputs that differ.
 
 use crate::compare::{Difference, compare, parse_clocks, parse_mismatch};
 use crate::error::CosimError;
@@ -14,28 +14,29 @@ use std::fmt;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// Waves, where they are asked for.
+/// The name of the file with waves.
 pub(crate) const WAVES_FILE: &str = "waves.fst";
 
-/// Registers that reset forgets must not happen to start at 0: Verilator starts them at random.
+/// The options with which Verilator starts registers at random values. A register without a reset
+/// must not happen to start at 0.
 pub(crate) const UNKNOWN_START: [&str; 4] = ["--x-assign", "unique", "--x-initial", "unique"];
 
-/// Which simulator runs the Verilog.
+/// A simulator that runs the Verilog.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Simulator {
-    /// Compiled and fast, two-state.
+    /// The compiled two-state simulator, which is fast.
     #[default]
     Verilator,
-    /// Interpreted and quick to start, four-state: an X is a mismatch.
+    /// The interpreted four-state simulator, which starts quickly; an X is a mismatch.
     Iverilog,
 }
 
 impl Simulator {
-    /// Both.
+    /// All simulators.
     pub const ALL: [Self; 2] = [Self::Verilator, Self::Iverilog];
 
-    /// The name, as on the command line.
+    /// Returns the name that the command line uses.
     #[must_use]
     pub const fn name(self) -> &'static str {
         match self {
@@ -44,7 +45,7 @@ impl Simulator {
         }
     }
 
-    /// The tools that it needs.
+    /// Returns the tools that the simulator needs.
     #[must_use]
     pub const fn tools(self) -> &'static [Tool] {
         match self {
@@ -63,55 +64,56 @@ impl fmt::Display for Simulator {
 /// A module under test.
 #[derive(Clone, Debug)]
 pub struct Dut {
-    /// Its name.
+    /// The name of the module.
     pub top: String,
-    /// Its ports.
+    /// The ports of the module.
     pub ports: Vec<Port>,
-    /// Its parameters and their values.
+    /// The parameters of the module, with their values.
     pub parameters: Vec<Parameter>,
-    /// The Verilog: name and contents, in the order of compilation.
+    /// The Verilog files, by name and contents, in the order of compilation.
     pub sources: Vec<Source>,
-    /// Modules that Verilator must not copy into every place that uses them.
+    /// The modules that Verilator must not copy into every place that uses them.
     pub no_inline: Vec<String>,
 }
 
-/// How to simulate it.
+/// The settings of a simulation.
 #[derive(Clone, Debug)]
 pub struct Run<'a> {
-    /// With what.
+    /// The simulator.
     pub simulator: Simulator,
-    /// Seed of the values that registers have before reset.
+    /// The seed of the values that registers have before reset.
     pub seed: u64,
-    /// Whether to write waves.
+    /// True if waves are written.
     pub trace: bool,
     /// The tools of the machine.
     pub toolchain: &'a Toolchain,
-    /// Finished builds.
+    /// The cache of finished builds.
     pub cache: &'a Cache,
-    /// The longest that the simulation itself may take.
+    /// The longest time that the simulation itself may take.
     pub limit: Duration,
-    /// How much Verilator's C++ is optimized.
+    /// The optimization of Verilator's C++.
     pub optimize: Optimize,
 }
 
-/// What a simulation came to.
+/// The result of a simulation.
 #[derive(Clone, Debug)]
 pub struct Outcome {
-    /// The first difference of each port until the end of the sequence in which the first of all is, in
-    /// order; nothing if all agree.
+    /// The first difference of each port until the end of the sequence with the first difference,
+    /// in order; empty if all values agree.
     pub differences: Vec<Difference>,
-    /// Waves, if they were asked for.
+    /// The file with waves, if they were asked for.
     pub waves: Option<PathBuf>,
-    /// Version of the simulator.
+    /// The version of the simulator.
     pub version: String,
-    /// Time to build the simulation, next to nothing when it is found in the cache.
+    /// The time to build the simulation; almost zero if it is found in the cache.
     pub build: Duration,
-    /// Time to simulate and compare.
+    /// The time to simulate and compare.
     pub run: Duration,
 }
 
 impl Dut {
-    /// Whether the sources have the module and its ports; the tools say so too, in other words.
+    /// Checks that the sources have the module and its ports, for a clearer message than those of
+    /// the tools.
     fn check(&self) -> Result<(), CosimError> {
         let has = |text: &str, name: &str| {
             let is_word = |c: char| c.is_ascii_alphanumeric() || c == '_';
@@ -141,7 +143,7 @@ impl Run<'_> {
     /// Builds the simulation, or finds it in the cache.
     ///
     /// # Errors
-    /// When a tool is missing or refuses the sources, or the sources lack the module or a port.
+    /// Fails if a tool is missing or refuses the sources, or the sources lack the module or a port.
     pub fn build(&self, dut: &Dut) -> Result<PathBuf, CosimError> {
         dut.check()?;
         Ok(match self.simulator {
@@ -166,7 +168,7 @@ impl Run<'_> {
     /// Builds, simulates and compares.
     ///
     /// # Errors
-    /// When there is no result; a difference is one.
+    /// Fails if there is no result; a difference is a result.
     pub fn run(&self, dut: &Dut, recording: &Recording) -> Result<Outcome, CosimError> {
         let version = self.toolchain.find(self.simulator.tools()[0])?.banner;
         let start = Instant::now();
@@ -218,12 +220,13 @@ impl Run<'_> {
         if compared.differences.is_empty() && !complete {
             return Err(self.short(recording, compared.records, &output));
         }
-        // It is as large as the recording, and other runs of the recording may follow.
+        // The file is as large as the recording, and other runs of the recording may follow.
         std::fs::remove_file(&actual).map_err(CosimError::temporary("remove", &actual))?;
         Ok(compared.differences)
     }
 
-    /// The harness on the inputs of a recording; what comes out goes into `actual`, waves beside it.
+    /// Returns the call of the harness on the inputs of a recording. The outputs go into `actual`,
+    /// and waves into the same folder.
     pub(crate) fn harness(
         &self,
         program: &Path,
@@ -259,8 +262,9 @@ impl Run<'_> {
         Ok(found.into_iter().filter(|difference| difference.clock < end).collect())
     }
 
-    /// The replay bench on the vectors of a recording, and the first difference of each port. Waves show all
-    /// vectors; without them the bench ends with the sequence of the first difference.
+    /// Runs the replay bench on the vectors of a recording, and returns the first difference of
+    /// each port. With waves the bench plays all vectors; without them it ends with the sequence of
+    /// the first difference.
     fn bench(
         &self,
         program: &Path,

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The result of one check of a design: its runs, and the Verilog that no run reached, parameter values included.
+//! The result of one check of a design: its runs, and the Verilog and parameter values that no run
+//! reached.
 
 use crate::elaboration::NotElaborated;
 use crate::hierarchy::NotSimulated;
@@ -7,58 +8,59 @@ use crate::report::CosimReport;
 use crate::situations::Occurrences;
 use serde::{Deserialize, Serialize};
 
-/// Version of [`Summary`] as JSON; changes when a field changes its meaning or goes.
+/// The version of [`Summary`] as JSON; it changes when a field is removed or gets another meaning.
 pub const FORMAT_VERSION: u32 = 2;
 
-/// The co-simulations of one design.
+/// The result of the co-simulations of one design.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {
-    /// [`FORMAT_VERSION`].
+    /// The version of the format, which is [`FORMAT_VERSION`].
     pub format_version: u32,
-    /// Whether [`Summary::verdict`] is [`Verdict::Passed`].
+    /// True if [`Summary::verdict`] is [`Verdict::Passed`].
     pub passed: bool,
-    /// Fingerprint of the design, as in the README of its core.
+    /// The fingerprint of the design, as in the README of its core.
     pub design: String,
     /// The runs in order; the last one may have a mismatch.
     pub runs: Vec<CosimReport>,
-    /// Names of runs that were not started, because an earlier one had a mismatch.
+    /// The names of runs that were not started, because an earlier one had a mismatch.
     pub not_run: Vec<String>,
-    /// For Verilog that was given: modules that no run has reached, by file. Runs that were not started
-    /// because of a mismatch count as if they had run.
+    /// The modules that no run has reached, by file, for Verilog that the user gave. Runs that were
+    /// not started because of a mismatch count as if they had run.
     pub not_simulated: Vec<NotSimulated>,
-    /// For Verilog that was given: modules with parameter values that the design has and no run has elaborated.
+    /// The modules with parameter values that the design has and no run has elaborated, for Verilog
+    /// that the user gave.
     #[serde(default)]
     pub not_elaborated: Vec<NotElaborated>,
-    /// How often each situation occurred that the design can have, in all runs together.
+    /// The number of times that each situation occurred that the design can have, over all runs.
     #[serde(default)]
     pub situations: Occurrences,
-    /// Whether all of the Verilog had to be simulated. It is false if the user chose a level.
+    /// True if all of the Verilog had to be simulated. It is false if the user chose a level.
     pub whole: bool,
 }
 
-/// Verilog that no run has reached.
+/// The Verilog that no run has reached.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Left {
-    /// Modules that no run has reached, by file.
+    /// The modules that no run has reached, by file.
     pub modules: Vec<NotSimulated>,
-    /// Modules with parameter values that no run has elaborated.
+    /// The modules with parameter values that no run has elaborated.
     pub variants: Vec<NotElaborated>,
 }
 
 /// The verdict of a summary.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Verdict {
-    /// Everything that had to be simulated was simulated, without a mismatch.
+    /// All that had to be simulated was simulated, without a mismatch.
     Passed,
     /// A run has a mismatch, or compared nothing.
     Mismatch,
-    /// There is no mismatch, but some modules that had to be simulated were not, or a situation did not occur that the design
-    /// can have.
+    /// There is no mismatch, but some modules that had to be simulated were not, or a situation
+    /// that the design can have did not occur.
     Incomplete,
 }
 
 impl Summary {
-    /// The summary of runs of the design of this fingerprint.
+    /// Creates the summary of runs of the design with this fingerprint.
     #[must_use]
     pub fn new(
         design: String,
@@ -86,7 +88,7 @@ impl Summary {
         summary
     }
 
-    /// The verdict over all runs. Without a run nothing has passed.
+    /// Returns the verdict over all runs. Without a run it is [`Verdict::Mismatch`].
     #[must_use]
     pub fn verdict(&self) -> Verdict {
         if self.runs.is_empty() || !self.runs.iter().all(CosimReport::passed) {
@@ -98,14 +100,14 @@ impl Summary {
         }
     }
 
-    /// Whether something that had to be simulated was not, or did not occur.
+    /// Returns true if something that had to be simulated was not, or a situation did not occur.
     fn is_incomplete(&self) -> bool {
         let has_left = !(self.not_simulated.is_empty() && self.not_elaborated.is_empty());
         !self.situations.missing().is_empty() || (self.whole && has_left)
     }
 
-    /// Every file with modules that were not simulated, and every module with parameter values that were not
-    /// elaborated, in one line.
+    /// Returns one line with every file with modules that were not simulated, and every module with
+    /// parameter values that were not elaborated.
     #[must_use]
     pub fn left_out(&self) -> String {
         let files = self.not_simulated.iter().map(ToString::to_string);

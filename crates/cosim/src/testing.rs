@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A small hand-made module and a matching closure, to test the machinery without model and RTL.
+//! A small hand-made module, to test the machinery without model and RTL.
 
 use foveate_design::{Direction, Port, PortRole, Qualifier};
 
-/// A port of any name and shape; the role is the clock's for `clk_i` and of no meaning otherwise.
+/// Returns a port of any name and shape. It has the role of the clock for `clk_i`, and otherwise a
+/// role without meaning.
 pub(crate) fn port(name: &str, direction: Direction, width: u32, lanes: u32) -> Port {
     let role = match (name, direction) {
         ("clk_i", _) => PortRole::Clock,

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! How fast Verilator's model is: once through files, every output compared, then from memory.
+//! The speed of Verilator's model: it runs once from files, with every output compared, then from
+//! memory.
 //!
-//! A co-simulation spends much of its time on files. To say how fast the model itself is, the harness
-//! keeps the inputs and clocks them again without files and without a look at the outputs. A recording
-//! begins with a reset, so that every pass does the same.
+//! A co-simulation spends much of its time on files. To measure the model alone, the harness keeps
+//! the inputs in memory and clocks them again, without files and without reading the outputs. A
+//! recording begins with a reset, so every pass does the same work.
 
 use crate::error::CosimError;
 use crate::layout::Layout;
@@ -14,52 +15,53 @@ use std::io::Read as _;
 use std::path::Path;
 use std::time::{Duration, Instant};
 
-/// How far outputs agree with those of a recording.
+/// The agreement of outputs with those of a recording.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Agreement {
-    /// Values that were compared.
+    /// The number of values that were compared.
     pub compared: u64,
-    /// Those that differ.
+    /// The number of values that differ.
     pub differing: u64,
 }
 
 impl Agreement {
-    /// Compares one more record.
+    /// Compares one more record and adds it to the counts.
     pub fn add(&mut self, layout: &Layout, expected: &[u8], got: &[u8]) {
         self.compared += layout.values(expected);
         self.differing += layout.differing(expected, got);
     }
 }
 
-/// What it took.
+/// The result of a timed run.
 #[derive(Clone, Debug)]
 pub struct Timed {
-    /// What Verilator says about its version.
+    /// The version of Verilator.
     pub version: String,
-    /// Time to build.
+    /// The time to build the program.
     pub build: Duration,
-    /// Whether it was built before.
+    /// True if the program was found in the cache.
     pub is_cached: bool,
-    /// How far the outputs agree, over all clocks.
+    /// The agreement of the outputs over all clocks.
     pub agreement: Agreement,
-    /// Time for the recording once, from file to file.
+    /// The time for one pass over the recording, from file to file.
     pub files: Duration,
-    /// How often it went through from memory.
+    /// The number of passes from memory.
     pub passes: u64,
-    /// Time for all of that.
+    /// The time for all passes from memory, in seconds.
     pub seconds: f64,
-    /// The part of [`Timed::seconds`] that goes into unpacking the inputs.
+    /// The part of [`Timed::seconds`] that unpacking the inputs takes.
     pub applying: f64,
-    /// Most memory of the process in bytes before it kept the inputs; `None` where the system
-    /// does not tell.
+    /// The largest memory of the process in bytes before it kept the inputs; `None` if the system
+    /// does not report it.
     pub peak_bytes: Option<u64>,
 }
 
 impl Run<'_> {
-    /// Builds Verilator's model, compares it with the recording, and times it from memory for so long.
+    /// Builds Verilator's model, compares it with the recording, and times it from memory for
+    /// `at_least`.
     ///
     /// # Errors
-    /// When there is no result; differences are one.
+    /// Fails if there is no result; differences are a result.
     pub fn timed(
         &self,
         dut: &Dut,
@@ -104,7 +106,7 @@ impl Run<'_> {
     }
 }
 
-/// Compares all that a simulator wrote; a record that is missing differs in every value.
+/// Compares all that a simulator wrote. A missing record differs in every value.
 fn agreement(recording: &Recording, actual: &Path) -> Result<Agreement, CosimError> {
     let layout = recording.outputs();
     let expected_path = recording.expected_path();
@@ -125,7 +127,7 @@ fn agreement(recording: &Recording, actual: &Path) -> Result<Agreement, CosimErr
     Ok(agreement)
 }
 
-/// What the harness says.
+/// The line in which the harness reports its times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct TimedLine {
     passes: u64,

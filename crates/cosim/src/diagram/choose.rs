@@ -1,36 +1,37 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which clocks a diagram shows: those around a change of a line.
+//! The choice of the clocks that a diagram shows: those around a change of a line.
 
 use super::trace::{Stretch, Trace};
 use std::collections::BTreeSet;
 
-/// Changes of a line that are shown, the first and the last; a line may change thousands of times.
+/// The number of shown changes of a line at the start and at the end; a line may change thousands
+/// of times.
 const CHANGES: usize = 2;
 
 /// A column of a diagram.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Column {
-    /// The clock that begins with this edge, in the stretch of that number.
+    /// The clock that begins with this edge, in the stretch with this index.
     Clock { edge: u64, stretch: usize },
-    /// Clocks that are left out.
+    /// A gap for clocks that are left out.
     Gap,
 }
 
-/// The columns of a diagram: the last clock, those before and after a frame begins or a line changes, and
-/// gaps.
+/// Returns the columns of a diagram: the last clock, the clocks before and after a frame begins or
+/// a line changes, and gaps.
 pub(super) fn columns(trace: &Trace) -> Vec<Column> {
     let end = trace.stretches.last().map_or(0, |last| last.first_edge + last.clocks);
     let bits = (0..trace.signals.len()).filter(|&at| trace.signals[at].is_bit);
     let mut starts = trace.frames.clone();
     starts.push(end);
     starts.extend(bits.flat_map(|at| changes(&trace.stretches, at)));
-    // The clock before a change, that of the change, and the one behind it.
+    // The clocks before, at and after a change are shown.
     let near = |start: u64| [start.checked_sub(1), Some(start), Some(start + 1)];
     let edges = starts.into_iter().flat_map(near).flatten().filter(|&edge| edge < end);
     let mut columns = Vec::new();
     let mut next = 0;
     for edge in edges.collect::<BTreeSet<_>>() {
-        // A gap of one clock is as wide as the clock.
+        // A gap of one clock is as wide as the clock itself.
         if edge == next + 1 {
             columns.push(clock(trace, next));
         } else if edge > next {
@@ -42,7 +43,7 @@ pub(super) fn columns(trace: &Trace) -> Vec<Column> {
     columns
 }
 
-/// The first edges and the last after which a signal is another.
+/// Returns the first and the last edges after which a signal changes.
 fn changes(stretches: &[Stretch], signal: usize) -> Vec<u64> {
     let pairs = stretches.windows(2);
     let changed = pairs.filter(|pair| pair[0].values[signal] != pair[1].values[signal]);

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A diagram as a picture: lines, boxes with numbers, gaps.
+//! A diagram drawn as SVG: lines, boxes with numbers, and gaps.
 
 use super::wave::{Wave, WaveRow};
 use std::fmt::Write as _;
 
 const COLUMN: usize = 44;
 const ROW: usize = 28;
-/// Height of a signal in its row.
+/// The height of a signal in its row.
 const SWING: usize = 18;
 const TOP: usize = 44;
 const BOTTOM: usize = 34;
-/// Width of a character of a name.
+/// The width of a character of a name.
 const LETTER: usize = 8;
-/// How slanted changes are.
+/// The width of the slanted part of a change.
 const SLANT: usize = 4;
 
-/// The diagram as SVG, on white.
+/// Returns the diagram as SVG on white.
 pub(super) fn svg(wave: &Wave) -> String {
     let names = wave.signal.iter().map(|row| row.name.len()).max().unwrap_or(0);
     let columns = wave.signal.iter().map(|row| row.wave.len()).max().unwrap_or(0);
@@ -47,14 +47,14 @@ pub(super) fn svg(wave: &Wave) -> String {
     svg
 }
 
-/// What is shown in a stretch of columns.
+/// The content of consecutive columns with one value.
 struct Piece<'a> {
     kind: char,
     text: &'a str,
     columns: usize,
 }
 
-/// The stretches of a row; a gap goes on with what was before it.
+/// Returns the pieces of a row; a gap continues the value before it.
 fn pieces(row: &WaveRow) -> Vec<Piece<'_>> {
     let mut pieces: Vec<Piece<'_>> = Vec::new();
     let mut data = row.data.iter();
@@ -122,7 +122,7 @@ fn draw_row(svg: &mut String, row: &WaveRow, left: usize, top: usize) {
     }
 }
 
-/// Two lines through all rows, white between them.
+/// Draws two lines through all rows, with white between them.
 fn draw_gap(svg: &mut String, x: usize, top: usize, bottom: usize) {
     let (a, b) = (x + COLUMN / 2 - 5, x + COLUMN / 2 + 5);
     let _ = writeln!(

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The timing diagram of a core: what the cycle-level model shows of a frame, as WaveDrom source and drawn.
+//! The timing diagram of a core: the ports of the cycle-level model during a frame, as WaveDrom
+//! source and as a drawing.
 //!
-//! [`trace`] plays frames to the model and keeps every clock, [`choose`] leaves out those in which nothing
-//! begins or ends, [`wave`] writes the rest as WaveJSON, and [`draw`] as a picture. No number is written by
-//! hand, so that the diagram is as true as the model.
+//! [`trace`] plays frames to the model and keeps every clock. [`choose`] leaves out the clocks in
+//! which nothing begins or ends, [`wave`] writes the others as WaveJSON, and [`draw`] as SVG. No
+//! number is written by hand, so the diagram agrees with the model.
 
 mod choose;
 mod draw;
@@ -17,10 +18,11 @@ use std::sync::atomic::AtomicBool;
 use trace::Trace;
 use wave::Wave;
 
-/// `timing.json`, which WaveDrom reads, and `timing.svg`, the same drawn. Equal designs give equal files.
+/// Returns `timing.json`, which WaveDrom reads, and `timing.svg`, the drawing of it. Equal designs
+/// give equal files.
 ///
 /// # Errors
-/// When `cancel` is set; [`CosimError::is_interrupted`] tells.
+/// Fails if `cancel` is set; [`CosimError::is_interrupted`] is then true.
 pub fn timing_diagram(design: &Design, cancel: &AtomicBool) -> Result<[SourceFile; 2], CosimError> {
     let trace = Trace::of(design, cancel)?;
     let columns = choose::columns(&trace);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame and what follows, clock by clock, as the model shows it.
+//! The ports of the model during a frame and after it, clock by clock.
 
 use crate::error::CosimError;
 use crate::level::Level;
@@ -12,15 +12,16 @@ use foveate_model::{CoreInput, Thresholds};
 use foveate_toolchain::ToolError;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Regions of the largest array whose model is played; of a larger one a lane alone.
+/// The largest number of regions of an array whose model is played. Of a larger array only one lane
+/// is played.
 const MAX_REGIONS: u32 = 1 << 14;
 
-/// Clocks from the edge that takes the first pixel on.
+/// The clocks from the edge that takes the first pixel on.
 pub(super) struct Trace {
-    /// What is shown, in few words.
+    /// The title of the diagram.
     pub(super) title: String,
     pub(super) signals: Vec<Signal>,
-    /// Stretches of clocks that are alike, one after the other.
+    /// The stretches of equal clocks, in order.
     pub(super) stretches: Vec<Stretch>,
     /// The edges that take the first pixels of frames.
     pub(super) frames: Vec<u64>,
@@ -29,22 +30,22 @@ pub(super) struct Trace {
 /// A port, or its first lane.
 pub(super) struct Signal {
     pub(super) name: String,
-    /// Whether it is drawn as a line; else as numbers.
+    /// True if the signal is drawn as a line, false if it is drawn as numbers.
     pub(super) is_bit: bool,
 }
 
-/// Clocks at which every signal shows the same.
+/// Consecutive clocks at which every signal has the same value.
 pub(super) struct Stretch {
-    /// The edge that the first clock begins with; 0 takes the first pixel.
+    /// The edge at which the first clock begins; edge 0 takes the first pixel.
     pub(super) first_edge: u64,
     pub(super) clocks: u64,
-    /// The value of each signal; `None` where it says nothing.
+    /// The value of each signal; `None` if the value is not valid.
     pub(super) values: Vec<Option<u64>>,
 }
 
 impl Trace {
-    /// A frame with something in its first region, the same again as far as that shows the first one leave,
-    /// and a clock more.
+    /// Plays a frame with noise in its first region, the same frame as often as needed for the
+    /// first one to leave, and the clocks until everything is decided.
     pub(super) fn of(design: &Design, cancel: &AtomicBool) -> Result<Self, CosimError> {
         let (part, title) = part(design)?;
         let top = match part.unit().array {
@@ -69,7 +70,8 @@ impl Trace {
     }
 }
 
-/// What is played: one region where all are alike at every clock, else the array, or a lane of a huge one.
+/// Returns the part of the design that is played: one region if all regions behave alike, or else
+/// the array, or one lane of a huge array.
 fn part(design: &Design) -> Result<(Design, String), CosimError> {
     let size = design.region_size();
     match design.unit().array {
@@ -94,7 +96,7 @@ fn part(design: &Design) -> Result<(Design, String), CosimError> {
     Ok((part, words))
 }
 
-/// Noise in the first region, one level elsewhere.
+/// Returns a frame with noise in the first region, and one level elsewhere.
 fn frame(part: &Design) -> Frame {
     let side = part.region_size();
     let max = u16::try_from(part.pixel_max()).expect("a pixel has at most 16 bits");
@@ -106,7 +108,7 @@ fn frame(part: &Design) -> Frame {
         .unwrap_or_else(|error| unreachable!("pixels are those of the design: {error}"))
 }
 
-/// A trace under way.
+/// A trace that is being made.
 struct Take<'a> {
     rig: Rig<'a>,
     record: Record,
@@ -138,7 +140,7 @@ impl<'a> Take<'a> {
         }
     }
 
-    /// Lets clocks pass until a pixel is taken.
+    /// Lets clocks pass until a pixel can be taken.
     fn wait(&mut self) -> Result<(), CosimError> {
         while !self.rig.is_ready() {
             match self.rig.quiet_clocks() {
@@ -192,7 +194,8 @@ impl<'a> Take<'a> {
     }
 }
 
-/// Thresholds, resets and borders stand still; a sink is always ready.
+/// Returns true if a port is shown. Thresholds, resets and borders do not change, and the sink is
+/// always ready.
 fn is_shown(interface: &Interface, port: &Port) -> bool {
     let brings = |stream: &Stream| stream.direction == Direction::Input;
     port.direction == Direction::Output || interface.stream_of(port.role).is_some_and(brings)

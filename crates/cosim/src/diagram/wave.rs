@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A diagram in the terms of WaveDrom: a row of characters per signal, and numbers for some of them.
+//! A diagram in the format of WaveDrom: a row of characters for each signal, and numbers for some
+//! of them.
 
 use super::choose::Column;
 use super::trace::Trace;
@@ -8,7 +9,7 @@ use serde::Serialize;
 /// The name of the row that numbers the edges.
 const EDGE: &str = "edge of clk_i";
 
-/// A diagram as WaveDrom has it.
+/// A diagram in the format of WaveDrom.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub(super) struct Wave {
     pub(super) signal: Vec<WaveRow>,
@@ -22,8 +23,8 @@ pub(super) struct Text {
     pub(super) text: String,
 }
 
-/// A signal: a character per column (`0`, `1`: a line; `=`: the next of the data; `x`: nothing of use; `.`:
-/// as before; `|`: a gap).
+/// A signal with one character per column: `0` and `1` for a line, `=` for the next value of
+/// `data`, `x` for an invalid value, `.` for no change, and `|` for a gap.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub(super) struct WaveRow {
     pub(super) name: String,
@@ -44,7 +45,7 @@ impl Wave {
         }
     }
 
-    /// WaveJSON, a signal per line.
+    /// Returns the diagram as WaveJSON, with one signal per line.
     pub(super) fn json(&self) -> String {
         let rows: Vec<_> = self.signal.iter().map(|row| format!("    {}", text(row))).collect();
         format!(
@@ -81,7 +82,7 @@ fn row(trace: &Trace, signal: usize, columns: &[Column]) -> WaveRow {
     for column in columns {
         let &Column::Clock { stretch, .. } = column else {
             row.wave.push('|');
-            // Who knows what was in the gap.
+            // The value of a number may have changed in the gap.
             before = before.filter(|_| shown.is_bit);
             continue;
         };

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which modules, with which parameter values, a run elaborates: what Verilator makes of the Verilog.
+//! The modules and parameter values that a run elaborates, from Verilator's elaboration of the
+//! Verilog.
 //!
-//! A module that takes a `generate` branch for large frames only is reached in the text and never seen by a
-//! simulation of a small one. So what is generated is elaborated, and what is simulated, and the modules
-//! with their parameter values are compared. [`crate::hierarchy`] finds files that nothing instantiates.
+//! A module with a `generate` branch for large frames is reached in the text, but a simulation of a
+//! small frame never sees that branch. So both the generated core and the simulated part are
+//! elaborated, and the modules with their parameter values are compared. [`crate::hierarchy`] finds
+//! files that nothing instantiates.
 
 mod tile;
 mod variant;
@@ -21,12 +23,12 @@ pub(crate) use tile::Tile;
 pub use variant::NotElaborated;
 pub(crate) use variant::Variant;
 
-/// What the hierarchy below a top is made of.
+/// The elaborated hierarchy below a top.
 #[derive(Debug, Default)]
 pub(crate) struct Elaboration {
-    /// Every module with the values of its parameters.
+    /// The modules, each with the values of its parameters.
     pub(crate) variants: BTreeSet<Variant>,
-    /// What the top instantiates, in order.
+    /// The instances in the top, in order.
     pub(crate) tiles: Vec<Tile>,
 }
 
@@ -42,12 +44,12 @@ impl Elaboration {
     }
 }
 
-/// The modules, with their parameter values, that the design has and no run at one of these levels
-/// elaborates. Names of modules begin with `prefix`. An array of copies of `rpu` may be larger than what is simulated of it if each copy is connected
-/// to its own lanes.
+/// Returns the modules with parameter values that the design has and no run at one of these levels
+/// elaborates. Module names begin with `prefix`. An array of copies of `rpu` may be larger than its
+/// simulated part if each copy is connected to its own lanes.
 ///
 /// # Errors
-/// When Verilator is missing or refuses the Verilog, or the toolchain's flag has stopped it.
+/// Fails if Verilator is missing or refuses the Verilog, or the toolchain's flag has stopped it.
 pub fn not_elaborated(
     design: &Design,
     sources: &[SourceFile],

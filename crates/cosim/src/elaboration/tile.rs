@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! An instance in the top of an elaborated array, and what is connected to its ports.
+//! An instance in the top of an elaborated array, and the connections of its ports.
 
 /// An instance in the top.
 #[derive(Debug, PartialEq, Eq)]
@@ -8,16 +8,16 @@ pub(crate) struct Tile {
     pub(super) ports: Vec<(String, Connection)>,
 }
 
-/// What is connected to a port.
+/// The connection of a port.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub(super) enum Connection {
     /// A whole signal.
     All(String),
-    /// So many bits of a signal.
+    /// The `width` bits of a signal from bit `from` on.
     Part { signal: String, from: u64, width: u64 },
     /// A constant.
     Number(u64),
-    /// Anything else.
+    /// Any other expression.
     Other,
 }
 
@@ -38,7 +38,7 @@ impl Connection {
     }
 }
 
-/// A part of what is connected to a port.
+/// A token of the expression at a port.
 pub(super) enum Token {
     Select,
     Signal(String),

@@ -8,14 +8,15 @@ use std::fmt;
 /// A module with the values of its parameters, in hexadecimal.
 #[derive(Clone, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Variant {
-    /// The module.
+    /// The name of the module.
     pub(crate) module: String,
-    /// Its parameters.
+    /// The values of its parameters, by name.
     pub(crate) parameters: BTreeMap<String, String>,
 }
 
 impl Variant {
-    /// The variant among those that were not elaborated, beside the nearest of the same module that was.
+    /// Converts the variant to one that was not elaborated, with its differences to the nearest
+    /// elaborated variant of the same module.
     pub(super) fn beside(self, seen: &BTreeSet<Self>) -> NotElaborated {
         let of_module = seen.iter().filter(|other| other.module == self.module);
         let nearest = of_module.min_by_key(|other| self.differing(other).count());
@@ -35,12 +36,12 @@ impl Variant {
 /// A module with parameter values that no run has elaborated.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct NotElaborated {
-    /// The module.
+    /// The name of the module.
     pub module: String,
-    /// Whether a run has elaborated it with other values.
+    /// True if a run has elaborated the module with other values.
     pub is_module_known: bool,
-    /// The values, each as `NAME = value`; where the module is known, only those that differ from what was
-    /// elaborated and comes nearest.
+    /// The values, each as `NAME = value`. If a run has elaborated the module, only the values that
+    /// differ from the nearest elaborated variant.
     pub parameters: Vec<String>,
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether an array of copies connects each copy to the lanes of its own region.
+//! A check that an array of copies connects each copy to the lanes of its own region.
 //!
-//! A simulation of a few copies shows what one does and how neighbors are told apart. That the other copies are
-//! connected in the same way is read from the elaborated array, however large it is.
+//! A simulation of a few copies shows what one copy does, and that neighbors are told apart. The
+//! connections of the other copies are read from the elaborated array, however large it is.
 
 use super::tile::{Connection, Tile};
 use foveate_design::{Design, Direction, Port, PortRole};
@@ -10,17 +10,18 @@ use foveate_emit::Top;
 use foveate_model::region_border;
 use std::collections::BTreeMap;
 
-/// The valid bit behind `frame_sync`.
+/// The valid bit after `frame_sync`.
 const BEAT: &str = "beat";
 
-/// Whether there is one copy of `unit_name` per region, in their order, and each has the lanes of its own region: of
-/// every port that the array has for all of them the whole, of every port that it has per region its part.
+/// Returns true if there is one copy of `unit_name` per region, in the order of the regions, and
+/// each has the lanes of its own region: a port that the array has once is connected as a whole,
+/// and a port that it has per region by its part.
 pub(super) fn is_right(design: &Design, tiles: &[Tile], unit_name: &str) -> bool {
     let (array, unit) = (Top::Rcm.ports(design), Top::Rpu.ports(design));
     let array: BTreeMap<&str, &Port> =
         array.iter().map(|port| (port.name.as_str(), port)).collect();
     let regions = 0..design.regions();
-    // What else the array has is in a small one, too.
+    // The other instances of the array are also in a small array.
     let copies: Vec<&Tile> = tiles.iter().filter(|tile| tile.module == unit_name).collect();
     copies.len() == regions.len()
         && regions.zip(copies).all(|(region, tile)| {
@@ -53,7 +54,7 @@ fn fits(
         }
         Connection::Part { signal, from, width } => {
             let is_lane = *width == u64::from(port.bits()) && *from == own(*width);
-            // What all say at once the array collects in a signal of its own.
+            // The array collects outputs of all copies in a signal of its own.
             let is_collected =
                 port.direction == Direction::Output && !array.contains_key(signal.as_str());
             let is_same = signal == &port.name

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads the hierarchy that Verilator writes as XML: modules, parameters, and what the top connects.
+//! A reader of the hierarchy that Verilator writes as XML: modules, parameters, and the connections
+//! in the top.
 
 use super::tile::{Connection, Tile, Token};
 use super::{Elaboration, Variant};
@@ -8,7 +9,7 @@ use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
 use std::io::BufRead;
 
-/// Where in the text the reader is.
+/// The state of the reader.
 #[derive(Default)]
 struct Place {
     elaboration: Elaboration,
@@ -17,11 +18,11 @@ struct Place {
     /// The parameter whose value comes next.
     parameter: Option<String>,
     tile: Option<Tile>,
-    /// The port of the tile, and what stands there.
+    /// The current port of the tile, and the tokens of its expression.
     port: Option<(String, Vec<Token>)>,
 }
 
-/// Reads all of it; `top` is the module whose instances are wanted.
+/// Reads the whole text; `top` is the module whose instances are kept.
 pub(super) fn read(text: impl BufRead, top: &str) -> Result<Elaboration, CosimError> {
     let mut reader = Reader::from_reader(text);
     let (mut place, mut buffer) = (Place::default(), Vec::new());
@@ -99,7 +100,7 @@ fn value(tag: &BytesStart<'_>, name: &str) -> Option<String> {
     Some(text.replace("&apos;", "'").replace("&quot;", "\"").replace("&amp;", "&"))
 }
 
-/// The digits of a number such as `32'sh1f`; anything else as it is.
+/// Returns the digits of a number such as `32'sh1f`; any other text is returned as it is.
 fn digits(number: &str) -> String {
     let digits = number.split_once('\'').map_or(number, |(_, rest)| rest);
     let digits = digits.trim_start_matches('s').strip_prefix('h').unwrap_or(digits);
