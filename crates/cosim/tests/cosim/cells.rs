@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The models of block RAM and DSP cells against the RTL that Yosys maps to them: memories of every
-//! width and of both sizes, products of every sign. A wrong model is found, and a mode that is not
-//! modelled is refused.
+//! width and of both sizes, products of every sign. A wrong model is found, and a mode without a
+//! model is refused.
 
 use crate::common::in_parallel;
 use foveate_cosim::{
@@ -17,7 +17,8 @@ use std::time::Duration;
 
 const TOOLS: &[Tool] = &[Tool::Yosys, Tool::Iverilog, Tool::Vvp];
 
-/// What a word shows is only compared where `known_i` has said, a clock before, that it was written.
+/// A memory with one port. A word is compared only if `known_i` said a clock earlier that it was
+/// written.
 const MEMORY: &str = "module dut (
     input wire clk_i, input wire write_i, input wire [BITS-1:0] address_i,
     input wire [WIDTH-1:0] data_i, input wire known_i,
@@ -30,7 +31,7 @@ const MEMORY: &str = "module dut (
 endmodule
 ";
 
-/// The same with a port of its own to read, which can show a word at the edge at which another is written there.
+/// A memory with a separate read port, which can read a word at the edge at which it is written.
 const TWO_PORTS: &str = "module dut (
     input wire clk_i, input wire write_i, input wire [BITS-1:0] address_i,
     input wire [WIDTH-1:0] data_i, input wire known_i,
@@ -53,12 +54,12 @@ const PRODUCT: &str = "module dut (
 endmodule
 ";
 
-/// How many ports a memory has.
+/// The number of ports of a memory.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Ports {
-    /// One that reads and writes.
+    /// One port reads and writes.
     One,
-    /// One to write and one to read.
+    /// One port writes, the other reads.
     Two,
 }
 
@@ -76,7 +77,8 @@ fn random(state: &mut u64) -> u64 {
     *state >> 20
 }
 
-/// A memory of that many words, and what it must do with few addresses that are often met again.
+/// Returns a memory of `words` words, and a recording that uses few addresses, so that each is used
+/// often.
 fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
     use Direction::{Input, Output};
     let bits = words.ilog2();
@@ -103,7 +105,7 @@ fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
         let mut any = || addresses[usize::try_from(random(&mut state)).unwrap() % addresses.len()];
         let (address, elsewhere) = (any(), any());
         let (write, data) = (random(&mut state) % 2, random(&mut state) << 32 ^ random(&mut state));
-        // A port of its own reads in two of three clocks, often where the other writes.
+        // A separate read port reads at two of three clocks, often at the address of the write.
         let (read, read_address) = match (ports, random(&mut state) % 6) {
             (Ports::One, _) => (1, address),
             (Ports::Two, dice) => {
@@ -143,7 +145,7 @@ fn memory(ports: Ports, width: u32, words: u32) -> (Dut, Recording) {
     (dut(list, sources), recorder.finish().unwrap())
 }
 
-/// Products of the extremes and of random factors.
+/// Returns a multiplier, and a recording with the extremes and random factors.
 fn product() -> (Dut, Recording) {
     use Direction::{Input, Output};
     let ports = vec![
@@ -179,8 +181,8 @@ fn dut(ports: Vec<Port>, sources: Vec<Source>) -> Dut {
     Dut { top, ports, parameters, sources, no_inline }
 }
 
-/// What Yosys makes of each, and the cells that it takes. One run is for all: it reads its library of cells for two
-/// seconds.
+/// Returns the netlist of each module and the names of its cells. All modules share one run of
+/// Yosys, because it needs two seconds to read its library of cells.
 fn synthesized(duts: &[&Dut]) -> Vec<(Dut, BTreeSet<String>)> {
     let (toolchain, cache) = (Toolchain::system(), Cache::from_env().unwrap());
     let (mut sources, mut all) = (BTreeMap::new(), String::new());
@@ -233,7 +235,8 @@ fn run(dut: &Dut, recording: &Recording) -> Result<Vec<Difference>, CosimError> 
     Ok(run.run(dut, recording)?.differences)
 }
 
-/// The same with one edit of the models, or of the netlist, where the text must be.
+/// Returns the module with one edit of the models (`file` 0) or of the netlist (`file` 1). The text
+/// must be there.
 fn edited(dut: &Dut, file: usize, from: &str, to: &str) -> Dut {
     let mut sources = dut.sources.clone();
     assert!(sources[file].1.contains(from), "{from}");
@@ -248,7 +251,7 @@ fn block_rams_of_every_width_do_what_the_rtl_does() {
     }
     let shapes = [(1, 1 << 14), (2, 1 << 13), (4, 1 << 12), (8, 1 << 11), (16, 1 << 10)];
     let larger = [(1, 1 << 15), (8, 1 << 12), (16, 1 << 11), (32, 1 << 10), (10, 1 << 12)];
-    // Words that are wider than a port; one is of two cells, and one has a port to spare.
+    // Words that are wider than a port; one needs two cells, and one leaves a port unused.
     let wide = [(9, 1 << 11), (36, 1 << 9), (27, 1 << 9), (40, 1 << 10)];
     let one = [&shapes[..], &larger].concat().into_iter().step_by(every(2));
     let one = one.map(|shape| (Ports::One, shape));
@@ -362,7 +365,7 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
             let both = edited(netlist, 1, ".READ_WIDTH_B(32'd0)", ".READ_WIDTH_B(32'd9)");
             refused(&both, recording, "one_port");
         } else {
-            // A port that only reads must not write, and both have one clock.
+            // A port that only reads must not write, and both ports have one clock.
             let (enable, none) = if width == 36 { (".WEA(2'h0)", 2) } else { (".WEBWE(", 4) };
             let text = &netlist.sources[1].1;
             let at = text.find(enable).unwrap();
@@ -379,7 +382,7 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
     }
 }
 
-/// A Yosys from before April 2026 gives the upper half of a word the parity bits of the lower one
+/// A Yosys from before April 2026 gives the upper half of a word the parity bits of the lower half
 /// (<https://github.com/YosysHQ/yosys/pull/5833>). The model shows it.
 #[test]
 fn a_word_of_64_bits_shows_how_yosys_wires_it() {
@@ -394,7 +397,7 @@ fn a_word_of_64_bits_shows_how_yosys_wires_it() {
     assert_eq!(!found.is_empty(), wired_wrongly(&netlist.sources[1].1), "{found:?}");
 }
 
-/// It does not compile, and the message has this in it.
+/// Checks that the module does not compile, and that the message contains `said`.
 fn refused(dut: &Dut, recording: &Recording, said: &str) {
     match run(dut, recording) {
         Err(CosimError::Tool(error)) => {

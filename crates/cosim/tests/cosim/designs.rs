@@ -25,8 +25,9 @@ fn every_preset_agrees_at_rpu_level_in_both_simulators() {
         for simulator in Simulator::ALL {
             let scene = Scene::find("street").unwrap();
             let config = preset.config().unwrap();
-            // Every organization takes four regions side by side. Icarus is slow, and every sequence comes in each round: of
-            // those that take many clocks for a frame it sees the street alone.
+            // Every organization takes four regions side by side. Icarus is slow, and every round
+            // plays all sequences. So Icarus plays only the street for organizations with many
+            // clocks per frame.
             let (rows, rounds) = match (simulator, config.hardware.organization) {
                 (Simulator::Verilator, _) => (3, Stimulus::default().rounds),
                 (Simulator::Iverilog, Organization::Pipelined) => (1, 1),
@@ -60,9 +61,9 @@ fn arrays_agree_on_three_grids() {
     }
 }
 
-/// The paper's 28x28 regions, on the street:
-/// `cargo test -p foveate-cosim --test cosim whole_array -- --ignored`. Its C++ takes 100 s of processor time to
-/// build, the model and the simulation a few seconds each, so that it is not part of the normal run.
+/// The paper's 28x28 regions, on the street: `cargo test -p foveate-cosim --test cosim whole_array
+/// -- --ignored`. The C++ takes 100 s of processor time to build, the model and the simulation a
+/// few seconds each. So it is not part of the normal run.
 #[test]
 #[ignore = "takes minutes to build"]
 fn the_whole_array_of_the_paper_agrees() {

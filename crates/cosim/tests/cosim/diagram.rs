@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The timing diagram of a core, against the numbers of the design and the models, read from its WaveJSON.
+//! The timing diagram of a core, read from its WaveJSON and compared with the numbers of the design
+//! and the models.
 
 use foveate_cosim::timing_diagram;
 use foveate_design::{Config, Design, PipelinedTiming, SerialTiming};
@@ -12,7 +13,7 @@ fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap()
 }
 
-/// What each signal shows at each edge that the diagram has: `None` where it says nothing.
+/// A parsed diagram: the value of each signal at each shown edge, or `None` if it is not valid.
 struct Diagram {
     edges: Vec<u64>,
     signals: BTreeMap<String, Vec<Option<u64>>>,
@@ -52,7 +53,7 @@ fn diagram(design: &Design) -> Diagram {
 }
 
 impl Diagram {
-    /// The edges after which a line rises.
+    /// Returns the edges after which a line rises.
     fn rises(&self, name: &str) -> Vec<u64> {
         let values = &self.signals[name];
         let rises = |at: &usize| values[*at] == Some(1) && (*at == 0 || values[at - 1] == Some(0));
@@ -82,15 +83,15 @@ fn a_pipelined_decision_comes_when_the_timing_says() {
     }
 }
 
-/// Every value of the diagram, against the model asked again with the pixels that the diagram itself shows at
-/// its first and last edges, and those that leave.
+/// Every value of the diagram equals that of the model for the input pixels that the diagram shows,
+/// up to the first gap.
 #[test]
 fn a_pipelined_diagram_shows_what_the_model_says() {
     let design = design(
         "region.size = 2\ndenoise.filter = 'none'\nspatial = [{ feature = 'edge', min_score = 1 }]\ntemporal.min_count = 1",
     );
     let diagram = diagram(&design);
-    // Regions so small that no clock is left out but in the end.
+    // The regions are so small that no clock is left out before the end.
     let mut rpu = PipelinedRpu::new(design.pipelined().unwrap());
     let mut checked = 0;
     for (at, &edge) in diagram.edges.iter().enumerate() {

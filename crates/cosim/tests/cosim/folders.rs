@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a run leaves on disk, and what it must leave alone.
+//! The files that a run leaves on disk, and the files that it must not touch.
 
 use crate::common::{cosimulate, design, directed};
 use foveate_cosim::{CosimError, CosimReport, Job, Level, Progress, Simulator};
@@ -89,7 +89,7 @@ fn a_passing_run_leaves_no_earlier_replay() {
     run(&output, |_| {}).unwrap();
     assert_eq!(names(dir.path()), Vec::<String>::new());
 
-    // Something of the same names is not a replay.
+    // A folder with files of the same names that Foveate did not write is not a replay.
     fs::create_dir(&output).unwrap();
     for name in ["replay.sh", "vectors.hex", "README.md", "waves.fst"] {
         fs::write(output.join(name), "mine").unwrap();
@@ -101,7 +101,8 @@ fn a_passing_run_leaves_no_earlier_replay() {
     assert_eq!(names(&output).len(), 4);
 }
 
-/// A file that a user adds to a replay, or changes in it, stays; files that its script makes go with it.
+/// A file that a user adds to a replay, or changes in it, is kept; files that the replay's script
+/// makes are removed with it.
 #[test]
 fn a_replay_in_which_somebody_works_stays() {
     if !require_tools(SIMULATOR.tools()) {

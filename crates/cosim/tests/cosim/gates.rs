@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Outputs that mean something only with a valid bit, of the same lane or of any: what they show
-//! without it must not matter, and with it must.
+//! Outputs that are valid only with a valid bit, of the same lane or of any lane. Without the bit
+//! their value must not matter, and with it it must.
 
 use foveate_cosim::{Difference, Dut, Recorder, Recording, Run, Simulator};
 use foveate_design::{Direction, Port, PortRole, Qualifier};
@@ -36,7 +36,8 @@ fn ports() -> Vec<Port> {
     ]
 }
 
-/// Lanes are valid at random; at most one in the first half. Without a valid bit 0 is recorded.
+/// Records lanes that are valid at random; in the first half at most one lane is valid. The
+/// expected value without a valid bit is 0.
 fn recording(clocks: u64) -> Recording {
     let mut recorder = Recorder::new(&ports()).unwrap();
     let (inputs, outputs) = (recorder.inputs().clone(), recorder.outputs().clone());
@@ -120,7 +121,7 @@ fn what_has_a_valid_bit_matters_and_so_does_the_bit() {
     }
 }
 
-/// Values count as compared only where they are.
+/// Values are counted as compared only at clocks at which they are compared.
 #[test]
 fn only_what_is_compared_is_counted() {
     let recording = recording(1000);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What only a large frame has: widths, memories and counters that follow from its size. The default runs and the
-//! bench of a core must meet all of it, and faults there must be found.
+//! The parts of a core that only a large frame has: widths, memories and counters that follow from
+//! its size. The default runs and the bench of a core must reach all of them, and faults there must
+//! be found.
 
 use crate::common::{cosimulate, in_parallel, simulators};
 use foveate_cosim::{Job, Level, ShippedBench, Simulator, Stimulus, not_elaborated};
@@ -13,15 +14,16 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::atomic::AtomicBool;
 
-/// The smallest frame that has what a large one has: two banks of the store, more than 16 regions side by side, more than
-/// 64 rows of pixels, more than 255 regions.
+/// The smallest frame with all that a large frame has: two banks of the store, more than 16 regions
+/// side by side, more than 64 rows of pixels, and more than 255 regions.
 const LARGE: &str = "frame = { width = 160, height = 128, pixel_bits = 4 }\nregion.size = 8\n\
     spatial = [{ feature = 'edge', level = 9, min_score = 5 }]\ntemporal = { level = 1, min_count = 5 }\n\
     hardware = { organization = 'raster', pipelining = 'deep' }\n";
-/// Clocks that the default run of a whole frame records at least.
+/// The number of clocks after which the default run of a whole frame may stop; 1 leaves the first
+/// three sequences.
 const ENOUGH: u64 = 1;
 
-/// A fault, by the file and the edit.
+/// A fault: an edit of one file.
 struct Fault {
     what: &'static str,
     file: &'static str,
@@ -78,14 +80,14 @@ fn design(toml: &str) -> Design {
     Config::from_toml(toml).unwrap().validate().unwrap_or_else(|error| panic!("{toml}: {error}"))
 }
 
-/// The sources of a core: those of all of its tops.
+/// Returns the sources of a core, with those of all of its tops.
 fn sources(design: &Design) -> Vec<SourceFile> {
     let mut known = BTreeSet::new();
     let all = Top::all_of(design).iter().flat_map(|&top| verilog(design, top));
     all.filter(|file| known.insert(file.path.clone())).collect()
 }
 
-/// What is simulated by default of a core, as a small grid, or whole.
+/// Returns true if a co-simulation at this level finds the fault.
 fn is_found_by_cosim(
     design: &Design,
     files: &[SourceFile],
@@ -97,7 +99,7 @@ fn is_found_by_cosim(
     !cosimulate(design, simulator, stimulus, output, edit).unwrap().passed()
 }
 
-/// Whether the bench of the array, in Icarus, says something other than PASS.
+/// Returns true if the bench of the array, in Icarus, prints anything other than PASS.
 fn is_found_by_bench(bench: &ShippedBench, files: &[SourceFile]) -> bool {
     let dir = tempfile::tempdir().unwrap();
     for file in files.iter().chain(&bench.files) {
@@ -124,7 +126,8 @@ fn is_found_by_bench(bench: &ShippedBench, files: &[SourceFile]) -> bool {
     !passes
 }
 
-/// Each fault passes the small grid, which is why the whole is simulated by default.
+/// Each fault passes the small grid, and is found by the default run of the whole frame and by the
+/// bench.
 #[test]
 fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
     if !simulators() {
@@ -151,7 +154,8 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
         }
         edited.contents = edited.contents.replace(from, to);
         let folder = output.path().join(what.replace(' ', "-"));
-        // The whole frame is quicker in Verilator, where no unknown value shows the fault: the bench is for Icarus.
+        // The whole frame is quicker in Verilator, in which no unknown value shows the fault; the
+        // bench runs in Icarus.
         let (small, whole) =
             ((Level::sample(&design), Simulator::Iverilog), (Level::Full, Simulator::Verilator));
         if is_found_by_cosim(&design, &files, small, &folder) {
@@ -168,7 +172,7 @@ fn faults_of_a_large_frame_are_found_by_the_default_runs_and_by_the_bench() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// An array of more lanes than a bench can have is not said to pass.
+/// A bench for an array with too many lanes never passes.
 #[test]
 fn the_bench_of_too_many_lanes_never_passes() {
     let design = design(
@@ -180,7 +184,8 @@ fn the_bench_of_too_many_lanes_never_passes() {
     assert!(said.contains("1280 lanes") && said.contains("of 40 x 32"), "{said}");
 }
 
-/// What a simulation of the small grid alone leaves out is named with the parameter values.
+/// The modules that a simulation of the small grid leaves out are named with their parameter
+/// values.
 #[test]
 fn what_a_small_grid_leaves_out_is_named() {
     if !require_tools(&[Tool::Verilator]) {
@@ -199,7 +204,8 @@ fn what_a_small_grid_leaves_out_is_named() {
     assert_eq!(left(&Level::all_of(&design, &sources, &Prefix::default())), []);
 }
 
-/// An array of copies is not simulated whole: that each copy has its own lanes is read from the elaborated array.
+/// An array of copies is not simulated whole. The elaborated array shows that each copy has its own
+/// lanes.
 #[test]
 fn each_copy_of_an_array_is_connected_to_its_own_lanes() {
     if !require_tools(&[Tool::Verilator]) {
@@ -237,7 +243,7 @@ fn each_copy_of_an_array_is_connected_to_its_own_lanes() {
     }
 }
 
-/// Designs of every preset, and of frames up to 1920x1080.
+/// Returns designs of every preset, and of frames up to 1920x1080.
 fn listed() -> Vec<(String, Design)> {
     let hd = "frame = { width = 1920, height = 1080 }\n";
     let mut list: Vec<(String, Design)> = PRESETS
@@ -266,7 +272,8 @@ fn listed() -> Vec<(String, Design)> {
     list
 }
 
-/// No design of the list has a module, or a parameter value, that neither its default runs nor its bench elaborate.
+/// Every module and parameter value of every listed design is elaborated by its default runs and by
+/// its bench.
 #[test]
 fn nothing_of_a_generated_core_is_left_out() {
     if !require_tools(&[Tool::Verilator]) {

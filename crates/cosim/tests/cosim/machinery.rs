@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The machinery without model and RTL: a small hand-made module with ports of every storage class,
-//! and a closure that says what it does.
+//! and the values that it must have.
 
 use foveate_cosim::{
     CosimError, Dut, Outcome, Recorder, Recording, Run, Simulator, bench_name, replay_bench,
@@ -41,13 +41,13 @@ fn ports() -> Vec<Port> {
     ]
 }
 
-/// `clocks` clocks with numbers from a simple generator; what comes out is what went in, a clock
-/// later and complemented, and the number of clocks since the reset.
+/// Returns a recording of `clocks` clocks with pseudo-random inputs. Each output is an input, one
+/// clock later and complemented, or the number of clocks since the reset.
 fn recording(clocks: u64) -> Recording {
     sequences(clocks, clocks)
 }
 
-/// The same in sequences of so many frames, each of 50 clocks.
+/// Returns the same recording, divided into sequences of `frames` frames of 50 clocks each.
 fn sequences(clocks: u64, frames: u64) -> Recording {
     let mut recorder = Recorder::new(&ports()).unwrap();
     let (inputs, outputs) = (recorder.inputs().clone(), recorder.outputs().clone());
@@ -120,7 +120,7 @@ fn ports_of_every_width_pass_in_both_simulators() {
 
 #[test]
 fn a_planted_fault_is_found_at_its_clock_and_port() {
-    // The first clock at which the counter since reset reaches 41.
+    // The fault shows at the first clock at which the counter since reset reaches 41.
     let fault = edited("count + 12'd1", "count + 12'd1 + (count == 12'd40)");
     let lane = edited("~d_i;", "~d_i ^ (200'd1 << 8 * 17 + 3);");
     for simulator in Simulator::ALL {
@@ -140,7 +140,7 @@ fn a_planted_fault_is_found_at_its_clock_and_port() {
     }
 }
 
-/// What differs in the sequence of the first difference, and nothing of the next.
+/// Differences in the sequence of the first difference are reported, and none in the next sequence.
 #[test]
 fn differences_are_told_until_the_sequence_ends() {
     let faults = "if (clock == 60) b_o <= 33'd0;
@@ -150,7 +150,7 @@ fn differences_are_told_until_the_sequence_ends() {
         "reg [11:0] count;",
         "reg [11:0] count;\n    integer clock = 0;\n    always @(posedge clk_i) clock <= clock + 1;",
     );
-    // With waves the bench goes on to the last clock.
+    // With waves the bench continues to the last clock.
     for (simulator, trace) in Simulator::ALL.into_iter().flat_map(|s| [(s, false), (s, true)]) {
         if require_tools(simulator.tools()) {
             let found = |frames| -> Vec<(String, u64)> {
@@ -183,7 +183,7 @@ fn waves_are_written_when_asked_for() {
     for simulator in Simulator::ALL {
         if require_tools(simulator.tools()) {
             let recording = recording(100);
-            // Each run of a recording has its own.
+            // Each run of a recording has waves of its own.
             let waves = || run(simulator, TINY, &recording, true).unwrap().waves.unwrap();
             let both = [waves(), waves()];
             assert_ne!(both[0], both[1]);
@@ -224,7 +224,8 @@ fn sources_of_something_else_are_refused_by_name() {
     assert!(matches!(error, CosimError::Tool(_)), "{error}");
 }
 
-/// Widths of the same storage class too, which C++ and Verilog join without a word.
+/// Ports of another width are refused, even if their widths have the same storage class, which C++
+/// and Verilog connect without a warning.
 #[test]
 fn ports_of_another_width_are_refused() {
     let edits = [
@@ -246,7 +247,7 @@ fn ports_of_another_width_are_refused() {
             assert_eq!((top.as_str(), port.as_str()), ("tiny", name), "{simulator}");
             assert_eq!((*found, *wanted), (bits, of_design), "{simulator} {to}");
         }
-        // Named as a word, but no port.
+        // The name is that of a wire, but of no port.
         let other = TINY
             .replace("input  wire [7:0]   a_i,", "")
             .replace("    reg [11:0] count;", "    wire a_i = 1'b0; reg [11:0] count;");
@@ -280,14 +281,14 @@ fn vectors_are_lines_of_hexadecimal_numbers() {
     let text = vectors_hex(&recording(20), 10).unwrap();
     let lines: Vec<&str> = text.lines().collect();
     assert_eq!(lines.len(), 10 + 1, "{text}");
-    // All five inputs and five outputs, a new number of clocks never.
+    // The line has all five inputs and five outputs, and no number of clocks.
     assert!(lines[0].starts_with("3ff ") && lines[0].split(' ').count() == 11, "{}", lines[0]);
     let digits = lines[0].split(' ').map(str::len).zip([3, 1, 2, 9, 16, 50, 1, 3, 9, 16, 50]);
     assert!(digits.clone().all(|(digits, most)| digits <= most), "{}", lines[0]);
     assert_eq!(lines[10], "0");
 }
 
-/// Vectors that somebody cut do not pass.
+/// Vectors that are cut off do not pass.
 #[test]
 fn the_bench_refuses_vectors_without_an_end() {
     if !require_tools(Simulator::Iverilog.tools()) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Co-simulation: model against emitted RTL and netlists, planted faults, the vectors, the machinery.
+//! Co-simulation tests: model against emitted RTL and netlists, planted faults, vectors, and
+//! machinery.
 #![allow(clippy::unwrap_used, reason = "a test fails by panicking")]
 
 mod bus;

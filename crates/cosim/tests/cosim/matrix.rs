@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! Model against emitted RTL at RPU level: every feature x region size x filter x neighborhood x
-//! reference, with the other keys sampled along the way, and what lies beyond at the edges.
+//! reference, with the other keys sampled, and extreme cases outside the matrix.
 
 use std::collections::BTreeSet;
 
@@ -14,7 +14,7 @@ use foveate_design::{
 };
 use foveate_toolchain::testing::every;
 
-/// From this many pixels per region on, the time to build with Verilator is won back.
+/// The number of pixels per region from which on Verilator's build takes less time than it saves.
 const COMPILED_FROM: u32 = 16 * 16;
 
 fn simulator(config: &Config) -> Simulator {
@@ -39,12 +39,12 @@ fn check_all(configs: &[Config]) {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Plain and deep in turns that have no period with those of the other keys.
+/// Returns plain or deep, in an order without a common period with those of the other keys.
 fn pipelining(turn: usize) -> Pipelining {
     in_turn(Pipelining::ALL, turn.count_ones() as usize)
 }
 
-/// What irrelevant regions show, by turns; where it is their means, of how many blocks and with which level, too.
+/// Sets the irrelevant action in turn and, for `mean`, the number of blocks and the level.
 fn show_irrelevant(camera: &mut CameraConfig, turn: usize) {
     camera.render.irrelevant = Irrelevant::ALL[turn % Irrelevant::ALL.len()];
     let fits = |blocks: &u32| camera.region.size.is_multiple_of(*blocks);
@@ -59,10 +59,10 @@ fn show_irrelevant(camera: &mut CameraConfig, turn: usize) {
     }
 }
 
-/// Values of each axis of the matrix.
+/// The number of values of each axis of the matrix.
 const AXES: [usize; 5] = [4, 5, 2, 2, 2];
 
-/// The 160 designs. Keys that are not among the five axes take turns.
+/// Returns the 160 designs. Keys outside the five axes take turns.
 fn matrix() -> Vec<Config> {
     let mut configs = Vec::new();
     for &kind in FeatureKind::ALL {
@@ -97,8 +97,8 @@ fn every_feature_size_filter_neighborhood_and_reference_agrees() {
     check_all(&meeting(matrix(), &AXES));
 }
 
-/// Summaries: blocks of one pixel and of sides that are no power of two, the most blocks, the most and fewest bits, raw
-/// pixels, a second pass and thresholds built in.
+/// Summaries agree for blocks of one pixel and of sides that are no power of two, the most blocks,
+/// the most and fewest bits, raw pixels, a second pass and constant thresholds.
 #[test]
 fn summaries_agree() {
     let median = "filter = \"median3x3\"";
@@ -127,7 +127,7 @@ fn summaries_agree() {
     .enumerate()
     {
         let toml = format!("[[spatial]]\n{feature}\n{more}[denoise]\n{filter}\n");
-        // The widest sums that there are, once: such regions take long.
+        // The widest possible sums are tested once, because such regions take long.
         let all = if size == 64 { &[Pipelining::Deep] } else { Pipelining::ALL };
         for &pipelining in all {
             let mut config = Config::from_toml(&toml).unwrap();
@@ -145,7 +145,7 @@ fn summaries_agree() {
     check_all(&configs);
 }
 
-/// A part of a matrix is enough for every two values.
+/// A part of a matrix contains every pair of values of two axes.
 #[test]
 fn in_a_part_of_a_matrix_every_two_values_meet() {
     for (axes, share) in [(&AXES[..], 4), (&[4, 2, 2, 2], 4), (&[2, 2, 2, 2], 2)] {
@@ -166,7 +166,7 @@ fn in_a_part_of_a_matrix_every_two_values_meet() {
     }
 }
 
-/// Several features, other depths, other sizes, built-in thresholds.
+/// Designs with several features, other depths, other sizes or constant thresholds agree.
 #[test]
 fn what_the_matrix_leaves_out_agrees() {
     use FeatureKind::{Corner, Edge, Mad, Variance};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The synthesized netlist does what the model does, and one with a fault does not.
+//! The synthesized netlist agrees with the model, and a netlist with a fault does not.
 
 use crate::common::{design, directed, in_parallel};
 use foveate_cosim::{CosimReport, Job, Level, Netlist, Simulator};
@@ -11,43 +11,46 @@ use std::process::Command;
 
 const TOOLS: &[Tool] = &[Tool::Yosys, Tool::Iverilog, Tool::Vvp];
 
-/// Window, lines in shift registers, store in distributed RAM, carry chains.
+/// A design with a window, lines in shift registers, a store in distributed RAM, and carry chains.
 const EDGES: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n";
-/// Median, second pass, thresholds built in.
+/// A design with a median, a second pass, and constant thresholds.
 const MAD: &str =
     "[region]\nsize = 4\n[[spatial]]\nfeature = \"mad\"\n[hardware]\nthresholds = \"constant\"\n";
 
-/// Squares and a product in DSP slices.
+/// A design with squares and a product in DSP slices.
 const VARIANCE: &str =
     "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"variance\"\n";
-/// Median, edges and the pixels last sent, with the registers of `deep`.
+/// A deep design with a median, edges and `last-sent` references.
 const DEEP: &str = "[region]\nsize = 4\n[temporal]\nreference = \"last-sent\"\n[hardware]\n\
                     pipelining = \"deep\"\n";
-/// Means that turn in shift registers.
+/// A design with means that rotate in shift registers.
 const MEANS: &str =
     "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[render]\nirrelevant = \"mean\"\n";
-/// Deep: their division by 9, and a second pass.
+/// A deep design with means, which need a division by 9, and a second pass.
 const MEANS_DEEP: &str = "[region]\nsize = 6\n[denoise]\nfilter = \"none\"\n[[spatial]]\nfeature = \"mad\"\n\
                           [render]\nirrelevant = \"mean\"\n[hardware]\npipelining = \"deep\"\n";
-/// A raster into lanes of two regions each, one slot of which is empty.
+/// A serial array with a raster feed and lanes of two regions each, one of whose slots is empty.
 const FOLDED: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
                       organization = \"serial\"\nfeed = \"raster\"\nfold = 2\n";
 
-/// Means of single pixels in block RAM, which come back around the ring of lanes.
+/// A serial array with means of single pixels in block RAM, which come back around the ring of
+/// lanes.
 const FOLDED_MEANS: &str = "[region]\nsize = 4\n[denoise]\nfilter = \"none\"\n[render]\n\
                             irrelevant = \"mean\"\n[periphery]\nblocks = 4\n[hardware]\n\
                             organization = \"serial\"\nmemory = \"block\"\nfold = 2\n";
 
-/// A core of `raster` with its memories in block RAM of two ports: one port writes, the other reads.
+/// A raster core with its memories in block RAM with two ports, one of which writes and the other
+/// reads.
 const RASTER: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[denoise]\nfilter = \"none\"\n[hardware]\n\
                       organization = \"raster\"\n";
-/// A deep one whose queue has words that are wider than a port, and whose pixels are written twice.
+/// A deep raster core whose queue has words that are wider than a port, and whose pixels are
+/// written twice.
 const RASTER_DEEP: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[temporal]\nreference = \"last-sent\"\n\
                            [render]\npayload = \"raw\"\n[hardware]\norganization = \"raster\"\n\
                            pipelining = \"deep\"\n";
 
-/// Means of 2x2 blocks wait beside the pixels, and those that were sent in a memory of the whole frame; pixels that were sent are
-/// references, in another.
+/// A raster core whose means of 2x2 blocks wait beside the pixels. The means that were sent are in
+/// a memory of the whole frame, and the pixels that were sent are references in another.
 const RASTER_MEANS: &str = "[region]\nsize = 4\n[frame]\npixel_bits = 4\n[denoise]\nfilter = \"none\"\n[temporal]\n\
                             reference = \"last-sent\"\n[render]\nirrelevant = \"mean\"\n[periphery]\nblocks = 2\n[hardware]\norganization = \"raster\"\n\
                             pipelining = \"deep\"\n";
@@ -76,8 +79,9 @@ fn netlists_agree_with_the_model() {
         (FOLDED_MEANS, Level::Rcm { columns: 3, rows: 1 }, (3, 1)),
         (RASTER_MEANS, Level::Rcm { columns: 4, rows: 1 }, (4, 1)),
     ];
-    // What these have the ones above or the tests of single cells have, too, but for two regions in a lane, two RPUs side by
-    // side, a second row of regions in `raster`, and a division by 9.
+    // The designs above and the tests of single cells cover most of these. Not covered there are
+    // two regions in a lane, two RPUs side by side, a second row of regions in `raster`, and a
+    // division by 9.
     let others = [
         (VARIANCE, Level::Rpu, (1, 1)),
         (MEANS_DEEP, Level::Rpu, (1, 1)),
@@ -102,7 +106,8 @@ fn netlists_agree_with_the_model() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// A fault in a table: the LUT of that number has one entry inverted, or all.
+/// Returns the netlist with a fault in the lookup table of index `lut`: one entry is inverted, or
+/// all are.
 fn with_fault(netlist: &Netlist, lut: usize, bit: Option<u64>) -> Option<Netlist> {
     let mut faulty = netlist.clone();
     let (_, text) = faulty.sources.iter_mut().find(|(name, _)| name.ends_with("netlist.v"))?;
@@ -134,11 +139,12 @@ fn a_wrong_table_is_found() {
         let job = Job { netlist, output: folder, ..sound.clone() };
         if run(&job).passed() { Err(format!("LUT {lut}, entry {bit:?}")) } else { Ok(()) }
     });
-    // No state of the design may ask for a single entry; some must be found, and every inverted table.
+    // The design may never use a single entry of a table. Some single faults must be found, and
+    // every inverted table.
     assert!(!hidden.iter().any(|fault| fault.contains("None")), "not found: {hidden:?}");
     assert!(hidden.len() <= 2, "not found: {hidden:?}");
 
-    // What it leaves shows the mismatch again, without Foveate.
+    // The replay folder shows the mismatch again, without Foveate.
     let folder = output.path().join("0 None");
     let again = Command::new(folder.join("replay.sh")).output().unwrap();
     let log = String::from_utf8_lossy(&again.stdout).into_owned();

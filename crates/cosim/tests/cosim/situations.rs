@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The situations that vectors must reach: those of co-simulation by default, for any seed, and those of the benches that come
-//! with a core.
+//! The situations that vectors must reach: those of the default co-simulation, for any seed, and
+//! those of the benches of a core.
 
 use crate::common::in_parallel;
 use foveate_cosim::{Level, Occurrences, ShippedBench, Stimulus};
@@ -8,14 +8,15 @@ use foveate_design::{Config, Design};
 use foveate_emit::{Prefix, Top};
 use std::sync::atomic::AtomicBool;
 
-/// A small frame, so that arrays are whole.
+/// A frame so small that arrays are simulated whole.
 const FRAME: &str = "frame={width=32,height=24}";
 const RASTER: &str = "hardware.organization='raster'";
 const SERIAL: &str = "hardware.organization='serial'";
 const MEAN: &str = "render.irrelevant='mean'";
 const SENT: &str = "temporal.reference='last-sent'";
 
-/// Designs of all organizations, with and without a periphery, references of both kinds, every store, marks of frames.
+/// Designs of all organizations, with and without a periphery, with both kinds of references, every
+/// store, and start marks of frames.
 const DESIGNS: &[&[&str]] = &[
     &[FRAME],
     &[FRAME, SENT, "hardware.sync=true"],
@@ -66,7 +67,7 @@ fn design(keys: &[&str]) -> Design {
     config.validate().unwrap_or_else(|error| panic!("{keys:?}: {error}"))
 }
 
-/// Of the levels at which a core is simulated by default.
+/// Returns the situations that occur at the levels at which a core is simulated by default.
 fn reached(design: &Design, seed: u64) -> Occurrences {
     let levels: Vec<Level> = ShippedBench::levels(design).unwrap();
     let levels = levels.into_iter().chain([Level::sample(design)]);
@@ -171,7 +172,7 @@ fn shipped_benches_reach_every_situation_that_a_design_can_have() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// The page on verification has the list.
+/// The verification page lists every situation.
 #[test]
 fn the_page_names_every_situation() {
     let page = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/verification.md");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Designs that find their frames again: what their vectors hold, and whether model and RTL agree.
+//! Designs with `sync`: the contents of their vectors, and the agreement of model and RTL.
 
 use crate::common::vectors::{clocks, value};
 use crate::common::{agrees, directed, in_parallel, in_turn, simulators};
@@ -7,7 +7,8 @@ use foveate_cosim::{Level, Recording, Simulator};
 use foveate_design::{Config, Design, PortRole};
 use std::collections::BTreeMap;
 
-/// Designs of every organization, in small frames. Every other one is simulated in Icarus, which takes long for many clocks.
+/// Designs of every organization, in small frames. Every second one is simulated in Icarus, which
+/// is slow for many clocks.
 const DESIGNS: &[&[&str]] = &[
     &["frame={width=12,height=8}", "region.size=4"],
     &[
@@ -94,14 +95,14 @@ fn the_rtl_of_arrays_that_find_their_frames_agrees() {
         let design = design(keys);
         let folder = output.path().join(design.fingerprint());
         let what = format!("{keys:?}");
-        // Every organization in both.
+        // Every organization is simulated in both simulators.
         let simulator = in_turn(&Simulator::ALL, *number);
         agrees(&what, &design, simulator, directed(Level::Full, 1), &folder)
     });
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Where a stream is, as the ports tell.
+/// The state of the frame synchronization, as the ports show it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 enum State {
     Seek,
@@ -110,14 +111,14 @@ enum State {
     Fill,
 }
 
-/// What vectors hold, by sequence.
+/// The counts of a recording.
 #[derive(Debug, Default)]
 struct Story {
     errors: u64,
     decisions: u64,
-    /// Marks without a beat, by state.
+    /// The number of start marks without a beat, by state.
     loose: BTreeMap<State, u64>,
-    /// Resets that find it in a state.
+    /// The number of resets, by the state in which they come.
     resets: BTreeMap<State, u64>,
 }
 
@@ -143,7 +144,7 @@ fn story(design: &Design, recording: &Recording) -> Story {
             *story.loose.entry(state).or_default() += 1;
         }
         match state {
-            // An array with a ready takes nothing until it has completed its frame.
+            // An array with a `ready` output takes nothing until it has completed its frame.
             State::Fill if has_ready => {}
             State::Fill => had += 1,
             _ if !(valid && ready) => {}
@@ -180,7 +181,7 @@ fn the_vectors_damage_streams_in_every_state() {
     }
 }
 
-/// Whole frames with their marks are all that the sequences of other designs have.
+/// Without `sync`, designs have the same sequences without the damaged ones.
 #[test]
 fn without_it_the_vectors_are_what_they_were() {
     for keys in DESIGNS {

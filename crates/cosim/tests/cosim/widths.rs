@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Port widths of the emitted RPU and RCM, edited: the other half of the negative control, where the
-//! Verilog is refused and never simulated.
+//! Edited port widths of the emitted RPU and RCM. They are the part of the negative control in
+//! which the Verilog is refused and never simulated.
 
 use crate::common::{cosimulate, design, directed};
 use foveate_cosim::{CosimError, Level, Simulator};
 use foveate_design::Config;
 use foveate_toolchain::testing::require_tools;
 
-/// File, text that is there once, what takes its place, port, bits then, bits of the design.
+/// The file, a text that occurs once in it, its replacement, the port, its bits after the edit, and
+/// its bits in the design.
 const EDITS: [(&str, &str, &str, &str, u32, u32); 4] = [
     (
         "rpu",

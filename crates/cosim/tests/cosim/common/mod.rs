@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What the tests that run whole co-simulations share.
+//! Functions that several tests of whole co-simulations share.
 
 pub(crate) mod serial;
 pub(crate) mod vectors;
@@ -20,7 +20,7 @@ pub(crate) fn feature(kind: FeatureKind, mean_fraction_bits: u32) -> SpatialConf
     feature
 }
 
-/// What tells a configuration from others, but for what is of one organization alone.
+/// Returns the name of a configuration, from the keys that all organizations have.
 pub(crate) fn name(config: &Config) -> String {
     let kinds: Vec<_> = config.camera.spatial.iter().map(|s| s.feature.name()).collect();
     let blocks = config.camera.periphery.blocks.map_or(String::new(), |q| format!(" q={q}"));
@@ -39,7 +39,8 @@ pub(crate) fn name(config: &Config) -> String {
     )
 }
 
-/// The place on each axis of an item of a list that goes through all values of these axes, the last axis fastest.
+/// Returns the place on each axis of item `number` of a list that goes through all values of these
+/// axes, the last axis fastest.
 pub(crate) fn places(number: usize, axes: &[usize]) -> Vec<usize> {
     let mut behind: usize = axes.iter().product();
     let place = |axis: &usize| {
@@ -49,13 +50,15 @@ pub(crate) fn places(number: usize, axes: &[usize]) -> Vec<usize> {
     axes.iter().map(place).collect()
 }
 
-/// Of such a list a part in which every value of an axis still meets every value of any other; or the whole. It is one half, or one
-/// quarter if the first axis has four values and the last three have two.
+/// Returns a part of such a list in which every value of an axis still meets every value of any
+/// other axis; or the whole list if whole lists are taken. The part is one half, or one quarter if
+/// the first axis has four values and the last three have two.
 pub(crate) fn meeting<T>(list: Vec<T>, axes: &[usize]) -> Vec<T> {
     assert_eq!(list.len(), axes.iter().product::<usize>());
     let is_in = |number: usize| match *places(number, axes) {
         _ if takes_whole_lists() => true,
-        // The last two follow from the one before them and from a bit of the first each.
+        // The places on the last two axes follow from the one before them and from a bit of the
+        // first.
         [first, .., free, next, last] if axes[0] == 4 => {
             (free + first / 2 + next) % 2 == 0 && (free + first + last) % 2 == 0
         }
@@ -68,12 +71,12 @@ pub(crate) fn meeting<T>(list: Vec<T>, axes: &[usize]) -> Vec<T> {
         .collect()
 }
 
-/// One of all values of a key, by turns.
+/// Returns one of all values of a key, in turn.
 pub(crate) fn in_turn<T: Copy>(all: &[T], turn: usize) -> T {
     all[turn % all.len()]
 }
 
-/// The design of a configuration for a frame of that many regions.
+/// Returns the design of a configuration for a frame of the given grid of regions.
 pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
     let mut config = config.clone();
     let side = config.camera.region.size;
@@ -82,17 +85,17 @@ pub(crate) fn design(config: &Config, regions: (u32, u32)) -> Design {
     config.validate().unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// Whether every simulator is there.
+/// Returns true if every simulator is installed.
 pub(crate) fn simulators() -> bool {
     Simulator::ALL.iter().all(|simulator| require_tools(simulator.tools()))
 }
 
-/// Vectors without frames of the caller.
+/// Returns a stimulus without frames of the caller.
 pub(crate) fn directed(level: Level, rounds: u32) -> Stimulus {
     Stimulus { level, rounds, ..Stimulus::default() }
 }
 
-/// One co-simulation, whose replay folder goes below `output`.
+/// Runs one co-simulation; its replay folder is `output`.
 pub(crate) fn cosimulate(
     design: &Design,
     simulator: Simulator,
@@ -106,7 +109,7 @@ pub(crate) fn cosimulate(
     job.run(&Toolchain::system(), &Cache::from_env()?, &mut |_| {})
 }
 
-/// That a co-simulation finds no mismatch, or what it says.
+/// Checks that a co-simulation finds no mismatch. Fails with the report otherwise.
 pub(crate) fn agrees(
     what: &str,
     design: &Design,
@@ -121,8 +124,8 @@ pub(crate) fn agrees(
     }
 }
 
-/// Of planted faults that take long to build what every run of the tests plants: the first of each module, and each eighth of the
-/// others; or all.
+/// Returns the faults that every run of the tests plants, from a list that takes long to build: the
+/// first fault of each module, and each eighth of the others; or all if whole lists are taken.
 pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> Vec<&T> {
     let mut seen = BTreeSet::new();
     let numbered = faults.iter().enumerate();
@@ -131,7 +134,7 @@ pub(crate) fn sampled<T>(faults: &[T], module: impl Fn(&T) -> &'static str) -> V
     taken.map(|(_, fault)| fault).collect()
 }
 
-/// Does `work` for every item on every core; failures come back together.
+/// Does `work` for every item on all cores, and returns the failures of all items.
 pub(crate) fn in_parallel<T: Sync>(
     items: &[T],
     work: impl Fn(&T) -> Result<(), String> + Sync,

@@ -3,7 +3,7 @@
 
 use foveate_design::{CameraConfig, Config, Organization, SpatialConfig};
 
-/// A serial design with these features; everything else is the paper's.
+/// Returns a serial configuration with these features; all other keys are the paper's.
 pub(crate) fn config(features: &[SpatialConfig]) -> Config {
     let mut config =
         Config::from(CameraConfig { spatial: features.to_vec(), ..CameraConfig::default() });
@@ -11,7 +11,7 @@ pub(crate) fn config(features: &[SpatialConfig]) -> Config {
     config
 }
 
-/// What tells it from others.
+/// Returns the name of a serial configuration and its grid.
 pub(crate) fn name(config: &Config, grid: (u32, u32)) -> String {
     format!(
         "{} {:?} {:?} fold {} of {}x{}",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Reads a recording back.
+//! Functions that read a recording.
 
 use foveate_cosim::{Field, Layout, Recording};
 use foveate_design::PortRole;
@@ -9,7 +9,7 @@ pub(crate) fn field(layout: &Layout, role: PortRole) -> &Field {
     layout.fields().iter().find(|field| field.port.role == role).unwrap()
 }
 
-/// Input and expected output records, clock by clock.
+/// Returns the input and the expected output records, clock by clock.
 pub(crate) fn clocks(recording: &Recording) -> Vec<(Vec<u8>, Vec<u8>)> {
     let inputs = std::fs::read(recording.inputs_path()).unwrap();
     let outputs = std::fs::read(recording.expected_path()).unwrap();
@@ -20,13 +20,13 @@ pub(crate) fn clocks(recording: &Recording) -> Vec<(Vec<u8>, Vec<u8>)> {
     inputs.zip(outputs).map(|(a, b)| (a.to_vec(), b.to_vec())).collect()
 }
 
-/// The value of a port with one lane; 0 where there is no such port.
+/// Returns the value of a port with one lane, or 0 if there is no such port.
 pub(crate) fn value(layout: &Layout, role: PortRole, record: &[u8]) -> u64 {
     layout.fields().iter().find(|field| field.port.role == role).map_or(0, |f| f.get(record, 0))
 }
 
-/// What the decisions of each region are, each with the one before it or the reset; of an array of which all regions are decided
-/// at once, those of the first.
+/// Returns the pairs of successive decisions of a region; the first decision after a reset is
+/// paired with `reset`. If all regions are decided at once, only the first region counts.
 pub(crate) fn pairs_of_decisions(recording: &Recording) -> BTreeSet<(&'static str, &'static str)> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let (mut before, mut found) = (BTreeMap::new(), BTreeSet::new());
