@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What a receiver that sees only the ports knows of every region: whole, ended early, or lost; and whether the vectors of
-//! raster cores show every way in which a region is lost.
+//! The fate of every region for a receiver that sees only the ports: whole, ended early, or lost.
+//! The vectors of raster cores must contain every way in which a region is lost.
 
 use std::collections::{BTreeMap, VecDeque};
 
@@ -13,8 +13,9 @@ use foveate_design::{
 };
 use foveate_frame::Frame;
 
-/// Regions of frames of which some are lost: plain and deep, with a second pass and without, references of both kinds, the
-/// fewest words that a region has, fewer rows of regions than the buffer keeps, and means beside pixels.
+/// Returns designs with frames of which some regions are lost: plain and deep, with and without a
+/// second pass, with both kinds of references, the fewest words that a region can have, fewer rows
+/// of regions than the buffer keeps, and means beside pixels.
 fn designs() -> Vec<Design> {
     let of = |kind, (size, pixels), grid, more: &dyn Fn(&mut Config)| {
         let mut config = Config::from(CameraConfig {
@@ -55,40 +56,40 @@ fn record(design: &Design) -> Recording {
     directed(Level::Full, 6).record(design, &mut |_, _| {}).unwrap()
 }
 
-/// Region and number of its frame, as the ports say.
+/// The index of a region and the number of its frame, as the ports show them.
 type Name = (u64, u64);
 
-/// What became of a region that sends something.
+/// The fate of a region that sends something.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 enum Fate {
     Whole,
-    /// A word with abort ended it, and it was named as lost.
+    /// A word with `abort` ended it, and it was reported as lost.
     Aborted,
-    /// It was named as lost; no word of it left.
+    /// It was reported as lost; no word of it left.
     Lost,
-    /// A reset came before.
+    /// A reset came before its end.
     Open,
 }
 
-/// A receiver: it sees ports, and believes nothing that it did not see.
+/// A receiver that sees only the ports.
 struct Receiver<'a> {
     design: &'a Design,
-    /// Frames decided since reset.
+    /// The number of frames decided since reset.
     frames: u64,
-    /// Regions that send something in the order of their decisions, until it is known what became of them; and whether
-    /// that is their summary.
+    /// The regions that send something and whose fate is not yet known, in the order of their
+    /// decisions. The flag is true for a summary.
     waiting: VecDeque<(Name, bool)>,
-    /// Regions that were named as lost, and of which no word with abort has come.
+    /// The regions that were reported as lost and for which no word with `abort` has come.
     lost: Vec<Name>,
-    /// The region of which words come, and the position of the next.
+    /// The region whose words are coming, and the position of the next word.
     open: Option<(Name, u64)>,
     fates: BTreeMap<Fate, u64>,
-    /// How regions are lost in the middle: waiting for the sink, as a word is taken, with a single word, and one after the
-    /// other.
+    /// The number of losses in the middle: while the last word waits for the sink, as it comes to
+    /// the ports, with a single word, and one after another.
     ways: [u64; 4],
-    /// Words with abort that were taken at once, and later.
+    /// The number of words with `abort` that were taken at once, and of those taken later.
     taken: [u64; 2],
-    /// Summaries that came whole, ended early, and were lost before.
+    /// The number of summaries that came whole, that ended early, and that were lost as a whole.
     summaries: [u64; 3],
     after_abort: bool,
 }
@@ -122,7 +123,7 @@ impl<'a> Receiver<'a> {
         (self.open, self.frames, self.after_abort) = (None, 0, false);
     }
 
-    /// A region is decided.
+    /// Records the decision of a region.
     fn decide(&mut self, region: u64, active: bool, summary: bool) {
         assert!(!(active && summary), "{region}");
         if active || summary {
@@ -131,7 +132,8 @@ impl<'a> Receiver<'a> {
         self.frames += u64::from(region + 1 == u64::from(self.design.regions()));
     }
 
-    /// The position of the word behind that of a position: of the next pixels, or of the next block. None behind the last.
+    /// Returns the position of the word after `position`: of the next pixels, or of the next block.
+    /// Returns `None` after the last word.
     fn next(&self, position: u64, summary: bool) -> Option<u64> {
         let side = u64::from(self.design.region_size());
         let word = u64::from(self.design.raster().unwrap().pixels_per_clock());
@@ -146,11 +148,11 @@ impl<'a> Receiver<'a> {
         (next < side * side).then_some(next)
     }
 
-    /// A word is taken.
+    /// Records a word that is taken.
     fn take(&mut self, name: Name, position: u64, [first, last, abort]: [bool; 3], summary: bool) {
         assert_eq!(first, self.open.is_none(), "{name:?}");
         if first {
-            // Those before it were lost as a whole.
+            // The regions before this one were lost as a whole.
             while self.waiting.front() != Some(&(name, summary)) {
                 let (before, summary) =
                     self.waiting.pop_front().expect("it was decided, and not settled");
@@ -182,7 +184,8 @@ impl<'a> Receiver<'a> {
         self.settle(if abort { Fate::Aborted } else { Fate::Whole });
     }
 
-    /// Everything has left: those that wait were lost as a whole, and it was said of each.
+    /// Checks the end of a sequence: everything has left, so the waiting regions were lost as a
+    /// whole and each was reported.
     fn end(&mut self) {
         assert_eq!(self.open, None);
         assert_eq!(self.lost, self.waiting.drain(..).map(|(name, _)| name).collect::<Vec<_>>());
@@ -266,7 +269,7 @@ fn every_region_is_whole_or_ends_early_or_is_named_as_lost() {
     assert!(together > 200, "{together} ended early after another that did");
 }
 
-/// A frame of one row of regions, 260 times.
+/// The frame number wraps around after 256 frames of one row of regions.
 #[test]
 fn numbers_of_frames_begin_again_after_256() {
     if !simulators() {

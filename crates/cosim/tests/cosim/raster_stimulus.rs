@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether the vectors of raster designs hit what they are meant to hit, and keep to the contract in what
-//! they offer; no tool is needed for that.
+//! The vectors of raster designs reach their targets, and their inputs keep to the contract. No
+//! tool is needed for that.
 
 use std::collections::BTreeSet;
 
@@ -13,7 +13,7 @@ use foveate_design::{
 };
 use foveate_frame::Frame;
 
-/// Small, with two features, the last of them this.
+/// Returns a small design with two features, the last of which is `last`.
 fn config(last: FeatureKind) -> Config {
     let features = [feature(FeatureKind::Edge, 0), feature(last, 1)];
     let mut config =
@@ -24,7 +24,8 @@ fn config(last: FeatureKind) -> Config {
     config
 }
 
-/// With a second pass; without one, in words; and a frame that waits for the pixels of the one before.
+/// Returns three designs: one with a second pass, one with words of two pixels and without a second
+/// pass, and one whose frames wait for the pixels of the frame before.
 fn designs() -> [Design; 3] {
     let mut wide = config(FeatureKind::Variance);
     wide.hardware.pixels_per_clock = Some(2);
@@ -34,15 +35,15 @@ fn designs() -> [Design; 3] {
     [design(&config(FeatureKind::Mad), (4, 5)), design(&wide, (8, 4)), design(&small, (4, 2))]
 }
 
-/// One clock of a recording, as the contract sees it.
+/// One clock of a recording.
 struct Clock {
     reset: bool,
     valid: bool,
-    /// A word is taken at the edge of this clock.
+    /// True if a word is taken at the edge of this clock.
     takes: bool,
-    /// Words of a frame were taken before this clock, and not all of it is over.
+    /// True if words of a frame were taken before this clock, and the frame is not over.
     under_way: bool,
-    /// Not all of its words.
+    /// True if some but not all words of a frame were taken before this clock.
     loading: bool,
     word: u64,
     thresholds: Vec<u64>,
@@ -173,7 +174,7 @@ fn resets_come_everywhere() {
         let outputs = recording.outputs();
         let shows = |role, clock: &Clock| value(outputs, role, &clock.before) == 1;
         let story = story(&design, &recording);
-        // The first is at power-up.
+        // The first reset is at power-up.
         let resets: Vec<&Clock> = story.iter().skip(1).filter(|clock| clock.reset).collect();
         let count =
             |which: &dyn Fn(&Clock) -> bool| resets.iter().filter(|clock| which(clock)).count();
@@ -185,7 +186,8 @@ fn resets_come_everywhere() {
     assert!(lost > 5, "{lost} after losses");
 }
 
-/// The lone core has 4x3 regions of 4x4 pixels: two tiles side by side, the second partly beyond the frame.
+/// The lone core has 4x3 regions of 4x4 pixels. The frame has two tiles side by side, and the
+/// second lies partly beyond the frame.
 #[test]
 fn frames_of_the_caller_go_through_the_lone_core_tile_by_tile() {
     let design = design(&config(FeatureKind::Mad), (6, 3));
@@ -201,7 +203,7 @@ fn frames_of_the_caller_go_through_the_lone_core_tile_by_tile() {
     assert_eq!(words.len(), 4 * 16 * 12);
     assert_eq!(words[14..18], [14, 15, 16, 17]);
     assert_eq!(words[16 * 12..][..2], [0, 1], "the frame after");
-    // Columns 16 to 23, then the last column repeated.
+    // The row has columns 16 to 23, then the last column repeated.
     let row: Vec<u64> = (16..24).chain([23; 8]).collect();
     assert_eq!(words[2 * 16 * 12..][..16], row, "the second tile");
 }

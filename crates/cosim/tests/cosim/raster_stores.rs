@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Raster cores whose frame store is outside or of one port, and cores without forwarding: what their vectors hold,
-//! and whether model and RTL agree.
+//! Raster cores with an external or a single-port frame store, and cores without forwarding: the
+//! contents of their vectors, and the agreement of model and RTL.
 
 use std::collections::VecDeque;
 
@@ -13,7 +13,7 @@ use foveate_design::{
 };
 use foveate_toolchain::testing::takes_whole_lists;
 
-/// Regions of 4x4 pixels with these features.
+/// Returns a configuration with an external store and regions of 4x4 pixels with these features.
 fn config(kinds: &[FeatureKind]) -> Config {
     let spatial = kinds.iter().map(|&kind| feature(kind, 1)).collect();
     let mut config = Config::from(CameraConfig { spatial, ..CameraConfig::default() });
@@ -23,7 +23,8 @@ fn config(kinds: &[FeatureKind]) -> Config {
     config
 }
 
-/// A store outside: in both pipelinings, in words of one and two pixels, with a second pass.
+/// Returns designs with an external store: plain and deep, with words of one and two pixels, and
+/// with a second pass.
 fn outside() -> [Design; 3] {
     let plain = config(&[FeatureKind::Edge, FeatureKind::Variance]);
     let mut deep = config(&[FeatureKind::Corner]);
@@ -40,27 +41,27 @@ fn record(design: &Design, rounds: u32) -> Recording {
     directed(Level::Full, rounds).record(design, &mut |_, _| {}).unwrap()
 }
 
-/// What a sequence did with the references that the core asked for.
+/// The references that the core asked for in a sequence.
 #[derive(Debug, Default)]
 struct Story {
     name: String,
-    /// Words that were valid and those that were stored a frame before.
+    /// The number of valid words that equal those stored a frame earlier.
     right: u64,
-    /// Words that were valid and are not.
+    /// The number of valid words that differ from those stored a frame earlier.
     wrong: u64,
-    /// Words that were not valid.
+    /// The number of requested words that were not valid.
     missing: u64,
-    /// Words that were valid at edges at which the core asked for none.
+    /// The number of valid words at edges at which the core asked for none.
     unasked: u64,
-    /// The number of the first that was missing or wrong.
+    /// The index of the first word that was missing or wrong.
     first: Option<u64>,
-    /// Whether the sequence ended with `reference_ready_o`.
+    /// True if the sequence ended with `reference_ready_o`.
     ends_asking: bool,
-    /// Whether it ended with `underrun_o`.
+    /// True if the sequence ended with `underrun_o`.
     ends_in_underrun: bool,
 }
 
-/// Checks at every clock what the contract says about the ports, and tells every sequence.
+/// Checks the ports against the contract at every clock, and returns the counts of every sequence.
 fn stories(design: &Design, recording: &Recording) -> Vec<Story> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let words = RasterTiming::of(design.raster().unwrap()).words();
@@ -103,7 +104,8 @@ fn stories(design: &Design, recording: &Recording) -> Vec<Story> {
         if shows(PortRole::StoreValid) {
             stored.push_back(value(outputs, PortRole::StorePixel, &output));
         }
-        // Of a frame as many are stored as of the frame before are asked for, or it is the first.
+        // In each frame as many words are stored as are requested of the frame before, except in
+        // the first frame.
         assert!(stored.len() as u64 <= words + 2, "clock {clock}");
         before = output;
     }
@@ -128,11 +130,11 @@ fn the_memory_gives_back_what_was_stored_but_where_it_fails() {
         }
         assert!(right > 10_000 && underruns >= 9, "{right} {underruns}");
         for story in of("late references") {
-            // From the first on that was late, words are off by one; two were.
+            // Words are off by one after each of the two that were late.
             assert!(story.missing == 2 && story.wrong > 100, "{story:?}");
         }
         for story in of("lost references") {
-            // Those that come are those that are due.
+            // The words that come are those that are due.
             assert!(story.missing == 2 && story.wrong == 0, "{story:?}");
         }
         for story in of("wrong references") {
@@ -147,7 +149,7 @@ fn the_memory_gives_back_what_was_stored_but_where_it_fails() {
     }
 }
 
-/// What a reference that is wrong does is seen in the scores.
+/// A wrong reference changes scores.
 #[test]
 fn wrong_references_change_what_is_decided() {
     let [design, ..] = outside();
@@ -156,7 +158,7 @@ fn wrong_references_change_what_is_decided() {
         config.hardware.store = Some(Store::Block);
         record(&config.validate().unwrap(), 1)
     });
-    // The sequences of both are the same until the first that fails.
+    // The sequences of both recordings are equal up to the first one with a faulty store.
     let counts = |recording: &Recording| -> Vec<(String, u64)> {
         let outputs = recording.outputs();
         let decided = (0..)
@@ -197,7 +199,8 @@ fn without_forwarding_there_are_no_forward_columns() {
     assert!(seen > 100, "{seen} active regions");
 }
 
-/// Designs of one store, with or without forwarding: features x words x pipelining, and the other keys in turn.
+/// Returns the designs of one store, with or without forwarding: features x words x pipelining,
+/// with the other keys in turn.
 fn matrix(store: Store, forward: bool) -> Vec<Design> {
     use FeatureKind::{Corner, Edge, Mad, Variance};
     let sets: [&[FeatureKind]; 5] =
@@ -218,7 +221,7 @@ fn matrix(store: Store, forward: bool) -> Vec<Design> {
             config.hardware.thresholds =
                 [Thresholds::Runtime, Thresholds::Runtime, Thresholds::Constant][turn % 3];
             let columns = (16 * pixels).div_ceil(size).max(4);
-            // Ragged on the right and below, every other one.
+            // Every second frame does not fill its last column and row of regions.
             let odd = u32::try_from(turn % 2).unwrap();
             config.camera.frame.width = Some(columns * size - odd);
             config.camera.frame.height = Some(3 * size - 2 * odd);
@@ -233,14 +236,16 @@ fn check_all(store: Store, forward: bool) {
         return;
     }
     let output = tempfile::tempdir().unwrap();
-    // Of each set of features one, plain and deep by turns: the other where pixels are forwarded.
+    // One design of each set of features is taken, plain and deep in turn; with forwarding, the
+    // other one.
     let turns = if forward { [1, 2] } else { [0, 3] };
     let taken = |number: usize| takes_whole_lists() || turns.contains(&(number % 4));
     let designs =
         matrix(store, forward).into_iter().enumerate().filter(|&(number, _)| taken(number));
     let designs: Vec<Design> = designs.map(|(_, design)| design).collect();
     let failures = in_parallel(&designs, |design| {
-        // Icarus knows unknown values, and takes long for wide words: those of one pixel, plain and deep.
+        // Icarus has unknown values, but is slow for wide words. It simulates words of one pixel,
+        // plain and deep.
         let is_narrow = design.config().hardware.pixels_per_clock == Some(1);
         let simulator = if is_narrow { Simulator::Iverilog } else { Simulator::Verilator };
         let folder = output.path().join(design.fingerprint());

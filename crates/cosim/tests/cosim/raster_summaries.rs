@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Model against emitted RTL of raster cores whose irrelevant regions send their means; what their vectors show of it.
+//! Raster cores whose irrelevant regions send their means: model against emitted RTL, and the
+//! contents of their vectors.
 
 use std::collections::BTreeMap;
 
@@ -13,8 +14,10 @@ fn design(keys: &[&str]) -> Design {
     Config::from_toml_with("", &[keys, &own[..]].concat()).unwrap().validate().unwrap()
 }
 
-/// Blocks of one pixel and of sides that are no power of two, one to four words of a row of a block, one to sixteen blocks; a second
-/// pass, raw pixels, the pixels last sent, stores of all kinds; frames that fill no region, and few rows that wait.
+/// Returns designs with blocks of one pixel and of sides that are no power of two, one to four
+/// words per row of a block, and one to sixteen blocks. They include a second pass, raw pixels,
+/// `last-sent` references, stores of all kinds, frames that do not fill their last regions, and few
+/// waiting rows.
 fn designs() -> Vec<Design> {
     [
         &["frame={width=16,height=16,pixel_bits=1}", "region.size=4", "periphery.blocks=4"][..],
@@ -84,7 +87,8 @@ fn raster_cores_with_summaries_agree() {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Summaries that are sent and that stay after one that was sent, after pixels, after nothing, and after a loss.
+/// Summaries are sent after nothing, pixels, a summary and a lost summary. They stay only after a
+/// summary that was sent.
 #[test]
 fn summaries_are_sent_and_stay_whatever_was_before() {
     #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -131,15 +135,16 @@ fn summaries_are_sent_and_stay_whatever_was_before() {
         for before in [Before::Nothing, Before::Pixels] {
             assert!(count(before, true) > 10 && count(before, false) == 0, "{told}");
         }
-        // Where frames wait for what is pending, nothing is lost; else a lost summary is sent again.
+        // If frames wait for pending regions, nothing is lost; otherwise a lost summary is sent
+        // again.
         let waits = design.timing().departure().kept_rows.is_none();
         assert_eq!(count(Before::LostSummary, true) > 5, !waits, "{told}");
         assert_eq!(count(Before::LostSummary, false), 0, "{told}");
     }
 }
 
-/// A summary is shown on while its region is held, relevant and unchanged: irrelevant again, the region sends nothing, or means that
-/// differ. Thresholds that are built in cannot be aimed at that.
+/// A summary stays on the screen while its region is held. When the region is irrelevant again, it
+/// sends nothing, or means that differ. Constant thresholds cannot be aimed at this case.
 #[test]
 fn summaries_stay_while_their_regions_are_held() {
     let plain = ["frame={width=16,height=15}", "region.size=4", "denoise.filter='none'"];

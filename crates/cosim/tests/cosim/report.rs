@@ -71,7 +71,7 @@ fn a_mismatch_names_everything() {
     );
 }
 
-/// A summary of these runs, with a file that none of them reached or without.
+/// Returns a summary of these runs; with `spare`, a file was reached by none of them.
 fn summary(runs: Vec<CosimReport>, spare: bool, whole: bool) -> Summary {
     let (file, modules) = ("rtl/spare.v".to_owned(), vec!["spare".to_owned()]);
     let modules = if spare { vec![NotSimulated { file, modules }] } else { Vec::new() };
@@ -82,7 +82,7 @@ fn summary_of(runs: Vec<CosimReport>, left: Left, whole: bool) -> Summary {
     Summary::new("0123456789abcdef".to_owned(), runs, Vec::new(), left, whole)
 }
 
-/// A parameter value that no run has elaborated is no pass, in words, JSON and JUnit.
+/// A parameter value that no run has elaborated is not a pass, in words, JSON and JUnit.
 #[test]
 fn a_parameter_value_that_was_not_elaborated_is_no_pass() {
     let left = || {
@@ -169,6 +169,6 @@ fn a_situation_that_did_not_occur_is_no_pass() {
     };
     assert_eq!(verdict(vec![counted(0)]), Verdict::Incomplete);
     assert_eq!(verdict(vec![counted(3)]), Verdict::Passed);
-    // One run may reach what another cannot.
+    // One run may reach a situation that another cannot.
     assert_eq!(verdict(vec![counted(0), counted(1)]), Verdict::Passed);
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Both organizations and the functional model: the same integers from the same frames. Each RTL is
-//! simulated against vectors of its own model, and what these vectors say is read back as
-//! scores, decisions and pixels.
+//! All organizations and the functional model compute the same integers from the same frames. Each
+//! RTL is simulated against vectors of its own model, and scores, decisions and pixels are read
+//! from these vectors.
 
 use crate::common;
 use crate::common::serial::config;
@@ -18,20 +18,21 @@ use foveate_scenes::{Scene, SceneSize};
 use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Toolchain};
 
-/// What became of one region of one frame.
+/// The result of one region in one frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Result {
     count: u64,
     scores: Vec<u64>,
     srs: bool,
     trs: bool,
-    /// Its summary is sent.
+    /// True if its summary is sent.
     summary: bool,
-    /// What leaves: the pixels of an active region, the means of one whose summary is sent.
+    /// The words that leave: the pixels of an active region, or the means of a region whose summary
+    /// is sent.
     sent: Vec<u64>,
 }
 
-/// The pixel of its block at which a mean stands.
+/// The pixel of a block whose position a mean has.
 #[derive(Clone, Copy, PartialEq)]
 enum Place {
     First,
@@ -39,14 +40,14 @@ enum Place {
 }
 
 impl Result {
-    /// How many words leave: pixels and means.
+    /// Returns the number of values that leave: pixels and means.
     fn words(&self, design: &Design) -> usize {
         let pixels = if self.srs && self.trs { design.region_pixels() } else { 0 };
         let means = if self.summary { design.periphery().unwrap().means() } else { 0 };
         (pixels + means) as usize
     }
 
-    /// The number in the region of the pixel at which the next word stands.
+    /// Returns the position in the region of the next word.
     fn next_position(&self, design: &Design, of_block: Place) -> u64 {
         let number = self.sent.len() as u64;
         let Some(periphery) = design.periphery().filter(|_| self.summary) else { return number };
@@ -57,7 +58,7 @@ impl Result {
     }
 }
 
-/// Frame after frame, region after region.
+/// The results, frame by frame and region by region.
 type Results = Vec<Vec<Result>>;
 
 fn functional(design: &Design, frames: &[Frame]) -> Results {
@@ -119,7 +120,7 @@ fn pipelined(design: &Design, recording: &Recording, frames: usize) -> Results {
             }
         }
     }
-    // What follows the caller's frames lets the last of them leave.
+    // The frames that follow the caller's frames let the last of them leave.
     results.truncate(frames);
     for results in &mut results {
         for (result, forwarded) in results.iter_mut().zip(&mut forwarded) {
@@ -213,7 +214,8 @@ fn raster(design: &Design, recording: &Recording) -> Results {
     results
 }
 
-/// Simulates the RTL of both organizations on the frames, and compares what all three say.
+/// Simulates the RTL of the pipelined and serial organizations on the frames, and compares both
+/// results with the functional model.
 fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(), String> {
     let design = |organization, feed, fold| {
         let mut config = config.clone();
@@ -256,7 +258,7 @@ fn check(config: &Config, frames: &[Frame], what: &str) -> std::result::Result<(
     Ok(())
 }
 
-/// Hard cases, each over the whole frame, with repetitions and small changes between them.
+/// Returns hard cases, each over the whole frame, with repetitions and small changes between them.
 fn hard_cases(width: u32, height: u32, bits: u32) -> Vec<Frame> {
     let max = u16::try_from((1u32 << bits) - 1).unwrap();
     let noise = |x: u32, y: u32, seed: u32| {
@@ -315,7 +317,7 @@ fn hard_cases_give_the_same_in_both_organizations() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// What the vectors of a raster core say.
+/// The vectors of a raster core have the results of the functional model.
 #[test]
 fn the_vectors_of_a_raster_core_give_the_same() {
     for (turn, mut config) in configs().into_iter().enumerate() {
@@ -339,7 +341,8 @@ fn the_vectors_of_a_raster_core_give_the_same() {
     }
 }
 
-/// The same of cores whose frame store is of one port or outside, and of cores from which no pixels leave.
+/// The vectors of raster cores with a single-port or external frame store, and of cores without
+/// forwarding, have the results of the functional model.
 #[test]
 fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
     for (turn, mut config) in configs().into_iter().enumerate() {
@@ -350,7 +353,7 @@ fn the_vectors_of_a_raster_core_give_the_same_whatever_its_store_is() {
         config.camera.temporal.reference = Reference::Previous;
         config.hardware.organization = Organization::Raster;
         config.hardware.pipelining = Some(in_turn(Pipelining::ALL, turn));
-        // Summaries have to leave.
+        // Summaries need forwarding.
         let may_keep = config.camera.render.irrelevant != Irrelevant::Mean;
         let stores = [(Store::SinglePort, true), (Store::External, true), (Store::External, false)];
         for (store, forward) in stores.into_iter().filter(|&(_, forward)| forward || may_keep) {

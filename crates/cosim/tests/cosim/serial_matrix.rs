@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Model against emitted RTL for serial designs: one lane and small arrays. Frames take thousands of
-//! clocks, so that the keys are not crossed but take turns, each at a pace of its own.
+//! Model against emitted RTL for serial designs: one lane and small arrays. Frames take thousands
+//! of clocks, so the keys are not crossed. They take turns, each with its own period.
 
 use crate::common::serial::{config, name};
 use crate::common::{agrees, design, directed, feature, in_parallel, in_turn, meeting, simulators};
@@ -12,14 +12,15 @@ use foveate_design::{
 
 use FeatureKind::{Corner, Edge, Mad, Variance};
 
-/// A design at a level, the grid of `rcm` being that of its frame.
+/// A design at a level; the grid of level `rcm` is that of its frame.
 struct Case {
     config: Config,
     grid: (u32, u32),
     level: Level,
 }
 
-/// From so much work on (clocks of a frame x lanes), the time to build with Verilator is won back.
+/// The work (clocks of a frame x lanes) from which on Verilator's build takes less time than it
+/// saves.
 const COMPILED_FROM: u64 = 1000;
 
 impl Case {
@@ -62,7 +63,7 @@ fn check_all(cases: &[Case]) {
     assert!(failures.is_empty(), "{} failed:\n{}", failures.len(), failures.join("\n"));
 }
 
-/// Lets the keys that are no axis of a test take turns.
+/// Sets the keys that are no axis of a test, in turn.
 fn with_turns(mut config: Config, turn: usize) -> Config {
     config.camera.render.irrelevant = Irrelevant::ALL[turn / 2 % Irrelevant::ALL.len()];
     config.camera.render.payload = in_turn(Payload::ALL, turn / 3);
@@ -70,7 +71,8 @@ fn with_turns(mut config: Config, turn: usize) -> Config {
     config
 }
 
-/// One lane: every feature x filter x neighborhood x reference, and sizes, feeds and folds in turn.
+/// One lane agrees for every feature x filter x neighborhood x reference, with sizes, feeds and
+/// folds in turn.
 #[test]
 fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
     let mut cases = Vec::new();
@@ -95,8 +97,8 @@ fn one_lane_agrees_for_every_feature_filter_neighborhood_and_reference() {
     check_all(&meeting(cases, &[4, 2, 2, 2]));
 }
 
-/// Small arrays: feed x neighborhood x fold, among them folds that leave empty slots, and every region in
-/// one lane; features alone and together.
+/// Small arrays agree for every feed x neighborhood x fold. Some folds leave empty slots, and some
+/// put every region into one lane. Features are alone and together.
 #[test]
 fn arrays_agree_for_every_feed_neighborhood_and_fold() {
     let sets: [&[FeatureKind]; 7] = [
@@ -138,7 +140,7 @@ fn arrays_agree_for_every_feed_neighborhood_and_fold() {
     check_all(&meeting(cases, &[2, 2, 7]));
 }
 
-/// Other depths and sizes, block memory, built-in thresholds.
+/// Other depths and sizes, block memory and constant thresholds agree.
 #[test]
 fn depths_sizes_memories_and_constants_agree() {
     let mut cases = Vec::new();
@@ -158,7 +160,8 @@ fn depths_sizes_memories_and_constants_agree() {
         config.hardware.fold = 1 + u32::try_from(turn % 2).unwrap();
         cases.push(Case::array(config, (2, 1)));
     }
-    // Memory: distributed up to 128 LUTs, so block for the larger regions and folds.
+    // The memory is distributed up to 128 LUTs, so it is block memory for the larger regions and
+    // folds.
     for (turn, (size, fold)) in
         [(8, 1), (8, 6), (16, 1), (16, 2), (5, 5), (7, 2)].into_iter().enumerate()
     {
@@ -189,7 +192,8 @@ fn depths_sizes_memories_and_constants_agree() {
     check_all(&cases);
 }
 
-/// More registers: every filter x reference x feed x memory, with features whose words have a register and without.
+/// Deep arrays agree for every filter x reference x feed x memory, with features whose words have a
+/// register and without.
 #[test]
 fn deep_arrays_agree() {
     let sets: [&[FeatureKind]; 5] =
@@ -220,8 +224,8 @@ fn deep_arrays_agree() {
     check_all(&meeting(cases, &[2; 4]));
 }
 
-/// Means of blocks where there is more to them than that: one pixel, 3x3 pixels, the whole region, many words; a feature that
-/// keeps sums and one that does not; what leaves is raw, by each feed, of each memory.
+/// Summaries agree in special cases: blocks of one pixel, of 3x3 pixels and of the whole region,
+/// many words, features with and without sums, and raw pixels, with each feed and each memory.
 #[test]
 fn summaries_agree() {
     let (distributed, block) = (MemoryKind::Distributed, MemoryKind::Block);
@@ -264,8 +268,8 @@ fn summaries_agree() {
     check_all(&cases);
 }
 
-/// The memory that the configuration names, where the rule would choose the other kind: every filter x
-/// reference x feed, block memory for small regions, distributed for large ones.
+/// A memory that the configuration names agrees if the rule would choose the other kind: for every
+/// filter x reference x feed, block memory for small regions and distributed memory for large ones.
 #[test]
 fn the_memory_that_is_named_agrees() {
     let mut cases = Vec::new();

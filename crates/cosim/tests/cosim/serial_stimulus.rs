@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether the vectors of serial designs hit what they are meant to hit, and keep to the contract in what
-//! they offer; no tool is needed for that.
+//! The vectors of serial designs reach their targets, and their inputs keep to the contract. No
+//! tool is needed for that.
 
 use crate::common;
 use crate::common::serial::config;
@@ -21,7 +21,7 @@ fn record(design: &Design, stimulus: &Stimulus) -> Recording {
     stimulus.record(design, &mut |_, _| {}).unwrap()
 }
 
-/// Small, with every feature, against the pixels last sent.
+/// Returns a small configuration with every feature and `last-sent` references.
 fn every_feature() -> Config {
     let features: Vec<_> = FeatureKind::ALL.iter().map(|&kind| feature(kind, 2)).collect();
     let mut config = config(&features);
@@ -31,7 +31,8 @@ fn every_feature() -> Config {
     config
 }
 
-/// One of each feed; the raster has a halo and a fold that leaves slots empty.
+/// Returns one design of each feed. The one with the raster feed has a halo, and a fold that leaves
+/// slots empty.
 fn designs() -> [Design; 2] {
     let mut raster = every_feature();
     raster.hardware.feed = Some(Feed::Raster);
@@ -40,26 +41,26 @@ fn designs() -> [Design; 2] {
     [every_feature(), raster].map(|config| design(&config, GRID))
 }
 
-/// One clock of a recording, as the contract sees it.
+/// One clock of a recording.
 struct Clock {
     reset: bool,
     valid: bool,
-    /// A pixel is taken at the edge of this clock.
+    /// True if a pixel is taken at the edge of this clock.
     takes: bool,
-    /// It is the first of a frame.
+    /// True if that pixel is the first of a frame.
     first: bool,
     thresholds: Vec<u64>,
     input: Vec<u8>,
     output: Vec<u8>,
     /// The outputs of the clock before.
     before: Vec<u8>,
-    /// A frame was complete before this clock, and the array not yet ready again.
+    /// True if a frame was complete before this clock, and the array is not yet ready again.
     at_work: bool,
-    /// Pixels were taken before this clock, and not all of a frame.
+    /// True if some but not all pixels of a frame were taken before this clock.
     loading: bool,
 }
 
-/// What happens in a recording; whether a pixel is taken follows from the expected `ready_o`.
+/// Returns the clocks of a recording. A pixel is taken if the expected `ready_o` was 1.
 fn story(design: &Design, recording: &Recording) -> Vec<Clock> {
     let (inputs, outputs) = (recording.inputs(), recording.outputs());
     let timing = SerialTiming::of(design.serial().unwrap());
@@ -173,7 +174,7 @@ fn resets_come_everywhere() {
     }
 }
 
-/// What the outputs say about one region of one frame.
+/// The outputs for one region of one frame.
 struct Verdict {
     frame: usize,
     region: u64,
@@ -216,8 +217,8 @@ fn verdicts(design: &Design, recording: &Recording) -> Vec<Verdict> {
     done
 }
 
-/// Every threshold of a decision must have been met exactly, missed by one, and passed by one, in more
-/// than one region.
+/// Every threshold of a decision is met exactly, missed by one, and passed by one, in more than one
+/// region.
 #[test]
 fn decisions_are_made_on_below_and_above_their_minima() {
     for design in designs() {
@@ -236,8 +237,8 @@ fn decisions_are_made_on_below_and_above_their_minima() {
     }
 }
 
-/// Regions of one frame differ in what they are and in what they were: relevant or not, active or
-/// not, with a reference or without; and every region is everything once.
+/// The regions of one frame differ in their states: relevant or not, active or not, with or without
+/// a reference. Every region is in every state at least once.
 #[test]
 fn regions_of_a_frame_are_in_different_states() {
     for design in designs() {
@@ -279,7 +280,7 @@ fn scores_reach_their_largest_values() {
     }
 }
 
-/// The largest gradient there is, with the level just below it, and on it: one round has both.
+/// One round contains the largest gradient with a level just below it and with a level equal to it.
 #[test]
 fn the_largest_gradient_meets_its_level() {
     for bits in [1, 3, 8, 16] {
@@ -310,7 +311,7 @@ fn fields_of(layout: &Layout) -> Vec<&str> {
     layout.fields().iter().map(|field| field.port.name.as_str()).collect()
 }
 
-/// Lane after lane of the frame goes through the one lane, with as many regions as share it.
+/// The lanes of the frame go through the one lane in order, with as many regions as share it.
 #[test]
 fn frames_of_the_caller_are_streamed_lane_by_lane() {
     let mut config = every_feature();
@@ -328,14 +329,14 @@ fn frames_of_the_caller_are_streamed_lane_by_lane() {
     let taken = story(&lane, &recording).into_iter().filter(|clock| clock.takes);
     let pixel = |clock: Clock| value(recording.inputs(), PortRole::Pixel, &clock.input);
     let pixels: Vec<u64> = taken.map(pixel).collect();
-    // Slot 0 shows the first four columns, row by row, then slot 1 the next four.
+    // Slot 0 shows the first four columns in row-major order, then slot 1 the next four.
     assert_eq!(pixels[..5], [0, 4, 8, 12, 1]);
     assert_eq!(pixels[16..20], [16, 20, 24, 28]);
     assert_eq!(pixels[64..68], [32, 36, 40, 44], "the second lane");
     assert_eq!(pixels.len(), 2 * 2 * 32);
 }
 
-/// Summaries that are sent and that are not, after decisions of every kind, by one feed or the other.
+/// Summaries are sent and not sent after decisions of every kind, with one feed or the other.
 #[test]
 fn summaries_are_due_and_not_due() {
     const ALL: [&str; 4] = ["active", "held", "sent", "kept"];

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The benches that come with a core: what their vectors show, and that they fail when any output does.
+//! The benches of a core: the contents of their vectors, and their failure when any output is
+//! wrong.
 
 use foveate_cosim::{Occurrences, ShippedBench, VectorTally};
 use foveate_design::{Array, Config, Design, FeatureKind, Organization};
@@ -20,12 +21,13 @@ pub(crate) fn bench(design: &Design, top: Top) -> ShippedBench {
     ShippedBench::new(design, top, &Prefix::default(), &AtomicBool::new(false)).unwrap()
 }
 
-/// A frame of that many regions.
+/// Returns the keys for a frame of the given grid of regions.
 fn frame(regions: (u32, u32), size: u32) -> String {
     format!("frame.width = {}\nframe.height = {}\n", regions.0 * size, regions.1 * size)
 }
 
-/// Designs that differ in everything that a bench depends on: of sizes, depths and variants every two meet, or all three.
+/// Returns designs that differ in all keys on which a bench depends. Of sizes, depths and variants
+/// every two values meet, or all three if whole lists are taken.
 fn designs() -> Vec<String> {
     let mut list = Vec::new();
     let variants = [
@@ -43,7 +45,7 @@ fn designs() -> Vec<String> {
                 if !takes_whole_lists() && (x + y + z) % 2 == 1 {
                     continue;
                 }
-                // Of a pixel of one bit the default thresholds ask too much.
+                // Pixels of one bit cannot reach the default thresholds.
                 if bits != 1 || !variant.contains("constant") {
                     let number = list.len();
                     let toml =
@@ -58,7 +60,8 @@ fn designs() -> Vec<String> {
                         );
                         list.push(format!("{}{toml}{serial}{features}", frame((4, 3), size)));
                     }
-                    // Of a frame with few large regions none is lost as a whole, and the bench says that.
+                    // Of a frame with few large regions none is lost as a whole, and the bench
+                    // reports that.
                     if size < 64 {
                         let raster =
                             raster(size, [1, 2, 4][number % 3], ["plain", "deep"][number % 2]);
@@ -76,7 +79,7 @@ fn designs() -> Vec<String> {
     list
 }
 
-/// A raster design for words of at most so many pixels.
+/// Returns the keys of a raster design with words of at most `most` pixels.
 fn raster(size: u32, most: u32, pipelining: &str) -> String {
     let word = (1..=most)
         .rev()
@@ -87,7 +90,7 @@ fn raster(size: u32, most: u32, pipelining: &str) -> String {
     )
 }
 
-/// One feature, two, or all, with levels that the depth allows.
+/// Returns the keys for one feature, two, or all, with levels that the depth allows.
 fn features(number: usize, bits: u32, size: u32) -> String {
     let level = [0, 1, 20][(bits as usize).ilog2() as usize / 2];
     let entry = |kind: &FeatureKind| match kind {
@@ -111,7 +114,8 @@ fn features(number: usize, bits: u32, size: u32) -> String {
     format!("temporal.level = {level}\ntemporal.min_count = {count}\n{of}")
 }
 
-/// Corners behind a median in regions of 2x2 pixels are never found: two pixels are always alike.
+/// Returns true for a design with corners in regions of 2x2 pixels. Behind a median filter none are
+/// found, because two pixels are always equal.
 fn is_blind(design: &Design) -> bool {
     design.region_size() == 2 && design.feature(FeatureKind::Corner).is_some()
 }
@@ -138,7 +142,7 @@ fn every_design_shows_active_held_and_blank_regions() {
     }
 }
 
-/// Summaries that are sent and that stay, whatever blocks they are of.
+/// Summaries are sent and stay on the screen, for blocks of every size.
 #[test]
 fn every_design_with_summaries_shows_some() {
     for (number, (size, blocks, bits)) in
@@ -175,7 +179,8 @@ fn every_design_with_summaries_shows_some() {
     }
 }
 
-/// The same of raster cores, some of whose frames wait for what is pending, and some of which lose regions.
+/// Summaries of raster cores are sent and stay on the screen. The frames of some cores wait for
+/// pending regions, and others lose regions.
 #[test]
 fn every_raster_core_with_summaries_shows_some() {
     for (number, (size, word, blocks, rows)) in
@@ -198,7 +203,8 @@ fn every_raster_core_with_summaries_shows_some() {
     }
 }
 
-/// The streams of a frame store outside, and an underrun at the end; without forwarding nothing is missing.
+/// The streams of an external frame store are shown, and an underrun at the end; without forwarding
+/// nothing is missing.
 #[test]
 fn a_raster_core_with_an_external_store_shows_its_streams() {
     for more in ["", "hardware.pipelining = 'deep'\nhardware.pixels_per_clock = 2\n"] {
@@ -210,7 +216,7 @@ fn a_raster_core_with_an_external_store_shows_its_streams() {
         assert_eq!(alone.shortcoming, None, "{toml}");
         let tally = &alone.tally;
         assert!(tally.active > 0 && tally.held > 0 && tally.blank > 0, "{tally:?}");
-        // What is decided is not changed by the underrun.
+        // The underrun does not change the decisions.
         let block = toml.replace("'external'", "'block'");
         let block = bench(&design(&format!("hardware.forward = false\n{block}")), Top::Rcm);
         // A core that keeps its references misses none.
@@ -226,7 +232,7 @@ fn a_raster_core_with_an_external_store_shows_its_streams() {
     }
 }
 
-/// A frame of a large array shows the same with large folds, in files that stay small.
+/// A large array with large folds shows every kind of region, in files that stay small.
 #[test]
 fn large_folds_show_everything() {
     const MOST: usize = 12 << 20;
@@ -250,7 +256,8 @@ fn large_folds_show_everything() {
     }
 }
 
-/// What cannot be shown is said, and such a bench never passes.
+/// A bench reports what its vectors cannot show. It never passes if they could show it in another
+/// design of that shape.
 #[test]
 fn what_vectors_cannot_show_is_said() {
     for (toml, words) in [
@@ -286,12 +293,12 @@ fn what_vectors_cannot_show_is_said() {
     }
 }
 
-/// A sink stalls for so long that regions are lost, with a core of the same structure; only where every frame
-/// waits for it nothing is lost, and the bench says so.
+/// The sink stalls for so long that regions are lost. If every frame waits for the sink, no region
+/// is lost, and the bench reports that.
 #[test]
 fn the_benches_of_raster_cores_lose_regions_where_regions_can_be_lost() {
     let waits = "temporal.reference = 'last-sent'";
-    // Rows of regions of the frame, what differs, and whether the bench loses regions.
+    // The rows of regions of the frame, the other keys, and whether the bench loses regions.
     for (rows, more, loses) in [
         (30, "", true),
         (1, "", true),
@@ -311,7 +318,8 @@ fn the_benches_of_raster_cores_lose_regions_where_regions_can_be_lost() {
     }
 }
 
-/// An error of each kind, and whole frames behind them; an RPU alone has nothing that finds its frames.
+/// Frames come with an error of each kind, and with whole frames behind it. An RPU alone has no
+/// frame synchronization.
 #[test]
 fn the_benches_of_arrays_that_find_their_frames_lose_some_and_go_on() {
     for more in [
@@ -329,7 +337,8 @@ fn the_benches_of_arrays_that_find_their_frames_lose_some_and_go_on() {
             let is_found = top == Top::Rcm || design.unit().array == Array::Whole;
             assert_eq!(shortcoming, None, "{top:?} {more}");
             assert_eq!(tally.sync_errors, if is_found { 2 } else { 0 }, "{top:?} {more}");
-            // What is left of the frame that is cut short, and two whole ones.
+            // The decisions are those of the rest of the damaged frame, and of more than two whole
+            // ones.
             let regions = u64::from(grid.0 * grid.1);
             assert!(!is_found || tally.after_error > 2 * regions, "{tally:?} {top:?} {more}");
             let says = files[0].contents.contains("Frames come damaged: 2 sync errors, and ");
@@ -346,7 +355,8 @@ fn equal_designs_have_equal_benches() {
     }
 }
 
-/// The module with every output behind a switch: `+tie=I` makes output I 0.
+/// Puts every output of a module behind a switch: `+tie=I` makes output I 0. Returns the names of
+/// the outputs.
 fn tied(files: &mut [SourceFile], top: &str) -> Vec<String> {
     let path = format!("rtl/{top}.v");
     let file = files.iter_mut().find(|file| file.path == path).unwrap();
@@ -390,7 +400,7 @@ fn tied(files: &mut [SourceFile], top: &str) -> Vec<String> {
     outputs
 }
 
-/// What plays a bench: Icarus is quick to build, Verilator quick to run.
+/// A simulator that plays a bench: Icarus builds quickly, Verilator runs quickly.
 #[derive(Clone, Copy)]
 pub(crate) enum Player {
     Icarus,
@@ -407,7 +417,7 @@ impl Player {
                 let args = ["-g2005", "-s", &top, "-o", "simulation"];
                 toolchain.invocation(Tool::Iverilog).unwrap().args(args)
             }
-            // As `tb/replay.sh` does.
+            // The options are those of `tb/replay.sh`.
             Self::Verilator => {
                 let args = ["--binary", "--timing", "-Wno-fatal", "-Wno-lint", "-Wno-style"];
                 let start = ["--x-assign", "unique", "--x-initial", "unique"];
@@ -420,7 +430,7 @@ impl Player {
         toolchain.run_checked(&compile.arg(&bench.files[0].path)).unwrap();
     }
 
-    /// Whether a run passes, and what it says.
+    /// Returns true if a run passes, and its output.
     pub(crate) fn play(self, dir: &Path, args: &[&str]) -> (bool, String) {
         let mut command = match self {
             Self::Icarus => {
@@ -435,7 +445,7 @@ impl Player {
     }
 }
 
-/// What a bench says as shipped, and with each output tied to 0: whether it passed.
+/// Checks that the benches of a design pass as shipped, and fail with each output tied to 0.
 fn negative_controls(toml: &str, player: Player) {
     let design = design(toml);
     for &top in Top::all_of(&design) {
@@ -462,7 +472,7 @@ fn negative_control(toml: &str, design: &Design, top: Top, player: Player) {
     let passed = log.contains(&format!("PASS {} clocks", bench.clocks));
     assert!(is_pass && passed, "{top:?} {toml}\n{log}");
     for (number, name) in outputs.iter().enumerate() {
-        // The number of the only region is 0, in the core too.
+        // The number of the only region is 0 in the core, too.
         if bench.grid == (1, 1) && ["region_o", "forward_region_o"].contains(&name.as_str()) {
             continue;
         }
@@ -473,7 +483,7 @@ fn negative_control(toml: &str, design: &Design, top: Top, player: Player) {
     }
 }
 
-/// Regions of a frame, few, because a bench plays the whole frame.
+/// The grid of the frames. It is small, because a bench plays the whole frame.
 const GRID: (u32, u32) = (7, 5);
 
 fn of_organization(size: u32, serial: Option<(u32, &str)>) -> String {
@@ -485,7 +495,8 @@ fn of_organization(size: u32, serial: Option<(u32, &str)>) -> String {
     format!("{}region.size = {size}\n{small}{hardware}", frame(GRID, size))
 }
 
-/// Words of up to four pixels, with references of both kinds: what is sent last is lost, too.
+/// Returns a raster design with words of up to four pixels and with either kind of reference. The
+/// regions that are sent last are lost, too.
 fn of_raster(size: u32, word: u32) -> String {
     let (pipelining, reference) = match word {
         2 => ("deep", "last-sent"),
@@ -497,7 +508,7 @@ fn of_raster(size: u32, word: u32) -> String {
     format!("{frame}region.size = {size}\ntemporal.reference = '{reference}'\n{raster}")
 }
 
-/// A sample; [`every_tied_output_fails_at_every_size`] is the whole.
+/// The test takes a sample; [`every_tied_output_fails_at_every_size`] takes the whole list.
 #[test]
 fn every_tied_output_fails() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp, Tool::Verilator]) {
@@ -515,7 +526,7 @@ fn every_tied_output_fails() {
         of_raster(4, 2),
         format!("{}spatial = [{{ feature = 'mad', min_score = 5 }}]\n", of_raster(8, 4)),
     ];
-    // With five to fifteen seconds in Icarus, and less than three in Verilator.
+    // These take five to fifteen seconds in Icarus, and less than three in Verilator.
     let long = [
         of_organization(8, Some((3, "raster"))),
         format!("render.irrelevant = 'mean'\n{}", of_organization(4, Some((7, "parallel")))),
@@ -525,7 +536,8 @@ fn every_tied_output_fails() {
     long.iter().for_each(|toml| negative_controls(toml, Player::Verilator));
 }
 
-/// Sizes, folds, feeds and words, every organization: `cargo test -p foveate-cosim --test cosim -- --ignored tied`.
+/// All sizes, folds, feeds, words and organizations: `cargo test -p foveate-cosim --test cosim --
+/// --ignored tied`.
 #[test]
 #[ignore = "takes many minutes"]
 fn every_tied_output_fails_at_every_size() {
@@ -546,7 +558,7 @@ fn every_tied_output_fails_at_every_size() {
     });
 }
 
-/// Frames of large regions have too many clocks for Icarus.
+/// Returns the designs. Frames of large regions have too many clocks for Icarus.
 fn matrix() -> Vec<(String, Player)> {
     let mut list = Vec::new();
     for size in [2, 8, 20, 32, 48, 64] {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Faults that the benches that come with a core must find: each needs a situation of its own, a mean that waits, a reset while
-//! a summary is shown, a summary behind pixels. A text that is not found any more, after a change of the RTL, is replaced by
-//! what does the same there.
+//! Faults that the benches of a core must find. Each needs a special situation: a mean that waits,
+//! a reset while a summary is shown, or a summary behind pixels. After a change of the RTL, a text
+//! that is no longer found is replaced by one with the same effect.
 
 use crate::common::in_parallel;
 use crate::shipped::{Player, bench};
@@ -16,14 +16,14 @@ const RASTER: &str = "hardware.organization = 'raster'\nperiphery.blocks = 2\n";
 const SENT: &str =
     "hardware.organization = 'raster'\nperiphery.blocks = 2\ntemporal.reference = 'last-sent'\n";
 
-/// A core of that hardware that sends means.
+/// Returns a design with this hardware whose irrelevant regions send means.
 fn design(hardware: &str) -> Design {
     let toml =
         format!("render.irrelevant = 'mean'\nframe.width = 32\nframe.height = 24\n{hardware}");
     Config::from_toml(&toml).unwrap().validate().unwrap()
 }
 
-/// The design, the module, the text that its file contains exactly once, and what stands in its place.
+/// The design, the module, the text that its file contains exactly once, and its replacement.
 #[rustfmt::skip]
 const FAULTS: &[(&str, &str, &str, &str)] = &[
     (PIPELINED, "region_summary", "if (active_i) shows_q <= 1'b0;\n            else if", "if"),
@@ -40,7 +40,7 @@ const FAULTS: &[(&str, &str, &str, &str)] = &[
     (RASTER, "raster_decision", "(decided_shown && !trs)", "decided_shown"),
 ];
 
-/// What the bench of a module says of this Verilog: whether it passes.
+/// Returns true if the bench of a module passes with this Verilog.
 fn passes(design: &Design, top: Top, files: &[SourceFile]) -> bool {
     let bench = bench(design, top);
     let dir = tempfile::tempdir().unwrap();
@@ -83,7 +83,7 @@ fn shipped_benches_find_what_a_situation_of_its_own_shows() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Else a fault would be caught that is none.
+/// The unchanged cores pass, or the tests above would show nothing.
 #[test]
 fn shipped_benches_of_the_faulty_cores_pass_without_a_fault() {
     if !require_tools(&[Tool::Iverilog, Tool::Vvp]) {

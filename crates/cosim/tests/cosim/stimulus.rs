@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whether the vectors hit what they are meant to hit; no tool is needed for that.
+//! The vectors reach their targets. No tool is needed for that.
 
 use crate::common::vectors::{clocks, field, pairs_of_decisions};
 use crate::common::{design, directed};
@@ -28,7 +28,7 @@ fn equal_seeds_give_equal_vectors() {
     assert_ne!(text(1), text(2));
 }
 
-/// Every threshold of a decision must have been met exactly, missed by one, and passed by one.
+/// Every threshold of a decision is met exactly, missed by one, and passed by one.
 #[test]
 fn decisions_are_made_on_below_and_above_their_thresholds() {
     let toml = "[[spatial]]\nfeature = \"edge\"\n[[spatial]]\nfeature = \"corner\"\n\
@@ -51,8 +51,8 @@ fn decisions_are_made_on_below_and_above_their_thresholds() {
     }
 }
 
-/// Summaries that are sent and that are not, after decisions of every kind; where thresholds are built in, those that
-/// depend on the means.
+/// Summaries are sent and not sent after decisions of every kind. With constant thresholds, only
+/// the cases that depend on the means are required.
 #[test]
 fn summaries_are_due_and_not_due() {
     const ALL: [&str; 4] = ["active", "held", "sent", "kept"];
@@ -65,7 +65,8 @@ fn summaries_are_due_and_not_due() {
             );
             let design = design(&config(&toml), (1, 1));
             let found = pairs_of_decisions(&record(&design, &directed(Level::Rpu, 2)));
-            // The screen shows nothing of an active region, unless its minima change behind the decision.
+            // The screen shows no summary of an active region, unless its minima change after the
+            // decision.
             let is_odd = thresholds == "constant" && found.contains(&("active", "kept"));
             assert!(!is_odd, "{toml}");
             let kinds = if thresholds == "runtime" { &ALL[..] } else { &ALL[2..] };
@@ -91,7 +92,7 @@ fn scores_reach_their_largest_values() {
     }
 }
 
-/// The largest gradient there is, with the level just below it, and on it: one round has both.
+/// One round contains the largest gradient with a level just below it and with a level equal to it.
 #[test]
 fn the_largest_gradient_meets_its_level() {
     for bits in [1, 3, 8, 16] {
@@ -138,7 +139,8 @@ fn every_border_is_seen_and_resets_come_at_any_time() {
     assert!(resets >= 60 && busy >= 6, "{resets} resets, {busy} of them in a frame");
 }
 
-/// Region after region goes through the one RPU, each after a reset, with its own border.
+/// The regions of a frame go through the one RPU in order, each after a reset and with its own
+/// border.
 #[test]
 fn frames_of_the_caller_are_streamed_region_by_region() {
     let design = design(&config("[region]\nneighborhood = \"shared\"\n"), (3, 2));

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of what stands around an array on AXI. A text that is not found any more, after a change of the RTL, is
-//! replaced by what does the same there.
+//! The faults of the periphery of an array on AXI. After a change of the RTL, a text that is no
+//! longer found is replaced by one with the same effect.
 
-/// A small core, without anything that takes long to build.
+/// A small core without parts that take long to build.
 pub(crate) const SMALL: &[&str] = &[
     "frame={width=60,height=27}",
     "region.size=4",
     "denoise.filter='none'",
     "spatial=[{feature='variance'}]",
 ];
-/// Regions of an odd number of values, in parts that hold several, and rows that fill no word.
+/// A core whose regions have an odd number of values, in parts of several values, and whose rows do
+/// not fill a word.
 pub(crate) const ODD: &[&str] = &[
     "frame={width=63,height=24}",
     "region.size=5",
@@ -17,7 +18,7 @@ pub(crate) const ODD: &[&str] = &[
     "spatial=[{feature='variance'}]",
     "hardware.thresholds='constant'",
 ];
-/// Means, raw pixels, and words of two pixels in lanes of 16 bits.
+/// A core with means, raw pixels, and words of two pixels in lanes of 16 bits.
 pub(crate) const MEANS: &[&str] = &[
     "frame={width=64,height=32,pixel_bits=10}",
     "denoise.filter='none'",
@@ -27,11 +28,11 @@ pub(crate) const MEANS: &[&str] = &[
     "hardware.pixels_per_clock=2",
 ];
 
-/// References that depend on what was sent, and with them on every threshold.
+/// A core whose references depend on what was sent, and so on every threshold.
 pub(crate) const SENT: &[&str] =
     &["frame={width=64,height=40}", "denoise.filter='none'", "temporal.reference='last-sent'"];
 
-/// Regions that come faster than their place is known.
+/// A core whose regions come faster than their places are known.
 pub(crate) const SHORT: &[&str] = &[
     "frame={width=64,height=132}",
     "region.size=4",
@@ -40,14 +41,14 @@ pub(crate) const SHORT: &[&str] = &[
     "hardware.pixels_per_clock=4",
 ];
 
-/// One edit of one file.
+/// A fault: one edit of one file.
 pub(crate) struct Fault {
-    /// The module, and file, that is edited.
+    /// The module whose file is edited.
     pub(crate) module: &'static str,
     /// The text, which the file must contain exactly once.
     pub(crate) from: &'static str,
     pub(crate) to: &'static str,
-    /// The design in which it is planted.
+    /// The design in which the fault is planted.
     pub(crate) design: &'static [&'static str],
 }
 
@@ -60,7 +61,7 @@ const fn fault(
     Fault { module, from, to, design }
 }
 
-/// Every fault, by module.
+/// All faults, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault(SMALL, "packet_crc", "32'hEDB88320", "32'hEDB88321"),

@@ -11,8 +11,8 @@ use foveate_toolchain::testing::require_tools;
 use foveate_toolchain::{Cache, Tool, Toolchain};
 use std::path::Path;
 
-/// Designs in small frames: words of one pixel and of several, lanes of 8 and of 16 bits, pixels, means and raw ones, all
-/// stores, thresholds as ports and as constants.
+/// Designs in small frames: words of one pixel and of several, lanes of 8 and of 16 bits, pixels,
+/// means and raw pixels, all stores, and thresholds as ports and as constants.
 pub(crate) const DESIGNS: &[&[&str]] = &[
     &["frame={width=64,height=48}"],
     &["frame={width=70,height=45}", "render.irrelevant='mean'", "hardware.sync=true"],
@@ -115,7 +115,7 @@ fn every_planted_fault_of_what_stands_around_an_array_is_caught() {
         match report {
             _ if found != 1 => Err(format!("{module}: `{from}` is there {found} times")),
             Err(error) => Err(format!("{module}, `{from}` -> `{to}`: {error}")),
-            // Of an event that is lost, the situation does not occur.
+            // If an event is lost, its situation does not occur.
             Ok(report) => match &report.mismatch {
                 None if report.situations.missing().is_empty() => {
                     Err(format!("{module}: not caught: `{from}` -> `{to}`"))
@@ -133,7 +133,7 @@ fn every_planted_fault_of_what_stands_around_an_array_is_caught() {
     );
 }
 
-/// Else a fault would be caught that is none.
+/// The unchanged cores pass, or the tests above would show nothing.
 #[test]
 fn the_designs_of_the_faults_pass_without_one() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {
@@ -152,7 +152,7 @@ fn the_designs_of_the_faults_pass_without_one() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// Not by a happy seed.
+/// The situations are reached with every seed, and not only with a lucky one.
 #[test]
 fn every_seed_reaches_the_situations_of_cores_on_axi() {
     if !require_tools(&[Tool::Verilator, Tool::Cxx]) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The C driver of a core on AXI: beside a simulated core, and over damaged streams; for processors of 32 and 64 bits.
+//! The C driver of a core on AXI: beside a simulated core, and over damaged streams, for processors
+//! of 32 and 64 bits.
 
 use crate::bus::on_axi;
 use crate::common::{in_parallel, sampled};
@@ -18,11 +19,11 @@ use std::process::{Command, Stdio};
 const CORE: &str = include_str!("core.cpp");
 const MAIN: &str = include_str!("main.c");
 const STREAM: &str = include_str!("stream.c");
-/// It comes with that of C++.
+/// The C compiler, which is installed together with that of C++.
 const COMPILER: &str = "cc";
-/// What every compiler must be content with.
+/// The flags with which the driver must compile without a warning.
 const STRICT: &[&str] = &["-std=c99", "-Wall", "-Wextra", "-Wpedantic", "-Wconversion", "-Werror"];
-/// A design, and what software makes of its thresholds.
+/// Each design, with the thresholds that the software sets.
 const DESIGNS: &[(&[&str], &[&str])] = &[
     (
         &["frame={width=68,height=37}"],
@@ -39,16 +40,17 @@ const DESIGNS: &[(&[&str], &[&str])] = &[
     ),
 ];
 
-/// What stands in the driver, and what stands there instead.
+/// The replaced text of the driver, and its replacement.
 type Fault = Option<(&'static str, &'static str)>;
 
-/// A design with other settings.
+/// Returns a design with other settings.
 fn with(design: &Design, keys: &[&str]) -> Design {
     let config = foveate_design::Config::from_toml_with(&design.config().to_toml(), keys).unwrap();
     config.validate().unwrap()
 }
 
-/// Frames in which a block of noise moves before something still; every third is noise.
+/// Returns frames in which a block of noise moves over a still background; every third frame is
+/// noise.
 fn film(design: &Design, count: u32) -> Vec<Frame> {
     let mut random = fastrand::Rng::with_seed(7);
     let (width, height, bits) = (design.width(), design.height(), design.pixel_bits());
@@ -70,12 +72,13 @@ fn film(design: &Design, count: u32) -> Vec<Frame> {
     (0..count).map(shot).collect()
 }
 
-/// Pixels as the C programs and the simulated core have them in files.
+/// Returns the pixels in the file format of the C programs and of the simulated core.
 fn bytes_of(frame: &Frame) -> Vec<u8> {
     frame.pixels().iter().flat_map(|pixel| pixel.to_le_bytes()).collect()
 }
 
-/// Processors of 64 bits; without a fault to find those of 32, too, if the C compiler makes programs for them.
+/// Returns the compiler flags for the processor widths: 64 bits, and, without a fault, also 32 bits
+/// if the C compiler can make programs for it.
 fn widths(fault: Fault) -> &'static [&'static str] {
     if fault.is_some() {
         return &["-m64"];
@@ -91,7 +94,8 @@ fn widths(fault: Fault) -> &'static [&'static str] {
     if made.unwrap().status.success() { &["-m64", "-m32"] } else { &["-m64"] }
 }
 
-/// Compiles a program with the driver of a design, in which a fault may be planted; no compiler may have a word to say.
+/// Compiles a program with the driver of a design, in which a fault may be planted. Without a fault
+/// the compiler must not warn.
 fn compile(
     design: &Design,
     (name, text): (&str, &str),
@@ -122,7 +126,7 @@ fn compile(
     program
 }
 
-/// A simulated core that answers to a processor.
+/// Builds a simulated core that answers to a processor.
 fn simulated(design: &Design) -> PathBuf {
     let sources: Vec<Source> = on_bus(design).unwrap().into_iter().map(Source::from).collect();
     let raster = design.raster().unwrap();
@@ -146,7 +150,7 @@ fn simulated(design: &Design) -> PathBuf {
     verilator::build(&Toolchain::system(), &Cache::from_env().unwrap(), &job).unwrap()
 }
 
-/// The thresholds of a design as an argument of the C compiler.
+/// Returns the thresholds of a design as an argument of the C compiler.
 fn thresholds(design: &Design) -> String {
     let list = registers(design.raster().unwrap());
     let values = list.iter().filter_map(|register| match register.fields.as_slice() {
@@ -161,7 +165,8 @@ fn thresholds(design: &Design) -> String {
     format!("-DTHRESHOLDS={}", values.collect::<Vec<_>>().join(","))
 }
 
-/// Software for a core sets it up, lets frames come, and paints what leaves: the screen is that of the model.
+/// Runs software that sets up a core, lets frames come, and paints what leaves. The screen must be
+/// that of the model.
 fn play(design: &Design, changed: &Design, fault: Fault) -> Result<(), String> {
     let dir = tempfile::tempdir().unwrap();
     let frames = film(design, 7);
@@ -171,7 +176,7 @@ fn play(design: &Design, changed: &Design, fault: Fault) -> Result<(), String> {
     let mut expected = Vec::new();
     for (number, frame) in frames.iter().enumerate() {
         match number {
-            // It comes while the core is stopped.
+            // The frame comes while the core is stopped.
             4 => continue,
             6 => model.reset(),
             _ => {}
@@ -225,7 +230,7 @@ fn software_with_the_driver_runs_a_core_and_shows_what_the_model_shows() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// The packets of some frames.
+/// Returns the packets of some frames.
 fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
     let mut model = FunctionalCamera::new(design);
     let mut bytes = Vec::new();
@@ -271,7 +276,7 @@ fn packets(design: &Design, layout: &Layout) -> Vec<u8> {
     bytes
 }
 
-/// What the receiver of the packets' crate finds, as `stream.c` says it.
+/// Returns the packets that the receiver of `foveate-packets` finds, in the format of `stream.c`.
 fn found(layout: &Layout, bytes: &[u8]) -> String {
     let mut splitter = Splitter::default();
     splitter.feed(bytes);
@@ -318,19 +323,19 @@ fn found(layout: &Layout, bytes: &[u8]) -> String {
     text + &format!("lost {lost}\n")
 }
 
-/// The CRC of the page, bit by bit.
+/// Returns the CRC of the packet format, computed bit by bit.
 fn crc(bytes: &[u8]) -> u32 {
     let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xEDB8_8320 } else { crc >> 1 };
     !bytes.iter().fold(u32::MAX, |crc, &byte| (0..8).fold(crc ^ u32::from(byte), step))
 }
 
-/// Words of the packet that begins here, as its head says.
+/// Returns the number of words of the packet that begins here, from its header.
 fn words(bytes: &[u8]) -> usize {
     usize::from(u16::from_le_bytes([bytes[2], bytes[3]]))
 }
 
-/// Makes of a packet one that no core of this design sends, but with the right CRC: a bit of its head differs, or of the
-/// first word that it carries in a FRAME.
+/// Changes a packet to one that no core of this design sends, mostly with a correct CRC. One bit
+/// differs in its header or, in a FRAME, in the first word of its content.
 fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
     let kind = [1, 2, 4, 5][random.usize(0..4)];
     let of_kind: Vec<usize> = starts
@@ -343,7 +348,7 @@ fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
     let looked_at = if kind == 1 { 16 } else { 8 };
     bytes[start + random.usize(0..looked_at)] ^= 1 << random.u8(0..8);
     if kind == 4 && random.bool() {
-        // Means, but none of them.
+        // The region has the flag for means, but contains none.
         bytes[start + 1] |= 4 << 4;
         bytes[start + 2..start + 4].copy_from_slice(&[2, 0]);
     }
@@ -355,20 +360,20 @@ fn forge(bytes: &mut [u8], starts: &[usize], random: &mut fastrand::Rng) {
     }
 }
 
-/// Where packets begin in a stream without damage.
+/// Returns the offsets of the packets in a stream without damage.
 fn starts(bytes: &[u8]) -> Vec<usize> {
     let next = |&at: &usize| Some(at + 8 * words(&bytes[at..])).filter(|&at| at < bytes.len());
     std::iter::successors(Some(0), next).collect()
 }
 
-/// Whether the driver finds in damaged streams of a design what the receiver finds.
+/// Checks that the driver finds in damaged streams of a design what the receiver finds.
 fn listen(design: &Design, fault: Fault) -> Result<(), String> {
     let layout = Layout::new(design, false, 100_000_000).unwrap();
     let whole = packets(design, &layout);
     let starts = starts(&whole);
     let dir = tempfile::tempdir().unwrap();
     for width in widths(fault) {
-        // A program of 64 bits ends where it reads outside of its memory.
+        // A program of 64 bits ends if it reads outside of its memory.
         let checked = ["-m64", "-fsanitize=address,undefined", "-fno-sanitize-recover"];
         let flags = if *width == "-m64" { &checked[..] } else { &[*width][..] };
         let program = compile(design, ("stream.c", STREAM), fault, dir.path(), flags);
@@ -383,7 +388,7 @@ fn listen(design: &Design, fault: Fault) -> Result<(), String> {
                 match random.u8(0..3) {
                     0 => bytes[at] ^= 1 << random.u8(0..8),
                     1 => drop(bytes.drain(at..at + random.usize(1..9))),
-                    // A head where none is.
+                    // A packet header is inserted at a random place.
                     _ => drop(bytes.splice(at..at, whole[..8].to_vec())),
                 }
             }
@@ -415,7 +420,7 @@ fn the_driver_finds_in_damaged_streams_what_the_receiver_finds() {
     }
 }
 
-/// Faults of the driver, each of which some of the tests above must find.
+/// Faults of the driver; at least one of the tests above must find each of them.
 const FAULTS: &[(&str, &str)] = &[
     ("return ~crc;", "return crc;"),
     ("head[0] == MARK && u16(head + 2) == carried + 2 ?", "head[0] == MARK ?"),

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of deep designs: a register that is missing, one too many, or one that forgets its reset.
+//! The faults of deep designs: a missing register, an additional one, or one that forgets its
+//! reset.
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
     Deep, DeepMoments, DeepSent, SerialDeep, SerialDeepSent as SerialSent,
 };
 
-/// Every fault, by module.
+/// All faults, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Deep, "rpu", ".DEPTH(3)) u_denoised_valid", ".DEPTH(2)) u_denoised_valid"),

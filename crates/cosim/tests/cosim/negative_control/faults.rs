@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of the pipelined organization. A text that is not found any more, after a change of the
-//! RTL, is replaced by what does the same there.
+//! The faults of the pipelined organization. After a change of the RTL, a text that is no longer
+//! found is replaced by one with the same effect.
 
 use super::planted::Planted::{
     self, Banked, Constant, Corner, MadSent, Moments, Paper, Sent, Shared, Variance,
 };
 
-/// One edit of one file.
+/// A fault: one edit of one file.
 pub(crate) struct Fault {
-    /// What is wrong afterwards: operator, constant, width, index or reset.
+    /// The kind of the fault: operator, constant, width, index or reset.
     pub(crate) what: &'static str,
-    /// The module, and file, that is edited.
+    /// The module whose file is edited.
     pub(crate) module: &'static str,
     /// The text, which the file must contain exactly once.
     pub(crate) from: &'static str,
     pub(crate) to: &'static str,
-    /// The design in which it is planted.
+    /// The design in which the fault is planted.
     pub(crate) design: Planted,
 }
 
@@ -29,7 +29,7 @@ pub(super) const fn fault(
     Fault { what, module, from, to, design }
 }
 
-/// Every fault, by module.
+/// All faults, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault("index", Paper, "rcm", "pixel_i[REGION*8+:8]", "pixel_i[(REGION^1)*8+:8]"),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The negative control: single edits of the emitted RTL, over all its modules. Every one must
-//! still compile, and every one must be caught.
+//! The negative control: single edits of the emitted RTL, over all its modules. Every edited design
+//! must still compile, and every edit must be found.
 
 mod deep_faults;
 mod faults;
@@ -22,7 +22,7 @@ use std::path::Path;
 use std::process::Command;
 use std::sync::{Arc, Mutex, OnceLock};
 
-/// Vectors that the first fault makes for those that come after it.
+/// The vectors that the first fault of a design makes for the later ones.
 type Shared = Arc<OnceLock<Recording>>;
 
 /// The vectors of each design at each level.
@@ -30,7 +30,7 @@ type Shared = Arc<OnceLock<Recording>>;
 struct Vectors(Mutex<HashMap<(Planted, Level), Shared>>);
 
 impl Vectors {
-    /// Does something with them.
+    /// Calls `work` with the vectors of a design at a level.
     fn with<T>(&self, planted: Planted, level: Level, work: impl FnOnce(&Recording) -> T) -> T {
         let slot = Arc::clone(self.0.lock().unwrap().entry((planted, level)).or_default());
         let make = || directed(level, 1).record(&planted.design(), &mut |_, _| {}).unwrap();
@@ -83,7 +83,7 @@ fn all_are_caught<'a>(faults: impl IntoIterator<Item = &'a Fault>) {
     );
 }
 
-/// Those of a list that takes long which every run plants.
+/// Returns the faults that every run plants, from a list that takes long.
 fn planted(faults: &'static [Fault]) -> Vec<&'static Fault> {
     sampled(faults, |fault| fault.module)
 }
@@ -128,10 +128,10 @@ fn every_planted_fault_of_what_finds_frames_is_caught() {
     all_are_caught(sync_faults::FAULTS);
 }
 
-/// Lists that every run plants whole.
+/// The lists that every run plants whole.
 const ALWAYS: [&[Fault]; 4] =
     [faults::FAULTS, deep_faults::FAULTS, summary_faults::FAULTS, sync_faults::FAULTS];
-/// Lists of which it plants some.
+/// The lists of which every run plants a part.
 const SAMPLED: [&[Fault]; 4] = [
     summary_faults::RASTER,
     serial_faults::FAULTS,
@@ -139,17 +139,18 @@ const SAMPLED: [&[Fault]; 4] = [
     raster_faults::FAULTS,
 ];
 
-/// The faults of every organization.
+/// Returns the faults of every organization.
 fn all_faults() -> impl Iterator<Item = &'static Fault> {
     ALWAYS.into_iter().chain(SAMPLED).flatten()
 }
 
-/// Those that this run plants.
+/// Returns the faults that this run plants.
 fn planted_faults() -> impl Iterator<Item = &'static Fault> {
     ALWAYS.into_iter().flatten().chain(SAMPLED.into_iter().flat_map(planted))
 }
 
-/// Else a fault would be caught that is none. Other tests simulate like designs: a short run takes every fourth.
+/// The unchanged designs pass, or the tests above would show nothing. Other tests simulate similar
+/// designs, so a short run takes every fourth.
 #[test]
 fn every_design_passes_without_a_fault() {
     if !simulators() {
@@ -172,7 +173,7 @@ fn every_design_passes_without_a_fault() {
     assert!(failures.is_empty(), "{}", failures.join("\n"));
 }
 
-/// A module that nobody has thought of needs faults of its own.
+/// Every module has faults, also a new one.
 #[test]
 fn every_module_has_a_fault() {
     let on_buses = crate::bus::faults::FAULTS.iter().map(|fault| fault.module);
@@ -216,7 +217,7 @@ fn the_replay_of_a_fault_shows_it_again() {
             assert!(log.contains(&line), "{line}\n{log}");
         }
 
-        // Repaired by hand, the replay passes.
+        // After a repair by hand, the replay passes.
         let vote = folder.join("rtl/vote.v");
         let text = std::fs::read_to_string(&vote).unwrap();
         std::fs::write(&vote, text.replace("score_i > minimum_i", "score_i >= minimum_i")).unwrap();

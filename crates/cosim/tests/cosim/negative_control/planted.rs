@@ -1,107 +1,112 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The designs in which faults are planted; between them they use every module.
+//! The designs in which faults are planted; together they use every module.
 
 use crate::common::design;
 use foveate_cosim::{Level, Simulator};
 use foveate_design::{Config, Design};
 
-/// A design to plant faults in.
+/// A design in which faults are planted.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Planted {
-    /// Median, edges, previous frame.
+    /// A median, edges, and `previous` references.
     Paper,
-    /// Edges and corners, no filter, so that the counter of positions is the window's.
+    /// Edges and corners without a filter, so that the counter of positions is that of the window.
     Corner,
-    /// Mean absolute deviation and variance, nothing with a window.
+    /// Mean absolute deviation and variance, without a window.
     Moments,
     /// Variance alone, whose result register is a port.
     Variance,
-    /// Regions that do not fit into one bank of the frame store, nor fill two.
+    /// Regions that do not fit into one bank of the frame store, and do not fill two.
     Banked,
-    /// Mean absolute deviation against the pixels last sent: two candidates for the count.
+    /// Mean absolute deviation with `last-sent` references, which has two candidates for the count.
     MadSent,
-    /// Edges against the pixels last sent, raw pixels forwarded.
+    /// Edges with `last-sent` references; raw pixels are forwarded.
     Sent,
-    /// Median and edges that see across the border.
+    /// A median and edges in `shared` neighborhoods.
     Shared,
-    /// The paper's design with its thresholds built in.
+    /// The paper's design with constant thresholds.
     Constant,
-    /// Deep: median, edges and corners, raw pixels forwarded.
+    /// A deep design with a median, edges and corners; raw pixels are forwarded.
     Deep,
-    /// Deep: edges against the pixels last sent.
+    /// A deep design with edges and `last-sent` references.
     DeepSent,
-    /// Deep: both moments, against the pixels last sent.
+    /// A deep design with mean absolute deviation, variance and `last-sent` references.
     DeepMoments,
     /// Means of four blocks, of pixels behind a window.
     Means,
-    /// Means of raw pixels in blocks of 3x3, deep.
+    /// A deep design with means of raw pixels in blocks of 3x3.
     MeansDeep,
-    /// One mean per region, thresholds built in.
+    /// One mean per region, with constant thresholds.
     MeansOne,
     /// Means of blocks of one pixel.
     MeansPixel,
-    /// Means of blocks of 3x3 with a second pass.
+    /// Means of blocks of 3x3 pixels, with a second pass.
     MeansSecond,
-    /// Serial: means of four blocks of raw pixels, two slots per lane.
+    /// A serial design with means of four blocks of raw pixels, and two slots per lane.
     SerialMeans,
-    /// Serial: means of blocks of 3x3, raster feed, deep.
+    /// A deep serial design with means of blocks of 3x3 pixels and a raster feed.
     SerialMeansRaster,
-    /// Serial: means of blocks of one pixel, more than distributed memory takes, deep.
+    /// A deep serial design with means of blocks of one pixel, more than distributed memory takes.
     SerialMeansMany,
-    /// Serial: the paper's scores in small regions.
+    /// A serial design with the paper's scores in small regions.
     SerialPaper,
-    /// Serial: edges alone, no filter.
+    /// A serial design with edges alone and no filter.
     SerialEdge,
-    /// Serial: edges and corners, both of which must vote.
+    /// A serial design with edges and corners, both of which must vote.
     SerialCorner,
-    /// Serial: mean absolute deviation alone.
+    /// A serial design with mean absolute deviation alone.
     SerialMad,
-    /// Serial: mean absolute deviation, with a mean of more bits than the sum of a region has, and variance.
+    /// A serial design with variance and mean absolute deviation; the mean has more bits than the
+    /// sum of a region.
     SerialVariance,
-    /// Serial: everything that a raster across borders, folds and the pixels last sent need.
+    /// A serial design with a raster feed, `shared` neighborhoods, folds and `last-sent`
+    /// references.
     SerialSent,
-    /// Serial: a raster into isolated regions.
+    /// A serial design with a raster feed and `isolated` regions.
     SerialRaster,
-    /// Serial: two slots, one of which is empty in the last lane.
+    /// A serial design with two slots, one of which is empty in the last lane.
     SerialFold,
-    /// Serial: block memory.
+    /// A serial design with block memory.
     SerialBlock,
-    /// Serial: more than one group of lanes.
+    /// A serial design with more than one group of lanes.
     SerialMany,
-    /// Serial and deep: mean absolute deviation and edges, a raster, block memory.
+    /// A deep serial design with mean absolute deviation and edges, a raster feed and block memory.
     SerialDeep,
-    /// Serial and deep: everything across borders, the pixels last sent, pixels on every lane.
+    /// A deep serial design with `shared` neighborhoods, `last-sent` references and pixels on every
+    /// lane.
     SerialDeepSent,
-    /// Serial: median, edges and corners, thresholds built in.
+    /// A serial design with a median, edges, corners and constant thresholds.
     SerialConstant,
-    /// Raster: the paper's scores, in a frame that the core completes on the right and below.
+    /// A raster core with the paper's scores, in a frame that the core completes on the right and
+    /// below.
     RasterPaper,
-    /// Raster: words of two pixels, edges and corners, raw pixels that leave, the pixels last sent, and few
-    /// rows of regions, so that frames wait; more registers.
+    /// A deep raster core with words of two pixels, edges and corners, raw pixels that leave, and
+    /// `last-sent` references. It has few rows of regions, so that frames wait.
     RasterSent,
-    /// Raster: both moments, with a second pass, and no window.
+    /// A raster core with mean absolute deviation and variance, a second pass, and no window.
     RasterMoments,
-    /// Raster: the pixels last sent, of regions that may be lost.
+    /// A raster core with `last-sent` references, of regions that may be lost.
     RasterLost,
-    /// Raster: a frame of an odd number of words, in a memory of one port.
+    /// A raster core with a frame of an odd number of words, in a memory with one port.
     RasterPairs,
-    /// Raster: more words than a bank of the store holds, and more registers.
+    /// A deep raster core with more words than a bank of the store holds.
     RasterBanks,
-    /// Raster: the store outside, and no pixels that leave.
+    /// A raster core with an external store and without forwarding.
     RasterOutside,
-    /// Raster: means of four blocks, of regions that may be lost.
+    /// A raster core with means of four blocks, of regions that may be lost.
     RasterMeans,
-    /// Raster: means of raw pixels, blocks as wide as a word, few rows of regions, and more registers.
+    /// A deep raster core with means of raw pixels, blocks as wide as a word, and few rows of
+    /// regions.
     RasterMeansDeep,
-    /// Raster: one mean of 3x3 pixels, with a second pass.
+    /// A raster core with one mean of 3x3 pixels, and a second pass.
     RasterMeansOne,
-    /// Raster: means of four blocks beside regions that keep the pixels last sent.
+    /// A raster core with means of four blocks, beside regions with `last-sent` references.
     RasterMeansSent,
-    /// Frames found again: an array of RPUs, deep, with a second pass.
+    /// A deep array of RPUs with `sync` and a second pass.
     SyncPipelined,
-    /// Frames found again: a serial array that takes the frame row by row.
+    /// A serial array with `sync` and a raster feed.
     SyncSerial,
-    /// Frames found again: a raster core of a ragged frame.
+    /// A raster core with `sync`, of a frame that does not fill its last regions.
     SyncRaster,
 }
 
@@ -296,7 +301,7 @@ impl Planted {
         }
     }
 
-    /// Regions of a frame, side by side and one below the other.
+    /// Returns the columns and rows of regions of a frame.
     fn grid(self) -> (u32, u32) {
         match self {
             Self::SerialSent => (4, 2),
@@ -320,7 +325,7 @@ impl Planted {
         }
     }
 
-    /// Whether the frame is that of its configuration, ragged, and not a grid.
+    /// Returns true if the frame is that of the configuration, and not a grid of whole regions.
     fn has_frame(self) -> bool {
         matches!(
             self,
@@ -344,7 +349,7 @@ impl Planted {
         if self.has_frame() { config.validate().unwrap() } else { design(&config, self.grid()) }
     }
 
-    /// Where a fault of a module is looked for.
+    /// Returns the level at which a fault of a module is searched.
     pub(crate) fn level(self, module: &str) -> Level {
         if self.has_frame() {
             return Level::Full;
@@ -356,7 +361,7 @@ impl Planted {
         }
     }
 
-    /// Compiled where a frame takes long.
+    /// Returns the simulator: the compiled one if a frame takes long.
     pub(crate) fn simulator(self) -> Simulator {
         match self {
             Self::SerialMany

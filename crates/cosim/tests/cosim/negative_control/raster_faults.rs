@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The faults of the raster organization.
 //!
-//! The flags of the lower border change nothing in frames that the core completes below: the rows that it adds
-//! repeat the last one.
+//! The flags of the lower border have no faults here. They change nothing in frames that the core
+//! completes below, because the rows that it adds repeat the last one.
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
@@ -10,7 +10,7 @@ use super::planted::Planted::{
     RasterPairs as Pairs, RasterPaper as Paper, RasterSent as Sent,
 };
 
-/// Every fault, by module.
+/// All faults, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Paper, "raster_memory", "if (write_i) words_q", "words_q"),

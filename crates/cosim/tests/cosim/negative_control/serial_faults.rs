@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The faults of the serial organization.
 //!
-//! Some edits of its resets and clears change nothing that is ever seen, and are not among these: a first
-//! frame has no reference, so that a count left behind by a reset is never shown; a rotation leaves zeros;
-//! what is written astray after a reset is written over by the next frame; and the
-//! candidate of a median is never negative, so that all its signs are equal.
+//! Some edits of resets and clears have no visible effect, and are not in the list. A first frame
+//! has no reference, so a count that a reset leaves is never shown. A rotation leaves zeros. A word
+//! that is written to a wrong place after a reset is overwritten by the next frame. The candidate
+//! of a median is never negative, so all its signs are equal.
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
@@ -13,7 +13,7 @@ use super::planted::Planted::{
     SerialRaster as Raster, SerialSent as Sent, SerialVariance as Variance,
 };
 
-/// Every fault, by module.
+/// All faults, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Paper, "carry_adder", "} - {~other_i", "} + {~other_i"),
@@ -39,7 +39,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Mad, "serial_lane", "turned && carry", "carry"),
     fault("operator", Mad, "serial_lane", "takes && (!divide || stays)", "takes"),
     fault("operator", Variance, "serial_lane", "enable && takes &&", "enable &&"),
-    // A mean with more bits than the sum of a region has.
+    // A mean has more bits than the sum of a region.
     fault("reset", Variance, "serial_lane", "if (shift) aux_q <= {AUX_BITS{1'b0}};\n                else if", "if"),
     fault("operator", Mad, "serial_lane", "{(ACC_BITS - MEAN_BITS) {invert}}", "{(ACC_BITS - MEAN_BITS) {turned}}"),
     fault("constant", Paper, "serial_lane", "{{(CHAIN_BITS - 1) {1'b0}}, scored}", "{CHAIN_BITS{1'b0}}"),

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of what irrelevant regions send, in the serial organization.
+//! The faults of summaries in the serial organization.
 //!
-//! A sum that passes at a reset is compared and written all the same, which is never seen: the next frame starts over.
+//! A sum that passes during a reset is compared and written all the same. This is never visible,
+//! because the next frame starts over.
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
     SerialMeans as Means, SerialMeansMany as Many, SerialMeansRaster as Raster,
 };
 
-/// Every fault, by module.
+/// All faults, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Means, "serial_summary", ".level_i(level_i), .above_o(above)", ".level_i(level_i - 1'b1), .above_o(above)"),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of what irrelevant regions send.
+//! The faults of summaries in the pipelined and raster organizations.
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
@@ -7,7 +7,7 @@ use super::planted::Planted::{
     RasterMeansOne, RasterMeansSent,
 };
 
-/// Every fault, by module.
+/// All faults of the pipelined organization, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault("constant", Means, "block_place", "column == {{(BITS - 1) {1'b0}}, 1'b1}", "column == {BITS{1'b0}}"),
@@ -72,7 +72,7 @@ pub(crate) const FAULTS: &[Fault] = &[
     fault("index", MeansDeep, "rpu", ".pixel_i(tail_raw),\n        .done_i", ".pixel_i(tail_pixel),\n        .done_i"),
 ];
 
-/// Those of raster cores.
+/// All faults of raster cores, by module.
 #[rustfmt::skip]
 pub(crate) const RASTER: &[Fault] = &[
     fault("constant", RasterMeans, "raster_parts", "LAST = SIZE - 1;", "LAST = SIZE - 2;"),

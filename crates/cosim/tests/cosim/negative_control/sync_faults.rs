@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The faults of what finds frames again, in front of each organization.
+//! The faults of the frame synchronization, in front of each organization.
 
 use super::faults::{Fault, fault};
 use super::planted::Planted::{
     SyncPipelined as Pipelined, SyncRaster as Raster, SyncSerial as Serial,
 };
 
-/// Every fault, by module.
+/// All faults, by module.
 #[rustfmt::skip]
 pub(crate) const FAULTS: &[Fault] = &[
     fault("operator", Pipelined, "frame_sync", "fits = inside_q != sof_i;", "fits = inside_q || sof_i;"),
