@@ -48,9 +48,10 @@ pub struct ShippedBench {
     pub tally: VectorTally,
     /// The number of clocks of the vectors.
     pub clocks: u64,
-    /// What the vectors should contain and do not, in words; the bench then never prints `PASS`.
+    /// The content that the vectors should have and lack, in words; the bench then never prints
+    /// `PASS`.
     pub shortcoming: Option<String>,
-    /// What no vectors of this design can contain because of its configuration, in words.
+    /// The content that no vectors of this design can have because of its configuration, in words.
     pub remarks: Vec<String>,
     /// The bench and its vectors; the paths are relative to the folder of the core.
     pub files: [SourceFile; 2],

@@ -335,7 +335,7 @@ fn a_wrong_block_ram_is_found_and_another_mode_is_refused() {
         let shape = format!("{ports:?} {width} bits");
         let write_first = edited(&edited(netlist, 0, wires, there), 0, word, through);
         assert!(!run(&write_first, recording).unwrap().is_empty(), "{shape}: writes first");
-        // A byte that is not enabled is written, with what is unknown.
+        // A byte without its enable bit is written, also while its content is unknown.
         let always = edited(netlist, 0, "enables !== {ENABLES{1'b0}}", "1'b1");
         assert_eq!(run(&always, recording).unwrap(), [], "{shape}");
         let always = edited(&always, 0, "enables[i] !== 1'b0", "1'b1");

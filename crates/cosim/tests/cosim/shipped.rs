@@ -60,7 +60,7 @@ fn designs() -> Vec<String> {
                         );
                         list.push(format!("{}{toml}{serial}{features}", frame((4, 3), size)));
                     }
-                    // Of a frame with few large regions none is lost as a whole, and the bench
+                    // A frame with few large regions loses none as a whole, and the bench
                     // reports that.
                     if size < 64 {
                         let raster =
@@ -256,8 +256,8 @@ fn large_folds_show_everything() {
     }
 }
 
-/// A bench reports what its vectors cannot show. It never passes if they could show it in another
-/// design of that shape.
+/// A bench whose vectors lack something says so and never passes. A lack that follows from the
+/// configuration is only a remark.
 #[test]
 fn what_vectors_cannot_show_is_said() {
     for (toml, words) in [
