@@ -58,8 +58,8 @@ impl Film {
         self.shot(false)
     }
 
-    /// Returns the next frame, whose background flickers by up to half the largest pixel, which
-    /// sets every bit but the highest.
+    /// Returns the next frame, whose background flickers by up to half the largest pixel, so that
+    /// no change sets the highest bit.
     pub(super) fn flickering(&mut self) -> Frame {
         let flicker = std::mem::replace(&mut self.flicker, largest(self.bits) / 2);
         let frame = self.quiet();

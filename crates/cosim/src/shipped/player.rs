@@ -25,7 +25,7 @@ const REFUSED: usize = 3;
 /// The number of clocks between two frames after which no window has flushed: the smallest window
 /// has four pixels.
 const WITHIN_A_FLUSH: u64 = 2;
-/// The number of clocks that a word waits for a hesitant sink.
+/// The number of clocks that a word waits for a sink that delays words.
 const HESITATION: u32 = 2;
 /// The largest number of clocks to wait for a pixel or mean to leave.
 const MOST_WAITING: usize = 1 << 20;
@@ -38,7 +38,7 @@ pub(super) struct Player<'a> {
     /// The pixels at the port while they mean nothing.
     garbage: Vec<u16>,
     sink: SinkMood,
-    /// The number of clocks that a word has waited for a hesitant sink.
+    /// The number of clocks that a word has waited for a sink that delays words.
     waited: u32,
     /// True if a frame waits for the sink, which must then not stall between frames.
     waits: bool,

@@ -20,7 +20,7 @@ const MAX_DRAWN: u32 = 16_384;
 /// frame.
 const FEW_PIXELS: usize = 4_096;
 const FEW_CLOCKS: u64 = 20_000;
-/// The motifs of the frames near the thresholds.
+/// The patterns of the frames near the thresholds.
 const NEAR: [Motif; 4] = [Motif::Bump, Motif::Noise, Motif::Smooth, Motif::Bump];
 /// The number of frames whose shapes cross the borders of regions.
 const WIDE_FRAMES: u32 = 8;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! The drawing of motifs, with differences and counts near the design's thresholds.
+//! The drawing of patterns, with differences and counts near the design's thresholds.
 
 use super::motif::{Artist, moved};
 use super::random::Random;
@@ -99,8 +99,8 @@ impl Artist {
         })
     }
 
-    /// Draws a pixel with a ring of neighbors around it. `RING` has the neighbors clockwise from the
-    /// upper left, as offsets from the upper left one.
+    /// Draws a pixel with a ring of neighbors around it. `RING` has the neighbors clockwise from
+    /// the upper left, as offsets from the upper left one.
     pub(super) fn ring(&mut self) -> Vec<u16> {
         const RING: [(usize, usize); 8] =
             [(0, 0), (1, 0), (2, 0), (2, 1), (2, 2), (1, 2), (0, 2), (0, 1)];
@@ -140,8 +140,8 @@ impl Artist {
         self.fill(|_, (x, y)| if rank(x, y) < more { low + 1 } else { low })
     }
 
-    /// Returns the block of a pixel of the region, and the index of the pixel in the block, or `None`
-    /// for a pixel of the halo. Blocks have `side` pixels a side.
+    /// Returns the block of a pixel of the region, and the index of the pixel in the block, or
+    /// `None` for a pixel of the halo. Blocks have `side` pixels a side.
     fn in_block(&self, rank: usize, side: usize) -> Option<(usize, usize)> {
         let own = self.side - 2 * self.margin;
         let (x, y) = (rank % own, rank / own);

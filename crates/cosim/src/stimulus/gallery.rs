@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Whole frames of motifs, with one drawing state for every region.
+//! Whole frames of patterns, with one drawing state for every region.
 
 use super::feed::FrameFeed;
 use super::motif::{Artist, Motif};
@@ -27,7 +27,7 @@ impl Gallery {
         Self { artists, side, size, bits: design.pixel_bits() }
     }
 
-    /// Draws the next frame. With `mixed` every region starts at another motif, and with
+    /// Draws the next frame. With `mixed` every region starts at another pattern, and with
     /// `configured` about half of the regions are drawn near a minimum of the design.
     pub(super) fn draw(
         &mut self,

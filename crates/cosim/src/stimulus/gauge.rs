@@ -10,7 +10,7 @@ use foveate_model::window::Window;
 use foveate_model::{RegionView, changed_pixels};
 use std::ops::Range;
 
-/// A function that computes the scores of squares of one size.
+/// A calculator of the scores of squares of one size.
 #[derive(Clone, Debug)]
 pub(super) struct Gauge {
     meters: Vec<Meter>,

@@ -15,7 +15,7 @@ pub(super) enum Manners {
 }
 
 impl Manners {
-    /// Returns a random policy, most often `Rude`.
+    /// Returns a random policy; half of the time it is the one with random pixels.
     pub(super) fn any(random: &mut Random) -> Self {
         match random.up_to(3) {
             0 => Self::Quiet,

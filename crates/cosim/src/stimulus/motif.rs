@@ -5,7 +5,7 @@ use super::gauge::Gauge;
 use super::random::Random;
 use foveate_design::Design;
 
-/// A way to fill a square. Some motifs change the last picture of the square.
+/// A way to fill a square. Some patterns change the last picture of the square.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Motif {
     /// All pixels are 0.
@@ -57,7 +57,7 @@ pub(crate) enum Motif {
     MovingPixel,
 }
 
-/// The motifs with which every frame differs from the last one in some regions and not in others.
+/// The patterns with which every frame differs from the last one in some regions and not in others.
 pub(super) const TELLING: &[Motif] =
     &[Motif::Smooth, Motif::Bump, Motif::Noise, Motif::Same, Motif::Step, Motif::Ring];
 

@@ -5,7 +5,7 @@ use super::random::Random;
 use foveate_design::{Design, Hardware, PortRole, RasterTiming};
 use foveate_model::CycleModel;
 
-/// An unlucky sink begins to stall at one of `UNLUCKY` clocks at which no region ends.
+/// One in so many clocks at which no region ends is the start of a stall.
 const UNLUCKY: u64 = 24;
 
 /// The offset of the turn with which the first stalling sink is the one that loses most regions.

@@ -17,9 +17,9 @@ use foveate_design::{Design, Hardware};
 pub(super) struct Sequence {
     /// The name of the sequence in reports.
     pub(super) name: &'static str,
-    /// The motifs of the regions, frame by frame.
+    /// The patterns of the regions, frame by frame.
     pub(super) motifs: &'static [Motif],
-    /// True if every region starts at another motif.
+    /// True if every region starts at another pattern.
     pub(super) mixed: bool,
     /// The state of the core at the end of the sequence.
     pub(super) end: End,
@@ -57,7 +57,7 @@ pub(super) enum End {
 }
 
 impl Sequence {
-    /// A sequence whose regions show different motifs, with thresholds that meet them exactly; at
+    /// A sequence whose regions show different patterns, with thresholds that meet them exactly; at
     /// the end everything leaves.
     const fn mixed(name: &'static str, motifs: &'static [Motif]) -> Self {
         Self::aimed(ThresholdAim::Exact, name, motifs)
