@@ -143,15 +143,17 @@ impl<'a> Stage<'a> {
         self.end_clearing(traffic, "frame_skipped", Raised::Skipped);
     }
 
-    /// Stops the sink from the second line of a frame to the end of the next frame.
+    /// Stops the sink from the last line of the first row of regions until the next frame is decided. The FRAME packet has
+    /// left by then, so the next frame begins while all rows of this one wait.
     fn stopped_sinks(&mut self, traffic: &mut Traffic<'a>, event: &'static str, raised: Raised) {
         self.begin_clearing(traffic, event, true);
-        let hold = 2 * self.design().timing().clocks_per_frame();
+        let hold = 4 * self.design().timing().clocks_per_frame() + 2000;
+        let line = self.design().region_size() - 1;
         // All attempts send the same frames, so they differ in the parity of the clock alone.
         let [first, second] = [self.film().noise(), self.film().noise()];
         for parity in 0..ATTEMPTS {
             self.align(traffic, parity);
-            traffic.frame_around(taken(first.clone()), 1, |traffic| traffic.hold(hold));
+            traffic.frame_around(taken(first.clone()), line, |traffic| traffic.hold(hold));
             traffic.frame(taken(second.clone()));
             traffic.drain();
         }

@@ -158,6 +158,9 @@ impl<'a> Stage<'a> {
         for fate in [Fate::Taken, Fate::Skipped, Fate::Skipped] {
             traffic.frame(Sent { fate, ..taken(self.film.next()) });
         }
+        // The next frame is compared with the one before the skipped frames.
+        traffic.drain();
+        traffic.frame(taken(self.film.next()));
         self.end(&mut traffic, 0);
         traffic.reset();
         traffic.may_drop();

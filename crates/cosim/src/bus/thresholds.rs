@@ -173,7 +173,8 @@ fn sweep_of_feature(design: &Design, all_active: &Config, place: usize) -> Vec<C
     };
     let mut configs = vec![alone.clone(), with_min(&alone, 0)];
     if design.features()[place].level().is_some() {
-        let strict = with_min(&alone, 1);
+        // Even noise of 1-bit pixels reaches the largest level here and there, so one pixel is not enough.
+        let strict = with_min(&alone, u64::from(design.region_pixels() / 8).max(1));
         let mut lenient = strict.clone();
         lenient.camera.spatial[place].level = Some(0);
         configs.extend([strict, lenient]);

@@ -129,7 +129,9 @@ pub(crate) fn can_drop_regions(design: RasterDesign<'_>) -> bool {
     kept.is_some() && 2 * design.rows() > RasterTiming::of(design).buffer_rows
 }
 
-/// Returns true if a sink that stops loses rows: two rows wait, and two frames may be under way.
+/// Returns true if a sink that stops loses rows. Two rows wait. So a third row of the same frame is lost, or a row of the next
+/// frame, which begins only if the array loses regions instead of waiting for the sink.
 pub(crate) fn can_drop_rows(design: RasterDesign<'_>) -> bool {
-    design.rows() > 1
+    let loses_regions = design.timing().departure().kept_rows.is_some();
+    design.rows() > if loses_regions { 1 } else { 2 }
 }
