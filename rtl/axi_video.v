@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Makes whole frames of AXI4-Stream video, however damaged (docs/axi.md): a short line goes on with its last pixel, what is
-// left of a frame with its last line, and what is too long is left out.
+// Makes whole frames of AXI4-Stream video, even if the video is damaged (docs/axi.md). A short line is filled with its
+// last pixel, missing lines are copies of the last line, and the excess of a long line is dropped. An input word waits
+// in one register, so that ready_o depends on no input; words of the frame leave through valid_o and ready_i.
 `default_nettype none
 
 module axi_video #(
@@ -13,28 +14,28 @@ module axi_video #(
 ) (
     input  wire                   clk_i,        // clock, rising edge
     input  wire                   rst_i,        // synchronous reset, active high
-    input  wire                   valid_i,      // a word comes
-    input  wire [LANES*WIDTH-1:0] pixel_i,      // that word, the left pixel in the lowest bits
-    input  wire                   sof_i,        // it is the first of a frame
-    input  wire                   eol_i,        // it is the last of a line
-    output wire                   ready_o,      // it is taken
+    input  wire                   valid_i,      // a word is offered
+    input  wire [LANES*WIDTH-1:0] pixel_i,      // the offered word, its left pixel in the lowest bits
+    input  wire                   sof_i,        // the offered word is the first of a frame
+    input  wire                   eol_i,        // the offered word is the last of a line
+    output wire                   ready_o,      // the offered word is taken
     input  wire                   admit_i,      // a frame may begin
-    input  wire                   late_i,       // one that may not is skipped; otherwise it waits
-    output wire                   begin_o,      // a frame begins, before its first word
+    input  wire                   late_i,       // 1: a frame that may not begin is skipped; 0: it waits
+    output wire                   begin_o,      // a frame begins at this edge, before its first word leaves
     output wire                   idle_o,       // no frame is under way
-    output wire                   valid_o,      // a word of a whole frame
-    output wire [LANES*WIDTH-1:0] pixel_o,      // that word
-    output wire                   sof_o,        // it is the first
-    input  wire                   ready_i,      // it is taken
-    output wire                   skip_o,       // a frame is skipped
-    output reg                    repair_o,     // a frame was found to be damaged
-    output reg                    sof_early_o,  // a frame was too short
-    output reg                    sof_late_o,   // words came between two frames
-    output reg                    eol_early_o,  // a line was too short
-    output reg                    eol_late_o    // a line was too long
+    output wire                   valid_o,      // a word of a whole frame is on pixel_o
+    output wire [LANES*WIDTH-1:0] pixel_o,      // the word that leaves
+    output wire                   sof_o,        // the word that leaves is the first of its frame
+    input  wire                   ready_i,      // the sink takes the word that leaves
+    output wire                   skip_o,       // a frame is skipped at this edge
+    output reg                    repair_o,     // a frame was found to be damaged, for one clock
+    output reg                    sof_early_o,  // a frame was too short, for one clock
+    output reg                    sof_late_o,   // words came between two frames, for one clock
+    output reg                    eol_early_o,  // a line was too short, for one clock
+    output reg                    eol_late_o    // a line was too long, for one clock
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
         if (LINES < 2) begin : g_lines LINES_must_be_2_or_more u_refused (); end
@@ -44,11 +45,11 @@ module axi_video #(
     localparam LAST_LINE = LINES - 1;
     localparam [2:0] SEEK = 3'd0;  // between two frames
     localparam [2:0] LINE = 3'd1;  // words of a line are taken
-    localparam [2:0] FILL = 3'd2;  // the line goes on with its last pixel
-    localparam [2:0] COPY = 3'd3;  // the frame goes on with its last line
-    localparam [2:0] DROP = 3'd4;  // the rest of a line is left out
+    localparam [2:0] FILL = 3'd2;  // the line is filled with its last pixel
+    localparam [2:0] COPY = 3'd3;  // the frame is filled with copies of its last line
+    localparam [2:0] DROP = 3'd4;  // the rest of a long line is dropped
 
-    // A word from outside. It is in a register, so that ready_o depends on no input.
+    // The input register. It makes ready_o independent of all inputs.
     reg come_q, sof_q, eol_q;
     reg [LANES*WIDTH-1:0] come_pixel_q;
     wire take;
@@ -66,14 +67,14 @@ module axi_video #(
     reg [2:0] state_q;
     reg [WORD_BITS-1:0] word_q;
     reg [LINE_BITS-1:0] line_q;
-    reg complete_q;  // all words of a frame have gone (DROP, SEEK)
+    reg complete_q;  // all words of a frame have left (DROP, SEEK)
     reg damaged_q;   // the frame has been found to be damaged
     reg [WIDTH-1:0] last_q;
     wire first_word = word_q == {WORD_BITS{1'b0}};
     wire last_word = word_q == LAST_WORD[WORD_BITS-1:0];
     wire last_line = line_q == LAST_LINE[LINE_BITS-1:0];
     wire first = first_word && line_q == {LINE_BITS{1'b0}};
-    wire early = sof_q && !first;  // a first word within a frame
+    wire early = sof_q && !first;  // the registered word starts a frame inside a frame
 
     wire [LANES*WIDTH-1:0] copied;
     assign valid_o = state_q == LINE ? come_q && !early : state_q == FILL || state_q == COPY;
@@ -108,7 +109,7 @@ module axi_video #(
                 end else if (take) complete_q <= 1'b0;
             end
             LINE: begin
-                // A line that is cut is filled first; then the start of the next frame still stands here.
+                // A line that ends too early is filled first. The first word of the next frame waits in the register meanwhile.
                 if (too_early) state_q <= first_word ? COPY : FILL;
                 else if (pass) begin
                     if (too_short) state_q <= FILL;
@@ -149,8 +150,8 @@ module axi_video #(
         end
     end
 
-    // The line that passes, for those that are missing. Its first word has been read when they begin, as nothing passes at the
-    // clock before.
+    // The line memory: the last line, for copies of it. Its first word is read before a copy begins, because no word
+    // passes at the clock before.
     raster_memory #(.WIDTH(LANES * WIDTH), .WORDS(WORDS), .ADDRESS_BITS(WORD_BITS)) u_line (
         .clk_i(clk_i), .write_i(pass && state_q != COPY), .write_address_i(word_q), .data_i(pixel_o),
         .read_i(1'b1), .read_address_i(next_word), .output_i(1'b1), .data_o(copied)

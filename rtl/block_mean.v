@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The rounded means of the blocks of a region, each when its last pixel has come.
+// Computes the rounded mean of each block of a region. valid_o and mean_o come with the last pixel of the block, with
+// DEEP one clock later.
 //
-// The sum of one block is under way in a register; those of the other blocks beside it wait in a line, which moves
-// when the next block goes on. Half of a block's pixels are in the sum from its first one on, so that the mean is
-// floor(sum / pixels), a multiplication and a shift that are exact for every sum that can occur.
+// The sum of the current block is in a register. The sums of the other blocks of the same row of blocks wait in a delay
+// line, which moves when the next block continues. The sum starts with half of a block's pixels, so that the mean is
+// floor(sum / pixels). That division is a multiplication and a shift, exact for every sum that can occur.
 `default_nettype none
 
 module block_mean #(
@@ -11,23 +12,23 @@ module block_mean #(
     parameter SIDE = 8,                      // pixels of a region's side
     parameter BLOCKS = 2,                    // blocks of a region's side
     parameter ADDRESS_BITS = 6,              // ceil(log2(SIDE * SIDE))
-    parameter AHEAD = 0,                     // 1: address_i is the number of the pixel that comes next
-    parameter SUM_BITS = 12,                 // bits of the sum of a block and half of its pixels
+    parameter AHEAD = 0,                     // 1: address_i is the number of the next pixel; 0: that of this one
+    parameter SUM_BITS = 12,                 // bits of the sum of a block plus half of its pixels
     parameter FACTOR_BITS = 1,               // bits of FACTOR
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // sum * FACTOR >> SHIFT is sum / pixels
-    parameter SHIFT = 4,                     // bits that are dropped of the product
-    parameter DEEP = 0                       // 1: a mean is there in the clock after its last pixel, behind a register
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (sum * FACTOR) >> SHIFT is the sum divided by the pixels of a block
+    parameter SHIFT = 4,                     // bits of the product that are dropped
+    parameter DEEP = 0                       // 1: the mean comes one clock after the last pixel, behind a register
 ) (
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    rst_i,      // synchronous reset, active high
     input  wire                    step_i,     // a pixel comes
-    input  wire [ADDRESS_BITS-1:0] address_i,  // its number in the region, or that of the next
-    input  wire [       WIDTH-1:0] pixel_i,    // that pixel
-    output wire                    valid_o,    // a block is complete, with this pixel (DEEP: with that of the last clock)
-    output wire [       WIDTH-1:0] mean_o      // its mean
+    input  wire [ADDRESS_BITS-1:0] address_i,  // number of the pixel in the region, or with AHEAD of the next pixel
+    input  wire [       WIDTH-1:0] pixel_i,    // the pixel of this step
+    output wire                    valid_o,    // a block is complete: with this pixel, with DEEP with the pixel of the last clock
+    output wire [       WIDTH-1:0] mean_o      // mean of the complete block
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (SUM_BITS < WIDTH) begin : g_sum_bits SUM_BITS_must_be_WIDTH_or_more u_refused (); end
@@ -68,7 +69,7 @@ module block_mean #(
     always @(posedge clk_i) if (step_i) sum_q <= sum;
 
     wire [SUM_BITS-1:0] dividend;
-    // The bits below SHIFT are the remainder, those above the mean are never set.
+    // The bits below SHIFT are the remainder. The bits above the mean are never set.
     /* verilator lint_off UNUSEDSIGNAL */
     wire [PRODUCT_BITS-1:0] product = {{FACTOR_BITS{1'b0}}, dividend} * {{SUM_BITS{1'b0}}, FACTOR};
     /* verilator lint_on UNUSEDSIGNAL */

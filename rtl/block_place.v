@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Where a pixel of a region is in its block: a region has BLOCKS x BLOCKS blocks, its pixels come row by row.
+// Finds the place of a pixel in its block. A region has BLOCKS x BLOCKS blocks, and its pixels come row by row. The
+// outputs belong to the pixel of step_i, in the same clock.
 //
-// Where SIDE is a power of two, the number of the pixel says it. Else three counters do.
+// If SIDE is a power of two, the place is in the bits of the pixel's number. Otherwise three counters keep it.
 `default_nettype none
 
 module block_place #(
     parameter SIDE = 8,          // pixels of a region's side
     parameter BLOCKS = 2,        // blocks of a region's side
     parameter ADDRESS_BITS = 6,  // ceil(log2(SIDE * SIDE))
-    parameter AHEAD = 0          // 1: address_i is the number of the pixel that comes next
+    parameter AHEAD = 0          // 1: address_i is the number of the next pixel; 0: that of this one
 ) (
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    rst_i,      // synchronous reset, active high
     input  wire                    step_i,     // a pixel comes
-    input  wire [ADDRESS_BITS-1:0] address_i,  // its number in the region, or that of the next
-    output wire                    start_o,    // the pixel is the first of its row of the block
-    output wire                    upper_o,    // that row is the first of the block
+    input  wire [ADDRESS_BITS-1:0] address_i,  // number of the pixel in the region, or with AHEAD of the next pixel
+    output wire                    start_o,    // the pixel is the first of its row in the block
+    output wire                    upper_o,    // the row is the first of its block
     output wire                    last_o      // the pixel is the last of the block
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 2) begin : g_side SIDE_must_be_2_or_more u_refused (); end
         if (BLOCKS != 1 && BLOCKS != 2 && BLOCKS != 4) begin : g_blocks BLOCKS_must_be_1_2_or_4 u_refused (); end
@@ -46,7 +47,7 @@ module block_place #(
             wire [BITS-1:0] row = address_i[ROW+:BITS];
             assign upper_o = ~|row;
             if (AHEAD) begin : g_ahead
-                // Behind the last pixel of a row the number is one of the next row.
+                // With AHEAD the number after the last pixel of a row belongs to the next row.
                 wire is_next_row = ~|address_i[0+:ROW];
                 wire is_last_row = is_next_row ? ~|row : &row;
                 assign start_o = column == {{(BITS - 1) {1'b0}}, 1'b1};

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// FAST 5/8: hit when at least 5 contiguous of the 8 neighbors are all brighter than the center by
-// more than level, or all darker by more than level. DEEP puts registers before and behind the search for a run.
+// Detects corners by FAST 5/8: a hit if at least 5 contiguous of the 8 neighbors are all brighter than the center by more
+// than level_i, or all darker. hit_o comes in the clock of the step that completes the window. DEEP puts registers before
+// and behind the search for a run, so that it comes two clocks later.
 `default_nettype none
 
 module corner_detector #(
     parameter WIDTH = 8,  // bits of a pixel
-    parameter DEEP = 0    // 0: hit_o in the clock of its step; 1: two clocks later
+    parameter DEEP = 0    // 0: hit_o comes in the clock of its step; 1: two clocks later
 ) (
     input  wire             clk_i,      // clock, rising edge
-    input  wire             advance_i,  // the window moves by one column
+    input  wire             advance_i,  // the window moves by one column at this edge
     input  wire             left_i,     // the incoming column is the first of its row
     input  wire             right_i,    // the center is the last of its row
-    input  wire [WIDTH-1:0] upper_i,    // the incoming column, top
-    input  wire [WIDTH-1:0] middle_i,   // ... middle
-    input  wire [WIDTH-1:0] lower_i,    // ... bottom
-    input  wire [WIDTH-1:0] level_i,    // a neighbor differs when by more than this
-    output wire             hit_o       // of the center, with the incoming column on its right
+    input  wire [WIDTH-1:0] upper_i,    // upper pixel of the incoming column
+    input  wire [WIDTH-1:0] middle_i,   // middle pixel of the incoming column
+    input  wire [WIDTH-1:0] lower_i,    // lower pixel of the incoming column
+    input  wire [WIDTH-1:0] level_i,    // a neighbor differs if the difference is above this level
+    output wire             hit_o       // hit of the center, which has the incoming column on its right
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (DEEP != 0 && DEEP != 1) begin : g_deep_range DEEP_must_be_0_or_1 u_refused (); end
@@ -40,7 +41,7 @@ module corner_detector #(
     wire [COLUMN-1:0] right = right_i ? center_q : incoming;
     wire [ WIDTH-1:0] center = center_q[WIDTH+:WIDTH];
 
-    // Clockwise from the upper left neighbor, which is in the lowest bits.
+    // The ring of neighbors, clockwise from the upper left one, which is in the lowest bits.
     wire [8*WIDTH-1:0] ring = {
         left_q[WIDTH+:WIDTH],
         left_q[2*WIDTH+:WIDTH],
@@ -52,13 +53,13 @@ module corner_detector #(
         left_q[0+:WIDTH]
     };
 
-    // The bounds that a neighbor must exceed, or stay below, on one side or the other. A bound out of the range of pixels has its
-    // highest bit set: then no neighbor does.
+    // The bounds: a neighbor is brighter if it is above `high`, and darker if it is below `low`. A bound outside the range
+    // of pixels has its highest bit set, and then no neighbor exceeds it.
     wire [WIDTH:0] high = {1'b0, center} + {1'b0, level_i};
     wire [WIDTH:0] low = {1'b0, center} - {1'b0, level_i};
     wire [7:0] brighter;
     wire [7:0] darker;
-    wire [7:0] bright;  // brighter and darker, as the runs see them
+    wire [7:0] bright;  // `brighter`, as the search for a run sees it; `dark` is `darker` likewise
     wire [7:0] dark;
     wire [7:0] bright_run;
     wire [7:0] dark_run;

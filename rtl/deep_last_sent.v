@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The region as it was when it was last active, for a tail that compares a clock before it counts.
+// Keeps the pixels of a region as they were when it was last active, for a tail that compares one clock before it counts
+// (DEEP).
 //
-// The reference of a pixel is read in the clock of the comparison. The decision that may replace
-// it comes a clock later, with the count, so the memory is written there: it has a port of each kind.
+// The reference of a pixel is read in the clock of the comparison. The decision that may replace it comes with the count,
+// one clock later, and the memory is written then. So the memory has a write port and a read port.
 `default_nettype none
 
 module deep_last_sent #(
     parameter WIDTH = 8,         // bits of a pixel
     parameter PIXELS = 64,       // pixels of a region
     parameter ADDRESS_BITS = 6,  // ceil(log2(PIXELS))
-    parameter BLANKS = 1         // 1: a region with SRS = 0 is blanked, so that nothing sent is left
+    parameter BLANKS = 1         // 1: a region with SRS = 0 is blanked and loses its reference
 ) (
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    rst_i,      // synchronous reset, active high
-    input  wire [ADDRESS_BITS-1:0] address_i,  // of the pixel that is compared
-    input  wire [       WIDTH-1:0] pixel_i,    // the one there of the frame decided last, or to be decided
-    output wire [       WIDTH-1:0] sent_o,     // the one there that was last sent, before that frame
+    input  wire [ADDRESS_BITS-1:0] address_i,  // number of the pixel that is compared
+    input  wire [       WIDTH-1:0] pixel_i,    // the pixel with this number in the frame decided last, or about to be decided
+    output wire [       WIDTH-1:0] sent_o,     // the pixel with this number that was sent last before that frame
     input  wire                    step_i,     // the pixel compared a clock ago is counted
     input  wire                    decided_i,  // a decision is made in this clock
-    input  wire                    srs_i,      // its SRS
-    input  wire                    forward_i,  // the frame decided last is active: its pixel is the one sent
-    output wire                    valid_o     // there is a reference for the pixel that is counted
+    input  wire                    srs_i,      // SRS of that decision
+    input  wire                    forward_i,  // the frame decided last is active, so that its pixels become the reference
+    output wire                    valid_o     // the pixel that is counted has a valid reference
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (PIXELS < 2) begin : g_pixels PIXELS_must_be_2_or_more u_refused (); end

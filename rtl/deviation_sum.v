@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Second pass of the mean absolute deviation: adds up |2^FRACTION * pixel - mean| over a frame that
-// is read back from the store while the next one enters it. DEEP puts a register between the
-// difference and the sum, so that a pixel comes a clock before its step.
+// Second pass of the mean absolute deviation: adds up |2^FRACTION * pixel - mean| over a frame that is read back from the
+// store while the next frame enters it. sum_o includes a pixel after the edge of its step. DEEP puts a register between
+// the difference and the sum, so that a pixel comes one clock before its step.
 `default_nettype none
 
 module deviation_sum #(
@@ -9,19 +9,19 @@ module deviation_sum #(
     parameter FRACTION = 0,   // fraction bits of the mean
     parameter MEAN_BITS = 8,  // bits of the mean
     parameter SUM_BITS = 14,  // bits of the sum
-    parameter DEEP = 0        // 0: pixel_i and mean_i come with step_i; 1: a clock earlier
+    parameter DEEP = 0        // 0: pixel_i and mean_i come with step_i; 1: one clock earlier
 ) (
     input  wire                 clk_i,      // clock, rising edge
     input  wire                 rst_i,      // synchronous reset, active high
-    input  wire                 enable_i,   // there is a stored frame; without one the sum stays 0
-    input  wire                 restart_i,  // the sum is that of a whole frame
+    input  wire                 enable_i,   // the store holds a whole frame; otherwise the sum stays 0
+    input  wire                 restart_i,  // the sum is that of a whole frame and starts anew
     input  wire                 step_i,     // a pixel of the stored frame is read
-    input  wire [    WIDTH-1:0] pixel_i,    // of the stored frame
-    input  wire [MEAN_BITS-1:0] mean_i,     // of the stored frame
-    output reg  [ SUM_BITS-1:0] sum_o       // of the deviations so far
+    input  wire [    WIDTH-1:0] pixel_i,    // pixel of the stored frame
+    input  wire [MEAN_BITS-1:0] mean_i,     // mean of the stored frame
+    output reg  [ SUM_BITS-1:0] sum_o       // sum of the deviations so far
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (FRACTION < 0 || FRACTION > 12) begin : g_fraction FRACTION_must_be_0_to_12 u_refused (); end
@@ -40,8 +40,8 @@ module deviation_sum #(
 
     generate
         if (DEEP) begin : g_deep
-            // A negative difference is inverted, which gives one less than its magnitude; a carry from below
-            // the lowest bit makes up for it.
+            // A negative difference is inverted, which gives one less than its magnitude. A carry from below the lowest bit adds
+            // the missing one.
             reg [MEAN_BITS:0] difference_q;
             wire negative = difference_q[MEAN_BITS];
             wire unused_low;

@@ -1,21 +1,21 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// CRC-32 of packets (docs/packets.md), BITS bits at a time: which sum follows from the sum so far and the next bits.
+// Updates the CRC-32 of packets (docs/packets.md) with BITS bits at a time. Combinational.
 `default_nettype none
 
 module packet_crc #(
-    parameter BITS = 16  // bits that are added, the first in the lowest; 32 or fewer
+    parameter BITS = 16  // bits that are added at a time, the first in the lowest; 32 or fewer
 ) (
     input  wire [    31:0] crc_i,   // the sum so far, all ones at the start
     input  wire [BITS-1:0] data_i,  // the next bits
-    output wire [    31:0] crc_o    // the sum with them; inverted it is the CRC of all bits so far
+    output wire [    31:0] crc_o    // the sum with these bits; inverted, it is the CRC of all bits so far
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (BITS < 1 || BITS > 32) begin : g_bits BITS_must_be_1_to_32 u_refused (); end
     endgenerate
 
-    // What a sum with only bit `place` becomes after BITS bits of 0.
+    // Returns the sum that follows BITS bits of 0 from a sum with only bit `place` set.
     function [31:0] moved(input integer place);
         integer step;
         begin
@@ -24,8 +24,8 @@ module packet_crc #(
         end
     endfunction
 
-    // The sum is linear: every bit of it and of the data moves on its own. So each bit is one flat exclusive or, which takes fewer
-    // LUTs than one that follows the bits in turn.
+    // The sum is linear: each bit of the old sum and of the data contributes independently. So each bit of the new sum is
+    // one flat exclusive or, which takes fewer LUTs than logic that follows the bits in turn.
     wire [31:0] sum = crc_i ^ {{(32 - BITS) {1'b0}}, data_i};
     wire [31:0] columns[0:31];
     genvar from, to;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Which frames are under way, and what of them has not left yet. At most two are: one whose packets leave, and one that is
-// taken; the FRAME packet of this one waits for the END of the other.
+// Follows the frames that are under way, and what each of them has still to send. At most two frames are: one whose packets
+// leave, and one that is taken. The FRAME packet of the second waits for the END packet of the first. Outputs follow the
+// registers; an event counts from the edge at which its input is 1.
 `default_nettype none
 
 module packet_frames #(
@@ -10,36 +11,36 @@ module packet_frames #(
 ) (
     input  wire                 clk_i,            // clock, rising edge
     input  wire                 rst_i,            // synchronous reset, active high
-    input  wire                 forget_i,         // as rst_i, but frames are counted on
-    input  wire [         63:0] time_i,           // now, in ticks
+    input  wire                 forget_i,         // resets as rst_i does, but frames are counted on
+    input  wire [         63:0] time_i,           // the present time, in ticks
     input  wire                 begin_i,          // a frame begins
-    input  wire                 skip_i,           // a frame comes, and is skipped
-    input  wire                 decided_frame_i,  // lowest bit of the number of the frame that is decided, since reset
-    input  wire                 decided_last_i,   // its last region is decided at this edge
-    input  wire                 sends_i,          // at this edge a region of it is decided that sends something
-    input  wire                 row_dropped_i,    // at this edge a row of it is dropped
-    input  wire                 whole_i,          // a region has come whole
-    input  wire                 whole_frame_i,    // lowest bit of the number of its frame
+    input  wire                 skip_i,           // a frame is offered and skipped
+    input  wire                 decided_frame_i,  // lowest bit of the number since reset of the frame that is decided
+    input  wire                 decided_last_i,   // the last region of that frame is decided at this edge
+    input  wire                 sends_i,          // a region of that frame that sends something is decided at this edge
+    input  wire                 row_dropped_i,    // a row of that frame is dropped at this edge
+    input  wire                 whole_i,          // all of a region has come
+    input  wire                 whole_frame_i,    // lowest bit of the number since reset of that region's frame
     input  wire                 lost_i,           // a region was lost
-    input  wire                 lost_frame_i,     // lowest bit of the number of its frame
+    input  wire                 lost_frame_i,     // lowest bit of the number since reset of the lost region's frame
     input  wire                 opened_i,         // the FRAME packet has left
     input  wire                 ended_i,          // the END packet has left
     output wire                 admit_o,          // a frame may begin
-    output wire                 behind_o,         // packets of two frames wait, so that none may begin for long
+    output wire                 behind_o,         // packets of two frames wait, so that no frame may begin soon
     output wire                 busy_o,           // a frame is under way
     output wire                 announced_o,      // a FRAME packet waits, or leaves
-    output wire                 first_o,          // the next FRAME is the first since reset
-    output wire [         63:0] time_o,           // when the frame began that is announced
-    output wire [         31:0] number_o,         // its number; then that of the frame that leaves
-    output wire [         31:0] frames_o,         // frames that came
-    output wire                 frame_o,          // lowest bit of the number of the frame that leaves, since reset
-    output wire                 closed_o,         // all its decisions are known, and none of its regions is on the way
-    output wire [REGION_BITS:0] dropped_o,        // its regions that were lost
-    output wire [   ROW_BITS:0] dropped_rows_o    // its rows that were dropped
+    output wire                 first_o,          // the next FRAME packet is the first since reset
+    output wire [         63:0] time_o,           // time at which the announced frame began
+    output wire [         31:0] number_o,         // number of the announced frame; after its FRAME, of the frame that leaves
+    output wire [         31:0] frames_o,         // number of frames that were offered
+    output wire                 frame_o,          // lowest bit of the number since reset of the frame that leaves
+    output wire                 closed_o,         // all decisions of that frame are made, and none of its regions is under way
+    output wire [REGION_BITS:0] dropped_o,        // number of its regions that were lost
+    output wire [   ROW_BITS:0] dropped_rows_o    // number of its rows that were dropped
 );
 
     reg announced_q, open_q, deciding_q, first_q, frame_q;
-    reg [1:0] decided_q;  // by frame: all its regions are decided
+    reg [1:0] decided_q;  // one bit per frame: all of its regions are decided
     reg [63:0] time_q;
     reg [31:0] count_q, announced_number_q, number_q;
     reg [2*PENDING_BITS-1:0] pending_q;
@@ -68,7 +69,7 @@ module packet_frames #(
             announced_number_q <= count_q;
         end
         if (begin_i || skip_i) count_q <= count_q + 1'b1;
-        // While FRAME leaves, no END does: so the number is that of the frame in its packets.
+        // No END packet leaves while a FRAME packet does. So this number is that of the frame whose packets leave.
         if (announced_q && !open_q) number_q <= announced_number_q;
         if (rst_i || forget_i) begin
             announced_q <= 1'b0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Row and column of a region from its number: a division by the regions of a row, a bit of the quotient at a clock.
+// Computes row and column of a region from its number, by a division by COLUMNS that gives one bit of the quotient per clock.
 `default_nettype none
 
 module packet_place #(
@@ -9,14 +9,14 @@ module packet_place #(
 ) (
     input  wire                               clk_i,     // clock, rising edge
     input  wire                               rst_i,     // synchronous reset, active high
-    input  wire                               start_i,   // begins with this number
-    input  wire [            REGION_BITS-1:0] region_i,  // that number
-    output wire                               busy_o,    // row and column are not yet those of the number given last
-    output wire [REGION_BITS-COLUMN_BITS:0]   row_o,     // the row of regions
-    output wire [            COLUMN_BITS-1:0] column_o   // the column
+    input  wire                               start_i,   // a division begins with region_i at this edge
+    input  wire [            REGION_BITS-1:0] region_i,  // number of the region
+    output wire                               busy_o,    // row_o and column_o are not yet those of the last region_i
+    output wire [REGION_BITS-COLUMN_BITS:0]   row_o,     // row of the region
+    output wire [            COLUMN_BITS-1:0] column_o   // column of the region
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 2) begin : g_columns COLUMNS_must_be_2_or_more u_refused (); end
         if (COLUMN_BITS != $clog2(COLUMNS)) begin : g_column_bits COLUMN_BITS_must_be_clog2_of_COLUMNS u_refused (); end
@@ -29,13 +29,13 @@ module packet_place #(
     localparam DIVISOR = COLUMNS;
 
     reg [COLUMN_BITS-1:0] rest_q;
-    reg [STEPS-1:0] digits_q;  // bits of the number that are left, and behind them those of the quotient
+    reg [STEPS-1:0] digits_q;  // the remaining bits of the number, followed by the bits of the quotient
     reg [STEP_BITS-1:0] steps_q;
     wire [COLUMN_BITS:0] next = {rest_q, digits_q[STEPS-1]};
     wire fits = next >= DIVISOR[COLUMN_BITS:0];
     wire [COLUMN_BITS-1:0] less = next[COLUMN_BITS-1:0] - DIVISOR[COLUMN_BITS-1:0];
 
-    // The quotient comes from the right as the number leaves on the left.
+    // Bits of the quotient enter on the right while bits of the number leave on the left.
     wire [STEPS:0] moved = {digits_q, fits};
     wire unused_digit = moved[STEPS];
 

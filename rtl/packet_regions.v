@@ -1,45 +1,46 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Collects what leaves of a region, so that its REGION packet (docs/packets.md) leaves whole or not at all: a region that is
-// lost in the middle gives its place back.
+// Collects the words of a region, so that its REGION packet (docs/packets.md) is sent whole or not at all. It keeps up to
+// 2^PLACE_BITS regions. A region that is lost in the middle gives its place back. A part of the oldest whole region is on
+// part_o one clock after its read.
 `default_nettype none
 
 module packet_regions #(
     parameter WIDTH = 8,        // bits of a pixel
     parameter LANES = 1,        // pixels of a word
     parameter PIXELS = 64,      // pixels of a region
-    parameter MEANS = 0,        // means of a summary; 0: there are none
-    parameter COLUMNS = 240,    // regions side by side
+    parameter MEANS = 0,        // means of a summary; 0: the design has no summaries
+    parameter COLUMNS = 240,    // regions in a row of regions
     parameter COLUMN_BITS = 8,  // ceil(log2(COLUMNS))
     parameter REGION_BITS = 15, // bits of the number of a region
     parameter BITS = 16,        // bits of a part of the packet, 16 or 32
     parameter PART_BITS = 6,    // bits of the number of a part
-    parameter PLACE_BITS = 2    // log2 of the regions that are kept
+    parameter PLACE_BITS = 2    // log2 of the number of regions that are kept
 ) (
     input  wire                               clk_i,           // clock, rising edge
     input  wire                               rst_i,           // synchronous reset, active high
-    input  wire                               valid_i,         // a word of a region comes
-    input  wire [            REGION_BITS-1:0] region_i,        // its region
-    input  wire [            LANES*WIDTH-1:0] pixel_i,         // that word
-    input  wire                               first_i,         // the first of its region
-    input  wire                               last_i,          // the last that comes of it
-    input  wire                               abort_i,         // ... because it was lost
-    input  wire                               frame_i,         // lowest bit of the number of its frame since reset
+    input  wire                               valid_i,         // a word of a region is offered
+    input  wire [            REGION_BITS-1:0] region_i,        // number of the region of that word
+    input  wire [            LANES*WIDTH-1:0] pixel_i,         // the offered word
+    input  wire                               first_i,         // the word is the first of its region
+    input  wire                               last_i,          // the word is the last that comes of its region
+    input  wire                               abort_i,         // the word is the last because its region was lost
+    input  wire                               frame_i,         // lowest bit of the number since reset of the region's frame
     input  wire                               summary_i,       // the word is a mean (MEANS)
-    output wire                               ready_o,         // the word is taken
-    output wire                               whole_o,         // at this edge a region is whole
-    output wire                               whole_frame_o,   // lowest bit of the number of its frame
-    output wire                               valid_o,         // a whole region waits
-    output wire                               valid_frame_o,   // lowest bit of the number of its frame
-    output wire                               summary_o,       // it is a summary
-    output wire [REGION_BITS-COLUMN_BITS:0]   row_o,           // its row
-    output wire [            COLUMN_BITS-1:0] column_o,        // its column
-    input  wire                               read_i,          // a part of it is read; otherwise what was read stays
-    input  wire [              PART_BITS-1:0] part_i,          // which
-    output wire [                   BITS-1:0] part_o,          // that part, a clock later
-    input  wire                               take_i           // its parts have been read
+    output wire                               ready_o,         // the offered word is taken
+    output wire                               whole_o,         // a region is whole at this edge
+    output wire                               whole_frame_o,   // lowest bit of the number since reset of that region's frame
+    output wire                               valid_o,         // a whole region waits; the ports below are of the oldest
+    output wire                               valid_frame_o,   // lowest bit of the number since reset of the waiting region's frame
+    output wire                               summary_o,       // the waiting region is a summary
+    output wire [REGION_BITS-COLUMN_BITS:0]   row_o,           // row of the waiting region
+    output wire [            COLUMN_BITS-1:0] column_o,        // column of the waiting region
+    input  wire                               read_i,          // a part is read at this edge; otherwise part_o stays
+    input  wire [              PART_BITS-1:0] part_i,          // number of the part that is read
+    output wire [                   BITS-1:0] part_o,          // the part that is read, a clock after read_i
+    input  wire                               take_i           // all parts of the waiting region have been read
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (BITS != 16 && BITS != 32) begin : g_bits BITS_must_be_16_or_32 u_refused (); end
         if (WIDTH > 16) begin : g_width WIDTH_must_be_16_or_less u_refused (); end
@@ -55,14 +56,14 @@ module packet_regions #(
     localparam PLACE_ROW_BITS = REGION_BITS - COLUMN_BITS + 1;
     localparam ENTRY_BITS = 2 + PLACE_ROW_BITS + COLUMN_BITS;
 
-    // Places: so many regions have been kept, and so many taken.
+    // Places are used in turn. These counters say how many regions have been kept, and how many have been taken.
     reg [PLACE_BITS:0] kept_q, taken_q;
     wire full = kept_q == {!taken_q[PLACE_BITS], taken_q[PLACE_BITS-1:0]};
-    reg ending_q;  // all words have come, but where the region lies is not known yet
+    reg ending_q;  // all words of a region have come, but its row and column are not known yet
     wire take = valid_i && ready_o;
     wire ends = take && last_i && !abort_i;
 
-    // Where the region lies is found out while its words come.
+    // Row and column of a region are computed while its words come.
     wire busy;
     wire [PLACE_ROW_BITS-1:0] row;
     wire [COLUMN_BITS-1:0] column;
@@ -75,7 +76,7 @@ module packet_regions #(
     reg frame_q, summary_q;
     localparam ONE = 1;
     wire summary = MEANS > 0 && summary_i;
-    reg [VALUE_BITS:0] value_q;  // values that have come
+    reg [VALUE_BITS:0] value_q;  // number of values that have come
     wire [VALUE_BITS:0] value = first_i ? {(VALUE_BITS + 1) {1'b0}} : value_q;
     always @(posedge clk_i) begin
         if (take) begin
@@ -92,13 +93,13 @@ module packet_regions #(
         end
     end
 
-    // What is known of a region beside its values.
+    // The entry of a kept region holds everything except its values.
     reg [ENTRY_BITS-1:0] entries_q[0:(1<<PLACE_BITS)-1];
     always @(posedge clk_i) if (whole_o) entries_q[kept_q[PLACE_BITS-1:0]] <= {frame_q, summary_q, row, column};
     assign {valid_frame_o, summary_o, row_o, column_o} = entries_q[taken_q[PLACE_BITS-1:0]];
 
-    // The values. A mean stands on all pixels of a word, so that each of them may be kept.
-    // Wide enough for every place; what is above it and below it counts within one.
+    // The values. A mean is on all pixels of a word, so any one of them may be kept. `at` and `from` are wide enough for every
+    // value and part: the lower bits number a value within an address or a part within it, the bits above are 0.
     localparam SPLIT = $clog2(ROW / PER_PART);
     wire [VALUE_BITS+AT_BITS+ROW_LOG:0] at = {{(AT_BITS + ROW_LOG) {1'b0}}, value};
     wire [PART_BITS+AT_BITS+SPLIT-1:0] from = {{(AT_BITS + SPLIT) {1'b0}}, part_i};
@@ -114,9 +115,9 @@ module packet_regions #(
             if (ROW == 1) begin : g_only
                 assign chosen = 1'b1;
             end else begin : g_some
-                // In which bits this value's number differs from that of the one that comes; a word has LANES at once.
+                // The bits in which the number of this value differs from that of the incoming value. A word has LANES values at once.
                 localparam NUMBER = lane;
-                localparam WITHIN = LANES - 1;  // the bits in which the values of a word differ
+                localparam WITHIN = LANES - 1;  // the bits in which the numbers of a word's values differ
                 wire [ROW_LOG-1:0] differs = value[ROW_LOG-1:0] ^ NUMBER[ROW_LOG-1:0];
                 assign chosen = (summary ? differs : differs & ~WITHIN[ROW_LOG-1:0]) == {ROW_LOG{1'b0}};
             end
@@ -129,7 +130,7 @@ module packet_regions #(
         end
     endgenerate
 
-    // The values of a part, without those beyond the last.
+    // The values of a part. Values beyond the last one of the region are 0.
     wire [BITS-1:0] part;
     wire [PER_PART-1:0] counts;
     generate
@@ -149,7 +150,7 @@ module packet_regions #(
             reg [PER_PART-1:0] counts_q;
             assign counts = counts_q;
             for (lane = 0; lane < PER_PART; lane = lane + 1) begin : g_count
-                // Parts in which this value is one of the region.
+                // The numbers of parts in which this lane holds a value of the region.
                 localparam OF_PIXELS = (PIXELS + PER_PART - 1 - lane) / PER_PART;
                 localparam OF_MEANS = (MEANS + PER_PART - 1 - lane) / PER_PART;
                 always @(posedge clk_i) if (read_i) counts_q[lane] <= {1'b0, part_i} < (summary_o ? OF_MEANS[PART_BITS:0] : OF_PIXELS[PART_BITS:0]);

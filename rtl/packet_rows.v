@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Collects the decisions of a row of regions for its ROW packet (docs/packets.md). One row is collected while the one before
-// leaves. A row that finds no place is dropped.
+// Collects the decisions of a row of regions for its ROW packet (docs/packets.md). One row is collected while the row
+// before it leaves. A row that begins while both places are taken is dropped. A part is on part_o one clock after its read.
 `default_nettype none
 
 module packet_rows #(
-    parameter COLUMNS = 240,      // regions side by side
-    parameter ROWS = 135,         // regions one below the other
+    parameter COLUMNS = 240,      // regions in a row of regions
+    parameter ROWS = 135,         // rows of regions
     parameter COLUMN_BITS = 8,    // ceil(log2(COLUMNS))
     parameter ROW_BITS = 8,       // bits of the number of a row
     parameter DECISION_BITS = 2,  // bits of a region in the packet, 2 or 4
@@ -14,23 +14,23 @@ module packet_rows #(
 ) (
     input  wire                 clk_i,           // clock, rising edge
     input  wire                 rst_i,           // synchronous reset, active high
-    input  wire                 decision_i,      // a region is decided, in the order of the regions
-    input  wire                 srs_i,           // its SRS
-    input  wire                 trs_i,           // its TRS
-    input  wire                 summary_i,       // it sends its summary (DECISION_BITS 4)
-    output wire                 frame_o,         // the lowest bit of the number of its frame since reset
-    output wire                 last_o,          // at this edge the last region of a frame is decided
-    output wire                 dropped_o,       // at this edge the last region is decided of a row that is dropped
-    output wire                 valid_o,         // a row waits
-    output wire                 valid_frame_o,   // the lowest bit of the number of its frame
-    output wire [ ROW_BITS-1:0] row_o,           // its number
-    input  wire                 read_i,          // a part of it is read; otherwise what was read stays
-    input  wire [PART_BITS-1:0] part_i,          // which
-    output wire [     BITS-1:0] part_o,          // that part, a clock later
-    input  wire                 take_i           // its parts have been read
+    input  wire                 decision_i,      // a region is decided at this edge, in the order of the regions
+    input  wire                 srs_i,           // SRS of that decision
+    input  wire                 trs_i,           // TRS of that decision
+    input  wire                 summary_i,       // the region sends its summary (only with DECISION_BITS = 4)
+    output wire                 frame_o,         // lowest bit of the number since reset of the frame that is decided
+    output wire                 last_o,          // the last region of a frame is decided at this edge
+    output wire                 dropped_o,       // the last region of a row that is dropped is decided at this edge
+    output wire                 valid_o,         // a whole row waits; the ports below are of this row
+    output wire                 valid_frame_o,   // lowest bit of the number since reset of the waiting row's frame
+    output wire [ ROW_BITS-1:0] row_o,           // number of the waiting row
+    input  wire                 read_i,          // a part is read at this edge; otherwise part_o stays
+    input  wire [PART_BITS-1:0] part_i,          // number of the part that is read
+    output wire [     BITS-1:0] part_o,          // the part that is read, a clock after read_i
+    input  wire                 take_i           // all parts of the waiting row have been read
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (DECISION_BITS != 2 && DECISION_BITS != 4) begin : g_decision_bits DECISION_BITS_must_be_2_or_4 u_refused (); end
         if (COLUMN_BITS != $clog2(COLUMNS)) begin : g_column_bits COLUMN_BITS_must_be_clog2_of_COLUMNS u_refused (); end
@@ -40,26 +40,27 @@ module packet_rows #(
     localparam DECISION_LOG = $clog2(DECISION_BITS);
     localparam PARTS = (COLUMNS * DECISION_BITS + BITS - 1) / BITS;
     localparam AT_BITS = PARTS > 1 ? $clog2(PARTS) : 1;
-    localparam SENT = (COLUMNS * DECISION_BITS + 63) / 64 * (64 / BITS);  // parts of the packet
+    localparam SENT = (COLUMNS * DECISION_BITS + 63) / 64 * (64 / BITS);  // parts of the packet, padding included
     localparam LAST_COLUMN = COLUMNS - 1;
     localparam LAST_ROW = ROWS - 1;
 
-    // Which region is decided.
+    // The region that is decided.
     reg [COLUMN_BITS-1:0] column_q;
     reg [ROW_BITS-1:0] row_q;
     reg frame_q;
     wire row_end = decision_i && column_q == LAST_COLUMN[COLUMN_BITS-1:0];
     wire frame_end = row_q == LAST_ROW[ROW_BITS-1:0];
 
-    // Two rows: the one that is collected, and the one that leaves.
-    reg collect_q, leave_q;  // which of the two
+    // The two places for rows: one for the row that is collected, one for the row that leaves.
+    reg collect_q, leave_q;  // which place is collected into; which place leaves
     reg [1:0] full_q, frames_q;
     reg [2*ROW_BITS-1:0] rows_q;
     reg drops_q;
     wire drops = column_q == {COLUMN_BITS{1'b0}} ? full_q[collect_q] : drops_q;
     wire keep = row_end && !drops;
 
-    // The regions of a part so far. It is written with each of them, so that there is nothing to do at the end of a row.
+    // The bits of the regions of a part so far. The part is written with each region, so that nothing is left to do at the
+    // end of a row.
     reg [BITS-1:0] part_q;
     wire [BITS-1:0] bits = {{(BITS - 3) {1'b0}}, DECISION_BITS == 4 && summary_i, trs_i, srs_i};
     localparam WIDE = (AT_BITS + EACH_BITS > COLUMN_BITS ? AT_BITS + EACH_BITS : COLUMN_BITS) + 1;
@@ -104,7 +105,7 @@ module packet_rows #(
         .read_i(read_i), .read_address_i({leave_q, part_i[AT_BITS-1:0]}), .output_i(1'b1), .data_o(found)
     );
 
-    // Parts of the last word that no region is in.
+    // The parts of the last word that hold no region are 0.
     generate
         if (SENT == PARTS) begin : g_full
             assign part_o = found;

@@ -1,68 +1,68 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Writes packets (docs/packets.md): chooses which is next, and puts its words together, BITS bits at a clock. A word is on the
-// port from a register, so that nothing runs through between the stream and its source.
+// Writes packets (docs/packets.md): chooses the next one, and puts its words together from parts of BITS bits, one per
+// clock. A word is on data_o from a register, so that no combinational path connects the stream with its source.
 `default_nettype none
 
 module packet_writer #(
-    parameter BITS = 16,                  // bits of a part: 16 or 32, a quarter or a half of a word
-    parameter PART_BITS = 6,              // bits of the number of a part of what a packet carries
-    parameter ROW_WORDS = 8,              // words that a ROW carries
-    parameter PIXEL_WORDS = 8,            // words that a REGION carries with pixels
-    parameter MEAN_WORDS = 0,             // and with means; 0: there are none
+    parameter BITS = 16,                  // bits of a part: 16 or 32, a quarter or half of a word
+    parameter PART_BITS = 6,              // bits of the number of a part of a packet's payload
+    parameter ROW_WORDS = 8,              // words of the payload of a ROW packet
+    parameter PIXEL_WORDS = 8,            // words of the payload of a REGION packet with pixels
+    parameter MEAN_WORDS = 0,             // words of the payload of a REGION packet with means; 0: the design has no summaries
     parameter REGION_BITS = 15,           // bits of the number of a region
     parameter COLUMN_BITS = 8,            // bits of the number of a column of regions
     parameter ROW_BITS = 8,               // bits of the number of a row of regions
-    parameter COLUMNS = 240,              // regions side by side
-    parameter ROWS = 135,                 // regions one below the other
+    parameter COLUMNS = 240,              // regions in a row of regions
+    parameter ROWS = 135,                 // rows of regions
     parameter FRAME_WIDTH = 1920,         // pixels of a row of the frame
     parameter FRAME_HEIGHT = 1080,        // rows of the frame
     parameter SIDE = 8,                   // rows of a region
     parameter WIDTH = 8,                  // bits of a pixel
-    parameter MEANS_SIDE = 0,             // means side by side in a summary; 0: there are none
+    parameter MEANS_SIDE = 0,             // means in a row of a summary; 0: the design has no summaries
     parameter IRRELEVANT = 0,             // what an irrelevant region shows: 0 zero, 1 hold, 2 mean
-    parameter RAW = 0,                    // 1: raw pixels leave
-    parameter [63:0] FINGERPRINT = 64'd0  // of the design
+    parameter RAW = 0,                    // 1: raw pixels are sent; 0: denoised ones
+    parameter [63:0] FINGERPRINT = 64'd0  // fingerprint of the design
 ) (
     input  wire                   clk_i,               // clock, rising edge
     input  wire                   rst_i,               // synchronous reset, active high
-    input  wire                   announced_i,         // its FRAME waits
-    input  wire                   first_i,             // it is the first since reset
-    input  wire [           63:0] time_i,              // when it began
-    input  wire [           31:0] rate_i,              // ticks per second
-    input  wire [           31:0] number_i,            // its number
-    input  wire                   frame_i,             // the lowest bit of its number since reset
-    input  wire                   closed_i,            // all is known of it, and nothing of it is on the way
-    input  wire [  REGION_BITS:0] dropped_i,           // its regions that were dropped
-    input  wire [     ROW_BITS:0] dropped_rows_i,      // its rows that were dropped
-    output wire                   opened_o,            // its FRAME has left
-    output wire                   ended_o,             // its END has left
+    input  wire                   announced_i,         // the FRAME packet of a frame waits
+    input  wire                   first_i,             // this frame is the first since reset
+    input  wire [           63:0] time_i,              // time at which this frame began, in ticks
+    input  wire [           31:0] rate_i,              // number of ticks per second
+    input  wire [           31:0] number_i,            // number of this frame
+    input  wire                   frame_i,             // lowest bit of its number since reset
+    input  wire                   closed_i,            // all decisions of this frame are made, and none of its regions is under way
+    input  wire [  REGION_BITS:0] dropped_i,           // number of its regions that were dropped
+    input  wire [     ROW_BITS:0] dropped_rows_i,      // number of its rows that were dropped
+    output wire                   opened_o,            // the FRAME packet has left
+    output wire                   ended_o,             // the END packet has left
     output wire                   idle_o,              // no packet is under way
     input  wire                   row_valid_i,         // decisions of a row wait
-    input  wire                   row_frame_i,         // the lowest bit of the number of its frame
-    input  wire [   ROW_BITS-1:0] row_i,               // its number
-    input  wire [       BITS-1:0] row_part_i,          // the part of it that was read
-    output wire                   row_take_o,          // all of its parts have been read
-    input  wire                   region_valid_i,      // a region waits
-    input  wire                   region_frame_i,      // the lowest bit of the number of its frame
-    input  wire                   region_summary_i,    // it is a summary
-    input  wire [   ROW_BITS-1:0] region_row_i,        // its row
-    input  wire [COLUMN_BITS-1:0] region_column_i,     // its column
-    input  wire [       BITS-1:0] region_part_i,       // the part of it that was read
-    output wire                   region_take_o,       // all of its parts have been read
-    output wire                   read_o,              // a part of what waits is read
-    output wire [  PART_BITS-1:0] part_o,              // which
+    input  wire                   row_frame_i,         // lowest bit of the number since reset of that row's frame
+    input  wire [   ROW_BITS-1:0] row_i,               // number of that row
+    input  wire [       BITS-1:0] row_part_i,          // the part of that row that was read
+    output wire                   row_take_o,          // all parts of that row have been read
+    input  wire                   region_valid_i,      // a whole region waits
+    input  wire                   region_frame_i,      // lowest bit of the number since reset of that region's frame
+    input  wire                   region_summary_i,    // that region is a summary
+    input  wire [   ROW_BITS-1:0] region_row_i,        // row of that region
+    input  wire [COLUMN_BITS-1:0] region_column_i,     // column of that region
+    input  wire [       BITS-1:0] region_part_i,       // the part of that region that was read
+    output wire                   region_take_o,       // all parts of that region have been read
+    output wire                   read_o,              // a part of the waiting row and region is read at this edge
+    output wire [  PART_BITS-1:0] part_o,              // number of the part that is read
     output wire [           63:0] data_o,              // a word of a packet
-    output wire                   valid_o,             // there is one
-    output wire                   last_o,              // the last word of its packet
-    input  wire                   ready_i              // it is taken
+    output wire                   valid_o,             // a word is on data_o
+    output wire                   last_o,              // the word is the last of its packet
+    input  wire                   ready_i              // the sink takes the word
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (BITS != 16 && BITS != 32) begin : g_bits BITS_must_be_16_or_32 u_refused (); end
         if (PART_BITS < 3 + $clog2(64 / BITS) || PART_BITS > 16)
             begin : g_part_bits PART_BITS_must_be_5_or_with_BITS_32_4_to_16 u_refused (); end
-        // Each part of what a packet carries has a number, so that the length of the packet has room in its head, too.
+        // Each part of a payload has a number. This limit also keeps the length of the packet within its field in the head.
         if (ROW_WORDS < 1 || ROW_WORDS > (1 << PART_BITS) / (64 / BITS))
             begin : g_row_words ROW_WORDS_must_be_1_or_more_and_have_parts_of_PART_BITS u_refused (); end
         if (PIXEL_WORDS < 1 || PIXEL_WORDS > (1 << PART_BITS) / (64 / BITS))
@@ -84,17 +84,17 @@ module packet_writer #(
 
     localparam PARTS = 64 / BITS;
     localparam IN_WORD_BITS = $clog2(PARTS);
-    localparam [63:0] MAGIC = {8'h0A, "ETAEVOF"};  // in the order of bytes
+    localparam [63:0] MAGIC = {8'h0A, "ETAEVOF"};  // the magic number, in the order of bytes
     localparam [1:0] IDLE = 2'd0, HEAD = 2'd1, BODY = 2'd2, TAIL = 2'd3;
     localparam [3:0] FRAME = 4'd1, ROW = 4'd2, REGION = 4'd4, END = 4'd5;
-    localparam [3:0] MEANS = 4'd0;  // a REGION with means, here only
+    localparam [3:0] MEANS = 4'd0;  // a REGION with means; this value is used in this module only
     localparam [63:0] FRAME_5 = {
         ROWS[15:0], COLUMNS[15:0], 3'd0, RAW != 0, IRRELEVANT[3:0], MEANS_SIDE[7:0], WIDTH[7:0], SIDE[7:0]
     };
 
-    wire step = !valid_o || ready_i;  // what is behind the stream's register moves on
+    wire step = !valid_o || ready_i;  // everything behind the register of the stream moves on
 
-    // Which packet, and which part of it. FRAME and END begin and end what belongs together.
+    // The packet that is under way, and its part. FRAME opens a frame and END closes it.
     reg [1:0] phase_q;
     reg [3:0] kind_q;
     reg [PART_BITS-1:0] part_q;
@@ -102,7 +102,7 @@ module packet_writer #(
     reg [REGION_BITS:0] sent_q;
     wire [IN_WORD_BITS-1:0] in_word = part_q[IN_WORD_BITS-1:0];
     localparam BITS_LOG = $clog2(BITS);
-    wire [IN_WORD_BITS+BITS_LOG-1:0] in_bits = {in_word, {BITS_LOG{1'b0}}};  // the part's first bit of its word
+    wire [IN_WORD_BITS+BITS_LOG-1:0] in_bits = {in_word, {BITS_LOG{1'b0}}};  // the first bit of the part in its word
     wire word_end = &in_word;
     wire row_fits = row_valid_i && row_frame_i == frame_i;
     wire region_fits = region_valid_i && region_frame_i == frame_i;
@@ -165,7 +165,7 @@ module packet_writer #(
         end
     end
 
-    // That part, where it is not read from a memory.
+    // The value of the part, if it is not read from a memory.
     wire any_dropped = dropped_i != {(REGION_BITS + 1) {1'b0}} || dropped_rows_i != {(ROW_BITS + 1) {1'b0}};
     wire flag_0 = kind_q == FRAME ? first_i : kind_q == END && any_dropped;
     wire [3:0] flags = {1'b0, kind_q == MEANS, is_region && RAW != 0, flag_0};
@@ -193,13 +193,13 @@ module packet_writer #(
         if (phase_q == TAIL) other = tail[in_bits+:BITS];
     end
 
-    // A clock later what was read is there, and a clock after that the part is chosen.
+    // The part that was read is there one clock later, and one clock after that it is selected.
     localparam [1:0] OTHER = 2'd0, OF_ROW = 2'd1, OF_REGION = 2'd2;
     reg [BITS-1:0] other_q, chosen_q;
     reg [1:0] source_q;
     reg read_valid_q, read_word_q, read_crc_q, read_last_q;
     reg valid_q, word_q, crc_part_q, last_q;
-    reg read_high_q, high_q;  // the upper half of the CRC, if it takes two parts
+    reg read_high_q, high_q;  // 1: the upper half of the CRC, if it takes two parts
     always @(posedge clk_i) begin
         if (step) begin
             other_q        <= other;

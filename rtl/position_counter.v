@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Numbers the pixels of a region, for designs whose last stage before the store has no window.
+// Numbers the pixels of a region, for designs whose last stage before the store has no window. address_o is the number of
+// the pixel of this step.
 `default_nettype none
 
 module position_counter #(
@@ -9,11 +10,11 @@ module position_counter #(
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    rst_i,      // synchronous reset, active high
     input  wire                    step_i,     // a pixel enters the store
-    output wire [ADDRESS_BITS-1:0] address_o,  // number of the pixel that steps
+    output wire [ADDRESS_BITS-1:0] address_o,  // number of the pixel of this step
     output wire                    last_o      // the pixel is the last of the frame
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (PIXELS < 2) begin : g_pixels PIXELS_must_be_2_or_more u_refused (); end
         if (ADDRESS_BITS != $clog2(PIXELS)) begin : g_address_bits
@@ -23,8 +24,8 @@ module position_counter #(
 
     localparam LAST = PIXELS - 1;
 
-    // The initial value keeps synthesis from moving this register into the store's address port,
-    // which would cost the store a second port.
+    // The initial value keeps synthesis from moving this register into the address port of the store, which would give the
+    // store a second port.
     reg [ADDRESS_BITS-1:0] address_q = {ADDRESS_BITS{1'b0}};
 
     always @(posedge clk_i) begin

@@ -1,28 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A large memory for a fast clock: banks, in groups one behind the other. Places and words travel from group to
-// group, a clock each, and what was read travels with them, so that no wire crosses the whole memory.
+// A large memory for a fast clock, with a write port and a read port. Its banks form groups, one behind the other.
+// Addresses and words travel from group to group, one clock each, and a word that was read travels with them, so that no
+// wire crosses the whole memory. A word is on data_o GROUPS + 6 clocks after its address.
 `default_nettype none
 
 module raster_banks #(
     parameter WIDTH = 8,          // bits of a word
-    parameter WORDS = 307200,     // words, more than a bank has (else u_slot is refused)
+    parameter WORDS = 307200,     // words of the memory, more than a bank has (otherwise u_slot is refused)
     parameter ADDRESS_BITS = 19,  // ceil(log2(WORDS))
     parameter BANK_BITS = 14,     // log2 of the words of a bank
     parameter GROUP_BITS = 2,     // log2 of the banks of a group
-    parameter GROUPS = 5          // groups, as many as WORDS need
+    parameter GROUPS = 5          // number of groups that WORDS need
 ) (
     input  wire                    clk_i,            // clock, rising edge
     input  wire                    rst_i,            // synchronous reset, active high
     input  wire                    write_i,          // write at this edge
-    input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
+    input  wire [ADDRESS_BITS-1:0] write_address_i,  // address of the word that is written
     input  wire [       WIDTH-1:0] data_i,           // the word that is written
-    input  wire [ADDRESS_BITS-1:0] read_address_i,   // where to read
-    output wire [       WIDTH-1:0] data_o            // the word that was there, GROUPS + 6 clocks after its address
+    input  wire [ADDRESS_BITS-1:0] read_address_i,   // address of the word that is read
+    output wire [       WIDTH-1:0] data_o            // the word at read_address_i of GROUPS + 6 clocks ago
 );
 
     localparam GROUP_WORD_BITS = BANK_BITS + GROUP_BITS;
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (ADDRESS_BITS != $clog2(WORDS)) begin : g_address_bits
             ADDRESS_BITS_must_be_clog2_of_WORDS u_refused ();
@@ -32,7 +33,7 @@ module raster_banks #(
         end
     endgenerate
 
-    // The word that enters the first group, and the one that leaves each.
+    // The addresses and words at the entry of the first group and at the exit of each group.
     localparam SLOT_BITS = ADDRESS_BITS - BANK_BITS;  // bits of the number of a bank
     wire [ADDRESS_BITS-1:0] read_place[0:GROUPS];
     wire [ADDRESS_BITS-1:0] write_place[0:GROUPS];
@@ -48,8 +49,8 @@ module raster_banks #(
     genvar group, bank;
     generate
         for (group = 0; group < GROUPS; group = group + 1) begin : g_group
-            localparam FIRST = group << GROUP_BITS;  // its first bank
-            localparam LEFT = WORDS - (FIRST << BANK_BITS);  // words from there on
+            localparam FIRST = group << GROUP_BITS;  // number of the first bank of this group
+            localparam LEFT = WORDS - (FIRST << BANK_BITS);  // number of words from that bank on
             localparam NEEDED = (LEFT + (1 << BANK_BITS) - 1) >> BANK_BITS;
             localparam BANKS = NEEDED < 1 << GROUP_BITS ? NEEDED : 1 << GROUP_BITS;
 
@@ -65,9 +66,9 @@ module raster_banks #(
             assign write_place[group+1] = write_q;
             assign word[group+1] = word_q;
 
-            // Each bank has registers of its own, so that a wire to its blocks is short. They move when it is meant: so
-            // they differ from those of other banks, and synthesis does not make one register of them. All banks are
-            // read; what comes from one that is not meant is 0.
+            // Each bank has registers of its own, so that the wire to its blocks is short. They change only when the bank is
+            // addressed. So they differ from those of other banks, and synthesis does not merge them. All banks are read, and the
+            // word of a bank that was not addressed is 0.
             wire [BANKS*WIDTH-1:0] bank_words;
             reg [BANKS*WIDTH-1:0] bank_words_q;
             for (bank = 0; bank < BANKS; bank = bank + 1) begin : g_bank
@@ -75,7 +76,7 @@ module raster_banks #(
                 reg asked_q, given_q, own_q;  // this bank is read; is written; is written at the next edge
                 reg [BANK_BITS-1:0] own_read_q, own_write_q;
                 reg [WIDTH-1:0] own_word_q;
-                wire comes;  // its word comes
+                wire comes;  // a word of this bank was read and comes out
                 always @(posedge clk_i) begin
                     asked_q <= read_place[group][BANK_BITS+:SLOT_BITS] == OWN;
                     given_q <= write[group] && write_place[group][BANK_BITS+:SLOT_BITS] == OWN;
@@ -90,7 +91,7 @@ module raster_banks #(
                     .clk_i(clk_i), .write_i(own_q), .write_address_i(own_write_q), .data_i(own_word_q),
                     .read_i(1'b1), .read_address_i(own_read_q), .output_i(1'b1), .data_o(bank_words[bank*WIDTH+:WIDTH])
                 );
-                // A register halfway: the blocks of a bank stand far apart.
+                // A register halfway, because the blocks of a bank may lie far apart.
                 reg [WIDTH-1:0] bank_word_q;
                 word_delay #(.WIDTH(1), .DEPTH(4)) u_comes (.clk_i(clk_i), .data_i(asked_q), .data_o(comes));
                 always @(posedge clk_i) begin
@@ -102,7 +103,7 @@ module raster_banks #(
 
             integer number;
             wire [WIDTH-1:0] earlier = found[group];
-            reg [WIDTH-1:0] any;  // the word of the groups before, or of a bank of this one
+            reg [WIDTH-1:0] any;  // the word of an earlier group, or of a bank of this group
             always @* begin
                 any = earlier;
                 for (number = 0; number < BANKS; number = number + 1) any = any | bank_words_q[number*WIDTH+:WIDTH];

@@ -1,31 +1,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Where the words of the frame are in blocks: a region has BLOCKS x BLOCKS of them, numbered row by row.
+// Follows the place of each word of the frame in its block. A region has BLOCKS x BLOCKS blocks, numbered row by row. The
+// outputs belong to the word of step_i.
 `default_nettype none
 
 module raster_blocks #(
     parameter LANES = 1,        // pixels of a word
     parameter SIDE = 8,         // rows of a region
     parameter BLOCKS = 2,       // blocks of a region's side
-    parameter COLUMNS = 240,    // regions side by side
+    parameter COLUMNS = 240,    // regions in a row of regions
     parameter REGIONS = 32400,  // regions of the frame
     parameter REGION_BITS = 15  // ceil(log2(REGIONS))
 ) (
     input  wire                   clk_i,       // clock, rising edge
     input  wire                   rst_i,       // synchronous reset, active high
     input  wire                   step_i,      // a word comes in
-    input  wire                   row_end_i,   // the word is the last of its row
-    output wire                   start_o,     // the word is the first of a row of its block
-    output wire                   end_o,       // ... the last
-    output wire                   upper_o,     // that row is the first of its block
-    output wire                   lower_o,     // ... the last
-    output wire [            1:0] column_o,    // column of blocks in the region
-    output wire [            1:0] line_o,      // row of blocks in the region
-    output reg  [REGION_BITS-1:0] region_o,    // the region
-    output reg  [            1:0] row_o,       // row of regions, modulo 4, counted through all frames
+    input  wire                   row_end_i,   // the word is the last of its row of the frame
+    output wire                   start_o,     // the word is the first of its row in the block
+    output wire                   end_o,       // the word is the last of its row in the block
+    output wire                   upper_o,     // the row is the first of its block
+    output wire                   lower_o,     // the row is the last of its block
+    output wire [            1:0] column_o,    // column of the block in the region
+    output wire [            1:0] line_o,      // row of the block in the region
+    output reg  [REGION_BITS-1:0] region_o,    // number of the region
+    output reg  [            1:0] row_o,       // row of regions modulo 4, counted through all frames
     output wire                   frame_end_o  // the word is the last of the frame
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE % (BLOCKS * LANES) != 0) begin : g_words a_block_must_have_whole_words u_refused (); end
         if (REGION_BITS != $clog2(REGIONS)) begin : g_region_bits REGION_BITS_must_be_clog2_of_REGIONS u_refused (); end
@@ -42,7 +43,8 @@ module raster_blocks #(
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step_i && row_end_i), .first_o(upper_o), .last_o(lower_o), .part_o(line_o)
     );
 
-    // Behind a row of a region: the next region, or, where the row of regions is not complete, back to its first.
+    // After a row of a region comes the next region; at the end of a row of the frame, the first region of the same row of
+    // regions, unless the row of regions is complete.
     reg last_region_q;
     wire move = step_i && end_o && column_o == LAST[1:0];
     wire complete = lower_o && line_o == LAST[1:0];

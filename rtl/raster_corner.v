@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// FAST 5/8 for every pixel of a word at once: hit when at least 5 contiguous of the 8 neighbors are all brighter
-// than the center by more than level, or all darker by more than level.
+// Detects corners by FAST 5/8 for every pixel of a word at once: a hit if at least 5 contiguous of the 8 neighbors are all
+// brighter than the center by more than level_i, or all darker. hit_o comes four clocks after its step, with DEEP five.
 //
-// At a border the neighbors that are not there are copies of the center and of those above and below it. So the
-// comparisons of these are copied, not the pixels.
+// At a border the missing neighbors are copies of the center and of the pixels above and below it. So the results of the
+// comparisons are copied, not the pixels.
 `default_nettype none
 
 module raster_corner #(
     parameter WIDTH = 8,  // bits of a pixel
     parameter LANES = 1,  // pixels of a word
-    parameter DEEP = 0    // 0: a hit four clocks after its step; 1: five
+    parameter DEEP = 0    // 0: hit_o comes four clocks after its step; 1: five clocks
 ) (
     input  wire                   clk_i,     // clock, rising edge
-    input  wire                   step_i,    // columns come in; the centers are those of the step before
+    input  wire                   step_i,    // columns come in; the centers are the columns of the step before
     input  wire                   left_i,    // the first center has nothing on its left
     input  wire                   right_i,   // the last center has nothing on its right
-    input  wire                   top_i,     // the incoming columns have nothing at the top: any word is in upper_i
-    input  wire                   bottom_i,  // ... at the bottom: in lower_i
-    input  wire [LANES*WIDTH-1:0] upper_i,   // the incoming columns, top
-    input  wire [LANES*WIDTH-1:0] middle_i,  // ... middle
-    input  wire [LANES*WIDTH-1:0] lower_i,   // ... bottom
-    input  wire [      WIDTH-1:0] level_i,   // a neighbor differs when by more than this
-    output wire [      LANES-1:0] hit_o      // of the centers
+    input  wire                   top_i,     // the incoming columns have nothing at the top: upper_i may hold any word
+    input  wire                   bottom_i,  // the incoming columns have nothing at the bottom: lower_i may hold any word
+    input  wire [LANES*WIDTH-1:0] upper_i,   // upper pixels of the incoming columns
+    input  wire [LANES*WIDTH-1:0] middle_i,  // middle pixels of the incoming columns
+    input  wire [LANES*WIDTH-1:0] lower_i,   // lower pixels of the incoming columns
+    input  wire [      WIDTH-1:0] level_i,   // a neighbor differs if the difference is above this level
+    output wire [      LANES-1:0] hit_o      // hits of the centers, one per pixel of the word
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (LANES < 1) begin : g_lanes LANES_must_be_1_or_more u_refused (); end
@@ -33,7 +33,7 @@ module raster_corner #(
     localparam COLUMN = 3 * WIDTH;
     localparam BOUND = WIDTH + 1;
 
-    // Columns {bottom, middle, top}, with the bounds that the neighbors of a middle one must exceed.
+    // The columns {bottom, middle, top}, and the bounds that the neighbors of a middle pixel are compared with.
     reg [LANES*COLUMN-1:0] newest_q;
     reg [LANES*COLUMN-1:0] center_q;
     reg [      COLUMN-1:0] left_q;
@@ -70,11 +70,11 @@ module raster_corner #(
                 end
             end
 
-            // Clockwise from the upper left neighbor, which is in the lowest bits.
+            // The ring of neighbors, clockwise from the upper left one, which is in the lowest bits.
             wire [COLUMN-1:0] left = columns[lane*COLUMN+:COLUMN];
             wire [COLUMN-1:0] center = columns[(lane+1)*COLUMN+:COLUMN];
             wire [COLUMN-1:0] right = columns[(lane+2)*COLUMN+:COLUMN];
-            wire unused_middle = |center[WIDTH+:WIDTH];  // its bounds stand for it
+            wire unused_middle = |center[WIDTH+:WIDTH];  // the bounds are used in place of this pixel
             wire [8*WIDTH-1:0] ring = {
                 left[WIDTH+:WIDTH],
                 left[2*WIDTH+:WIDTH],
@@ -107,7 +107,7 @@ module raster_corner #(
                                      && darker[(i+3)%8] && darker[(i+4)%8];
             end
 
-            // Bits 0, 7 and 6 are the left column, top to bottom; 1 and 5 the center's; 2, 3 and 4 the right one.
+            // Bits 0, 7 and 6 are the left column from top to bottom, 1 and 5 the center column, 2, 3 and 4 the right column.
             function [7:0] at_border(input [7:0] flags, input on_left, input on_right);
                 at_border = {
                     on_left ? 1'b0 : flags[7], on_left ? flags[5] : flags[6], flags[5],

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The mean absolute deviation of every region: its mean, and a second pass over its pixels, which are kept for
-// that in a memory of their own. All other scores of the region travel along.
+// Computes the mean absolute deviation of every region: its mean, then a second pass over its pixels, which a memory keeps
+// for that. The other scores of the region wait in the same queue, and all scores come with judged_o.
 `default_nettype none
 
 module raster_deviation #(
@@ -8,40 +8,40 @@ module raster_deviation #(
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
     parameter SEGMENT = 8,           // words of a row of a region: SIDE / LANES
-    parameter COLUMNS = 240,         // regions side by side
-    parameter ROWS = 135,            // regions one below the other
+    parameter COLUMNS = 240,         // regions in a row of regions
+    parameter ROWS = 135,            // rows of regions
     parameter ROW_WORDS = 1920,      // words of a row of the frame
-    parameter BANKS = 3,             // rows of regions that are kept
+    parameter BANKS = 3,             // rows of regions that the memory keeps
     parameter POSITION_BITS = 6,     // ceil(log2(SIDE * SIDE))
     parameter START_BITS = 16,       // ceil(log2(BANKS * SIDE * ROW_WORDS))
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
     parameter FRACTION = 0,          // fraction bits of the mean
-    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum + half of the pixels
+    parameter DIVIDEND_BITS = 14,    // bits of 2^FRACTION * sum plus half of the pixels
     parameter MEAN_BITS = 8,         // bits of the mean
     parameter FACTOR_BITS = 1,       // bits of FACTOR
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // dividend * FACTOR >> SHIFT is dividend / pixels
-    parameter SHIFT = 6,             // bits that are dropped of the product
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (dividend * FACTOR) >> SHIFT is the dividend divided by the pixels of a region
+    parameter SHIFT = 6,             // bits of the product that are dropped
     parameter MAD_BITS = 14,         // bits of the score
     parameter OTHER_BITS = 40,       // bits of the other scores
-    parameter OTHER_CLOCKS = 0,      // clocks that they come behind the sum
+    parameter OTHER_CLOCKS = 0,      // clocks by which the other scores come after the sum
     parameter DEEP = 0               // 1: more registers, for a faster clock
 ) (
     input  wire                   clk_i,          // clock, rising edge
     input  wire                   rst_i,          // synchronous reset, active high
     input  wire                   store_i,        // a word is stored at this edge
-    input  wire [ START_BITS-1:0] store_place_i,  // where in the buffer
-    input  wire [LANES*WIDTH-1:0] word_i,         // the word
-    input  wire                   done_i,         // the sum is that of a whole region
-    input  wire [   SUM_BITS-1:0] sum_i,          // sum of its pixels
-    input  wire                   settled_i,      // OTHER_CLOCKS later: its other scores are there
+    input  wire [ START_BITS-1:0] store_place_i,  // place in the buffer of that word
+    input  wire [LANES*WIDTH-1:0] word_i,         // the word that is stored
+    input  wire                   done_i,         // sum_i is that of a whole region
+    input  wire [   SUM_BITS-1:0] sum_i,          // sum of the pixels of that region
+    input  wire                   settled_i,      // the other scores of a region are there, OTHER_CLOCKS after its sum
     input  wire [ OTHER_BITS-1:0] other_i,        // the other scores
     output wire                   judged_o,       // all scores of a region are there
-    output wire [   MAD_BITS-1:0] mad_o,          // this one
-    output wire [ OTHER_BITS-1:0] other_o         // the others
+    output wire [   MAD_BITS-1:0] mad_o,          // score of `mad` of that region
+    output wire [ OTHER_BITS-1:0] other_o         // the other scores of that region
 );
 
     localparam HALF = SIDE * SIDE / 2;
-    localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // all regions that are kept may wait
+    localparam QUEUE_BITS = $clog2(BANKS * COLUMNS);  // log2 of the regions that the memory keeps: all of them may wait
 
     wire [MEAN_BITS-1:0] mean, settled_mean;
     region_mean #(
@@ -54,7 +54,7 @@ module raster_deviation #(
         .clk_i(clk_i), .data_i(mean), .data_o(settled_mean)
     );
 
-    // The mean takes a clock.
+    // The computation of the mean takes one clock.
     wire enter;
     wire [OTHER_BITS-1:0] entering;
     bit_delay #(.DEPTH(1)) u_enter (.clk_i(clk_i), .rst_i(rst_i), .bit_i(settled_i), .bit_o(enter));

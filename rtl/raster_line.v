@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A row of words that wait: with a word that comes in, the one before the word that came in a row ago is there.
+// Delays words by one row and one word: word_o is the word of ROW_WORDS + 1 steps ago. A memory
+// holds one row of words.
 `default_nettype none
 
 module raster_line #(
@@ -10,11 +11,11 @@ module raster_line #(
     input  wire                 clk_i,   // clock, rising edge
     input  wire                 rst_i,   // synchronous reset, active high
     input  wire                 step_i,  // a word comes in
-    input  wire [WORD_BITS-1:0] word_i,  // the word
-    output wire [WORD_BITS-1:0] word_o   // the one of ROW_WORDS + 1 steps ago
+    input  wire [WORD_BITS-1:0] word_i,  // the word that comes in
+    output wire [WORD_BITS-1:0] word_o   // the word of ROW_WORDS + 1 steps ago
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
     endgenerate

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The sum of the pixels of every region, and their variance.
+// Computes the sum of the pixels of every region, and with VARIANCE their variance, three clocks after the sum.
 `default_nettype none
 
 module raster_moments #(
     parameter WIDTH = 8,             // bits of a pixel
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
-    parameter COLUMNS = 240,         // regions side by side
-    parameter VARIANCE = 0,          // 1: the variance is wanted
+    parameter COLUMNS = 240,         // regions in a row of regions
+    parameter VARIANCE = 0,          // 1: the variance is computed
     parameter SUM_BITS = 14,         // bits of the sum of a region's pixels
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares (VARIANCE)
     parameter PRODUCT_BITS = 28,     // bits of the products of the variance
     parameter VARIANCE_BITS = 26,    // bits of the variance
-    parameter DEEP = 0               // 1: sums one clock later
+    parameter DEEP = 0               // 1: sums come one clock later
 ) (
     input  wire                     clk_i,            // clock, rising edge
     input  wire                     rst_i,            // synchronous reset, active high
-    input  wire [  LANES*WIDTH-1:0] word_i,           // a word, two clocks before its step
-    input  wire                     step_i,           // the word is summed at this edge
+    input  wire [  LANES*WIDTH-1:0] word_i,           // a word, which comes two clocks before its step
+    input  wire                     step_i,           // the word is added at this edge
     input  wire                     segment_end_i,    // the word ends a row of a region
-    input  wire                     row_end_i,        // ... of the frame
+    input  wire                     row_end_i,        // the word is the last of its row of the frame
     input  wire                     region_top_i,     // the word is in the first row of its region
-    output wire [     SUM_BITS-1:0] sum_o,            // of the region, if the word was its last
-    output wire [VARIANCE_BITS-1:0] variance_o        // of that region, three clocks later (VARIANCE)
+    output wire [     SUM_BITS-1:0] sum_o,            // sum of a region, if the word was the last of that region
+    output wire [VARIANCE_BITS-1:0] variance_o        // variance of that region, three clocks later (VARIANCE)
 );
 
     localparam WORD_SUM_BITS = WIDTH + $clog2(LANES);

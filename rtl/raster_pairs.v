@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The words of a frame in a memory of one port, read and written in the order of the frame. A word of the
-// memory holds two: the pair is read when its first word will be asked for next, and written when its
-// second one has come. A write waits a clock where a pair is read at the same edge.
+// Holds the words of a frame in a memory of one port, which are read and written in the order of the frame. A word of the
+// memory holds a pair of them. A pair is read before its first word is requested, and written when its second word has
+// come. A write waits one clock if a pair is read at the same edge. A word is there one clock after its request, with DEEP two.
 `default_nettype none
 
 module raster_pairs #(
     parameter WORD_BITS = 8,   // bits of a word
     parameter WORDS = 76800,   // words of a frame, at least 4
-    parameter DEEP = 0         // 0: a word one clock after it is asked for; 1: two
+    parameter DEEP = 0         // 0: a word comes one clock after its request; 1: two clocks
 ) (
     input  wire                 clk_i,        // clock, rising edge
     input  wire                 rst_i,        // synchronous reset, active high
-    input  wire                 read_i,       // the next word is asked for
-    output reg  [WORD_BITS-1:0] reference_o,  // that word, until the next one takes its place
+    input  wire                 read_i,       // the next word is requested
+    output reg  [WORD_BITS-1:0] reference_o,  // the requested word, until the next one replaces it
     input  wire                 write_i,      // the next word to store is there
-    input  wire [WORD_BITS-1:0] word_i        // that word
+    input  wire [WORD_BITS-1:0] word_i        // the word to store
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WORDS < 4) begin : g_words WORDS_must_be_4_or_more u_refused (); end
     endgenerate
 
     localparam PAIRS = (WORDS + 1) / 2;
     localparam PAIR_BITS = $clog2(PAIRS);
-    localparam HALF = WORDS % 2 == 1;  // 1: the last pair of a frame is one word
+    localparam HALF = WORDS % 2 == 1;  // 1: the last pair of a frame has one word only
     localparam LAST_PAIR = PAIRS - 1;
     localparam BEFORE_LAST_PAIR = PAIRS - 2;
 
-    // The word that is asked for: the first or the second word of the pair that was read. The next pair is read with the second
-    // one; if the last pair of a frame has none, when no write waits, as the first pair after reset is.
+    // The requested word is the first or the second word of the pair that was read. The next pair is read together with the second
+    // word. If the last pair of a frame has no second word, the next pair is read when no write waits, as after a reset.
     wire [PAIR_BITS-1:0] read_place;
     reg ask_second_q, last_pair_q, again_q;
     reg waits_q;  // a pair waits to be written
@@ -38,13 +38,13 @@ module raster_pairs #(
     wire read = (read_i && ask_second_q) || again;
     wire write = waits_q && !read;
 
-    // The word that comes: the first or the second word of a pair.
+    // The incoming word is the first or the second word of a pair.
     wire [PAIR_BITS-1:0] write_place;
     reg come_second_q;
-    reg [WORD_BITS-1:0] first_q;      // the first word of the pair that is coming
-    reg [2*WORD_BITS-1:0] written_q;  // the pair that waits
+    reg [WORD_BITS-1:0] first_q;      // the first word of the incoming pair
+    reg [2*WORD_BITS-1:0] written_q;  // the pair that waits to be written
     wire come_half = HALF && !come_second_q && write_place == (waits_q ? BEFORE_LAST_PAIR[PAIR_BITS-1:0] : LAST_PAIR[PAIR_BITS-1:0]);
-    wire come_whole = come_second_q || come_half;  // no further word of the pair
+    wire come_whole = come_second_q || come_half;  // no further word of the pair comes
 
     raster_ring #(.WORDS(PAIRS), .PLACE_BITS(PAIR_BITS)) u_read_place (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(read), .place_o(read_place)
@@ -78,7 +78,7 @@ module raster_pairs #(
         end
     end
 
-    // With DEEP a register stands before the memory.
+    // With DEEP a register is in front of the memory.
     wire memory_read, memory_write, show, show_second;
     wire [PAIR_BITS-1:0] memory_address;
     wire [2*WORD_BITS-1:0] memory_word;

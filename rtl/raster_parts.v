@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A place in a row of equal parts that is gone through again and again: which part, and where in it.
+// Follows a place in a row of equal parts that is passed again and again: the number of the part, and whether the place is
+// the first or the last of its part. Outputs belong to the place of step_i.
 //
-// Parts of a power of two need no end: their counter goes round by itself.
+// If the number of parts is a power of two, their counter needs no comparison with its end, because it wraps by itself.
 `default_nettype none
 
 module raster_parts #(
@@ -10,13 +11,13 @@ module raster_parts #(
 ) (
     input  wire       clk_i,    // clock, rising edge
     input  wire       rst_i,    // synchronous reset, active high
-    input  wire       step_i,   // on to the next place
+    input  wire       step_i,   // moves on to the next place
     output wire       first_o,  // the place is the first of its part
-    output wire       last_o,   // ... the last
+    output wire       last_o,   // the place is the last of its part
     output wire [1:0] part_o    // number of the part
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (PARTS != 1 && PARTS != 2 && PARTS != 4) begin : g_parts PARTS_must_be_1_2_or_4 u_refused (); end
         if (SIZE < 1) begin : g_size SIZE_must_be_1_or_more u_refused (); end

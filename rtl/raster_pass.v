@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Second pass of the mean absolute deviation: reads every region back once, and adds up |2^FRACTION * pixel - mean|.
+// done_o comes with the sum of a region.
 //
-// Regions wait in a queue with their means and whatever else travels with them. One follows the other without a
-// clock in between, so the queue never holds more than two rows of them.
+// Regions wait in a queue together with their means and the bits of extra_i. One follows the other without a clock in
+// between, so the queue never holds more than two rows of regions.
 `default_nettype none
 
 module raster_pass #(
@@ -16,29 +17,29 @@ module raster_pass #(
     parameter FRACTION = 0,       // fraction bits of the mean
     parameter MEAN_BITS = 8,      // bits of the mean
     parameter SUM_BITS = 14,      // bits of the sum of deviations
-    parameter EXTRA_BITS = 14,    // bits that travel with a region
+    parameter EXTRA_BITS = 14,    // bits of extra_i
     parameter QUEUE_BITS = 9,     // log2 of the regions that can wait
-    parameter DEEP = 0            // 1: a sum one clock later
+    parameter DEEP = 0            // 1: the sum comes one clock later
 ) (
     input  wire                   clk_i,    // clock, rising edge
     input  wire                   rst_i,    // synchronous reset, active high
     input  wire                   enter_i,  // a region enters the queue
-    input  wire [  MEAN_BITS-1:0] mean_i,   // its mean
-    input  wire [ PLACE_BITS-1:0] start_i,  // where in the buffer its first word is
-    input  wire [ EXTRA_BITS-1:0] extra_i,  // bits that travel with the region
+    input  wire [  MEAN_BITS-1:0] mean_i,   // mean of that region
+    input  wire [ PLACE_BITS-1:0] start_i,  // place in the buffer of the region's first word
+    input  wire [ EXTRA_BITS-1:0] extra_i,  // bits that stay with the region
     output wire                   read_o,   // a word is read at this edge
-    output wire [ PLACE_BITS-1:0] place_o,  // where in the buffer
-    input  wire [LANES*WIDTH-1:0] word_i,   // that word, a clock later (DEEP: two)
-    output wire                   done_o,   // the sum is that of a whole region
-    output wire [   SUM_BITS-1:0] sum_o,    // of its deviations
-    output wire [ EXTRA_BITS-1:0] extra_o   // the bits that came with the region
+    output wire [ PLACE_BITS-1:0] place_o,  // place in the buffer of the word that is read
+    input  wire [LANES*WIDTH-1:0] word_i,   // the word that was read, one clock later (DEEP: two)
+    output wire                   done_o,   // sum_o is that of a whole region
+    output wire [   SUM_BITS-1:0] sum_o,    // sum of the region's deviations
+    output wire [ EXTRA_BITS-1:0] extra_o   // extra_i of that region
 );
 
     localparam ENTRY_BITS = MEAN_BITS + PLACE_BITS + EXTRA_BITS;
     localparam READ_CLOCKS = 1 + DEEP;
     localparam TERM_BITS = MEAN_BITS + $clog2(LANES);
 
-    // The queue.
+    // The queue of waiting regions.
     wire take;
     wire unused_queued;
     wire oldest_valid;
@@ -49,7 +50,7 @@ module raster_pass #(
         .valid_o(oldest_valid), .oldest_o(oldest), .waits_o(unused_queued)
     );
 
-    // The region that is read.
+    // The region that is read back.
     reg reading_q;
     wire last, first;
     reg [MEAN_BITS-1:0] mean_q;
@@ -78,7 +79,7 @@ module raster_pass #(
     );
     assign read_o = reading_q;
 
-    // Deviations, their sum over a word, and over the region.
+    // The deviations, their sum over a word, and their sum over the region.
     wire word_valid, word_first, word_last;
     wire [MEAN_BITS-1:0] mean;
     bit_delay #(.DEPTH(READ_CLOCKS)) u_word_valid (

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A word, or the one above it: makes the rows beyond the lower border of a frame where no window has a row of
-// the frame.
+// Passes a word, or repeats the word above it. It makes the rows beyond the lower border of a frame for cores in which no
+// window keeps a row of the frame. word_o belongs to the same step.
 `default_nettype none
 
 module raster_repeat #(
@@ -11,12 +11,12 @@ module raster_repeat #(
     input  wire                 clk_i,     // clock, rising edge
     input  wire                 rst_i,     // synchronous reset, active high
     input  wire                 step_i,    // a word comes in
-    input  wire                 repeat_i,  // the word is the one above it
-    input  wire [WORD_BITS-1:0] word_i,    // the word, otherwise
-    output wire [WORD_BITS-1:0] word_o     // the word
+    input  wire                 repeat_i,  // the word is to be a copy of the word above it
+    input  wire [WORD_BITS-1:0] word_i,    // the word that comes in, without repeat_i
+    output wire [WORD_BITS-1:0] word_o     // the word of the padded frame
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (ROW_WORDS < 8) begin : g_row_words ROW_WORDS_must_be_8_or_more u_refused (); end
     endgenerate
@@ -32,7 +32,7 @@ module raster_repeat #(
         else if (step_i) place_q <= next;
     end
 
-    // The word above is read a word ahead.
+    // The word above is read one word ahead.
     raster_memory #(.WIDTH(WORD_BITS), .WORDS(ROW_WORDS), .ADDRESS_BITS(ADDRESS_BITS)) u_row (
         .clk_i(clk_i), .write_i(step_i), .write_address_i(place_q), .data_i(word_o),
         .read_i(1'b1), .read_address_i(step_i ? next : place_q), .output_i(1'b1), .data_o(above)

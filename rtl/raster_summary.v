@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The means of the blocks of every region, and whether one differs from the mean of that block that was sent last by more
-// than level.
+// Computes the means of the blocks of every region, and whether one of them differs by more than level_i from the mean of
+// that block that was sent last. differs_o and shown_o come four clocks after the last word of a region, with DEEP five.
 //
-// A sum is under way in a register while the words of a row of a block come; between these rows it waits in a memory with
-// a word for every column of blocks. Half of a block's pixels are in it from its first row on, so that the mean is
-// floor(sum / pixels), a multiplication and a shift that are exact for every sum that can occur. Beside the sum waits
-// whether a mean of that column of the region differs.
+// A sum is in a register while the words of a row of a block come. Between these rows it waits in a memory with one word per
+// column of blocks. The sum starts with half of a block's pixels, so that the mean is floor(sum / pixels), a multiplication
+// and a shift that are exact for every sum that can occur. One more bit waits with the sum: whether a mean of that column
+// of the region differs.
 `default_nettype none
 
 module raster_summary #(
@@ -13,43 +13,43 @@ module raster_summary #(
     parameter LANES = 1,             // pixels of a word
     parameter SIDE = 8,              // rows of a region
     parameter BLOCKS = 2,            // blocks of a region's side
-    parameter COLUMNS = 240,         // regions side by side
+    parameter COLUMNS = 240,         // regions in a row of regions
     parameter COLUMN_BITS = 8,       // ceil(log2(COLUMNS))
     parameter REGIONS = 32400,       // regions of the frame
     parameter REGION_BITS = 15,      // ceil(log2(REGIONS))
     parameter MEAN_BITS = 2,         // ceil(log2(BLOCKS * BLOCKS)), at least 1
-    parameter SUM_BITS = 12,         // bits of the sum of a block and half of its pixels
+    parameter SUM_BITS = 12,         // bits of the sum of a block plus half of its pixels
     parameter FACTOR_BITS = 1,       // bits of FACTOR
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // sum * FACTOR >> SHIFT is sum / pixels of a block
-    parameter SHIFT = 4,             // bits that are dropped of the product
-    parameter DEEP = 0               // 1: a clock later
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (sum * FACTOR) >> SHIFT is the sum divided by the pixels of a block
+    parameter SHIFT = 4,             // bits of the product that are dropped
+    parameter DEEP = 0               // 1: all outputs come one clock later
 ) (
     input  wire                   clk_i,           // clock, rising edge
     input  wire                   rst_i,           // synchronous reset, active high
     input  wire                   step_i,          // a word comes at the next edge
-    input  wire                   row_end_i,       // it is the last of its row
-    input  wire [LANES*WIDTH-1:0] word_i,          // the word, a clock later
-    input  wire [      WIDTH-1:0] level_i,         // a mean that differs by more is sent again
-    output wire                   mean_valid_o,    // a block is complete
-    output wire [COLUMN_BITS-1:0] mean_region_o,   // low bits of the region that it is in
-    output wire [            1:0] mean_row_o,      // the row of regions, modulo 4
-    output wire [  MEAN_BITS-1:0] mean_number_o,   // its number in the region
-    output wire [      WIDTH-1:0] mean_o,          // its mean
-    output wire                   differs_o,       // four clocks (DEEP: five) after the last word of a region: a mean of it differs
-    output wire                   shown_o,         // with that: the screen shows its summary
+    input  wire                   row_end_i,       // that word is the last of its row of the frame
+    input  wire [LANES*WIDTH-1:0] word_i,          // that word, one clock later
+    input  wire [      WIDTH-1:0] level_i,         // a mean that differs by more than this level is sent again
+    output wire                   mean_valid_o,    // a block is complete, and its mean is on mean_o
+    output wire [COLUMN_BITS-1:0] mean_region_o,   // low bits of the number of the region of that block
+    output wire [            1:0] mean_row_o,      // row of regions of that block, modulo 4
+    output wire [  MEAN_BITS-1:0] mean_number_o,   // number of that block in its region
+    output wire [      WIDTH-1:0] mean_o,          // mean of that block
+    output wire                   differs_o,       // a mean of a region differs, four clocks (DEEP: five) after its last word
+    output wire                   shown_o,         // with differs_o: the screen shows a summary of that region
     input  wire                   decided_i,       // a region is decided
-    input  wire [REGION_BITS-1:0] decided_region_i,  // which
-    input  wire                   decided_shown_i, // the screen shows its summary from now on
-    input  wire                   done_i,          // all that a region sends has been fetched, or it is lost
-    input  wire                   done_lost_i,     // it is lost
-    input  wire [REGION_BITS-1:0] done_region_i,   // which
+    input  wire [REGION_BITS-1:0] decided_region_i,  // number of the decided region
+    input  wire                   decided_shown_i, // the screen shows a summary of that region from now on
+    input  wire                   done_i,          // a region has fetched all that it sends, or it was lost
+    input  wire                   done_lost_i,     // with done_i: that region was lost
+    input  wire [REGION_BITS-1:0] done_region_i,   // number of that region
     input  wire                   sent_i,          // a mean has been sent
-    input  wire [REGION_BITS-1:0] sent_region_i,   // of which region
-    input  wire [  MEAN_BITS-1:0] sent_number_i,   // of which block of it
-    input  wire [      WIDTH-1:0] sent_mean_i      // that mean
+    input  wire [REGION_BITS-1:0] sent_region_i,   // number of the region of that mean
+    input  wire [  MEAN_BITS-1:0] sent_number_i,   // number of the block of that mean in its region
+    input  wire [      WIDTH-1:0] sent_mean_i      // the mean that was sent
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SUM_BITS < WIDTH + $clog2(LANES)) begin : g_sum_bits SUM_BITS_must_hold_a_word u_refused (); end
         if (SHIFT < 0 || SHIFT + WIDTH > SUM_BITS + FACTOR_BITS) begin : g_shift
@@ -63,17 +63,17 @@ module raster_summary #(
 
     localparam BLOCK = SIDE / BLOCKS;
     localparam HALF = BLOCK * BLOCK / 2;
-    localparam SIDE_BITS = $clog2(BLOCKS);               // of the number of a column of blocks in a region
-    localparam PLACE_BITS = COLUMN_BITS + SIDE_BITS;     // ... in the frame
+    localparam SIDE_BITS = $clog2(BLOCKS);               // bits of the number of a column of blocks in a region
+    localparam PLACE_BITS = COLUMN_BITS + SIDE_BITS;     // bits of the number of a column of blocks in the frame
     localparam MEANS = BLOCKS * BLOCKS;
     localparam SENT_BITS = $clog2(REGIONS * MEANS);
-    localparam MARKS = BLOCKS > 1 ? 1 : 0;               // bits beside a sum
+    localparam MARKS = BLOCKS > 1 ? 1 : 0;               // number of bits that wait with a sum
     localparam PRODUCT_BITS = SUM_BITS + FACTOR_BITS;
-    localparam SUM_CLOCKS = 1 + DEEP;                    // from the place of a word to its sum
+    localparam SUM_CLOCKS = 1 + DEEP;                    // clocks from the place of a word to its sum
     integer lane;
 
-    // ---- The place of a word, a clock before it is there
-    // The low bits of its number tell regions of a row apart.
+    // ---- The place of a word, one clock before the word is there
+    // The low bits of its number distinguish the regions of a row of regions.
     wire start, ends, upper, lower;
     wire [1:0] line, column;
     wire [PLACE_BITS-1:0] place;
@@ -133,9 +133,9 @@ module raster_summary #(
     );
     always @(posedge clk_i) if (sum_step) sum_q <= sum;
 
-    // ---- The mean of a block, and the one of it that was sent last
+    // ---- The mean of a block, and the mean of that block that was sent last
     wire complete;
-    // The bits below SHIFT are the remainder, those above the mean are never set.
+    // The bits below SHIFT are the remainder. The bits above the mean are never set.
     /* verilator lint_off UNUSEDSIGNAL */
     wire [PRODUCT_BITS-1:0] product = {{FACTOR_BITS{1'b0}}, sum_q} * {{SUM_BITS{1'b0}}, FACTOR};
     /* verilator lint_on UNUSEDSIGNAL */
@@ -171,12 +171,12 @@ module raster_summary #(
         .value_i(difference_q), .level_i(level_i), .above_o(above_level)
     );
 
-    // ---- Whether a mean of a region differs
+    // ---- Test whether a mean of a region differs
     reg differs_q;
     assign differs_o = differs_q;
     generate
         if (BLOCKS == 1) begin : g_one
-            // The sum goes on in the memory at once.
+            // The sum is written back to the memory at once.
             wire unused_complete = complete_q;
             bit_delay #(.DEPTH(SUM_CLOCKS + 1)) u_write (
                 .clk_i(clk_i), .rst_i(rst_i), .bit_i(step_i && ends), .bit_o(write)
@@ -187,7 +187,7 @@ module raster_summary #(
             assign to_wait = sum_q;
             always @(posedge clk_i) differs_q <= above_level;
         end else begin : g_some
-            // The sum waits for the mark.
+            // The sum waits for the bit that says whether its mean differs.
             wire early_mark, first, region_start;
             wire mark = (early_mark && !first) || (above_level && complete_q);
             bit_delay #(.DEPTH(SUM_CLOCKS + 3)) u_write (
@@ -213,9 +213,9 @@ module raster_summary #(
         .read_address_i(place), .output_i(1'b1), .data_o(waiting)
     );
 
-    // ---- Whether the screen shows a summary: so it was decided, and what was sent was not lost. A region that is decided to
-    // show one sends one, or has done so: so its bit of losses is one that was written.
-    reg none_q;  // in the first frame none is shown
+    // ---- Test whether the screen shows a summary: it was decided to, and what was sent was not lost. A region that is decided
+    // to show a summary sends one or has sent one, so its bit of losses has been written.
+    reg none_q;  // this is the first frame, in which no summary is shown
     wire shown_read, lost_read, shown;
     raster_memory #(.WIDTH(1), .WORDS(REGIONS), .ADDRESS_BITS(REGION_BITS), .OUTPUT_STAGE(DEEP)) u_shown (
         .clk_i(clk_i), .write_i(decided_i), .write_address_i(decided_region_i), .data_i(decided_shown_i), .read_i(1'b1),
@@ -225,7 +225,7 @@ module raster_summary #(
         .clk_i(clk_i), .write_i(done_i), .write_address_i(done_region_i), .data_i(done_lost_i), .read_i(1'b1),
         .read_address_i(region), .output_i(1'b1), .data_o(lost_read)
     );
-    wire over;  // the words that are compared are not those of the first frame
+    wire over;  // the words that are compared are not of the first frame
     word_delay #(.WIDTH(1), .DEPTH(SUM_CLOCKS)) u_over (.clk_i(clk_i), .data_i(!none_q), .data_o(over));
     assign shown = shown_read && !lost_read && over;
     word_delay #(.WIDTH(1), .DEPTH(4)) u_shown_later (.clk_i(clk_i), .data_i(shown), .data_o(shown_o));

@@ -1,26 +1,26 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Adds up a value of every word over regions, as raster_counts.v counts hits. A row of regions is under way at a
-// time.
+// Adds up one value per word over regions, as raster_counts.v counts hits. The regions of one row of regions are added up at
+// a time. sum_o comes two clocks after the last value of a region, with DEEP three.
 `default_nettype none
 
 module raster_sums #(
     parameter VALUE_BITS = 8,   // bits of a value
     parameter SUM_BITS = 14,    // bits of the sum of a region
-    parameter COLUMNS = 240,    // regions side by side
+    parameter COLUMNS = 240,    // regions in a row of regions
     parameter COLUMN_BITS = 8,  // ceil(log2(COLUMNS))
-    parameter DEEP = 0          // 0: a sum two clocks after its last value; 1: three
+    parameter DEEP = 0          // 0: the sum comes two clocks after its last value; 1: three clocks
 ) (
     input  wire                  clk_i,          // clock, rising edge
     input  wire                  rst_i,          // synchronous reset, active high
     input  wire                  step_i,         // the value of a word comes in
-    input  wire [VALUE_BITS-1:0] value_i,        // the value
+    input  wire [VALUE_BITS-1:0] value_i,        // value of that word
     input  wire                  segment_end_i,  // the word is the last of a row of its region
-    input  wire                  row_end_i,      // ... of its row
+    input  wire                  row_end_i,      // the word is the last of its row of the frame
     input  wire                  region_top_i,   // the word is in the first row of its region
-    output reg  [  SUM_BITS-1:0] sum_o           // of the rows of a region so far
+    output reg  [  SUM_BITS-1:0] sum_o           // sum of the rows of a region so far
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SUM_BITS < VALUE_BITS) begin : g_sum_bits SUM_BITS_must_be_VALUE_BITS_or_more u_refused (); end
         if (COLUMNS < 4) begin : g_columns COLUMNS_must_be_4_or_more u_refused (); end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Adds up the values of a frame, one per step.
+// Adds up the values of a frame, one per step. In the clock after the last step, done_o is 1 and sum_o is the sum of the frame.
 `default_nettype none
 
 module region_sum #(
@@ -10,12 +10,12 @@ module region_sum #(
     input  wire                rst_i,    // synchronous reset, active high
     input  wire                step_i,   // a value comes in
     input  wire                last_i,   // the value is the last of the frame
-    input  wire [   WIDTH-1:0] value_i,  // that value
+    input  wire [   WIDTH-1:0] value_i,  // the value of this step
     output reg                 done_o,   // the sum is that of a whole frame
-    output reg  [SUM_BITS-1:0] sum_o     // of the values so far
+    output reg  [SUM_BITS-1:0] sum_o     // sum of the values so far
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (SUM_BITS < WIDTH) begin : g_sum_bits SUM_BITS_must_be_WIDTH_or_more u_refused (); end

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What an irrelevant region sends in place of its pixels: the means of its blocks, when the screen shows none of them
-// or one has changed by more than level.
+// Makes what an irrelevant region sends in place of its pixels: the means of its blocks, if the screen shows no summary or
+// if a mean differs from the shown one by more than level_i. summary_o comes with the decision. The means leave while the
+// next frame comes in (with SECOND, the next but one), each when its block is complete.
 //
-// Two chains of means move when a block is complete, so the oldest word of each is of that block. One has the means of
-// the frame decided last, the other what the screen shows or was to show before: it takes in the oldest of the first
-// if that was sent, else its own. So what enters the two, of one block, is what has to be compared.
+// Two chains of means move when a block is complete, so that the oldest mean of each chain is of that block. One chain has
+// the means of the frame decided last, the other those that the screen shows, or was to show. The second takes in the
+// oldest mean of the first if it was sent, else its own. So the two means that enter the chains are of the same block and
+// are compared with each other.
 `default_nettype none
 
 module region_summary #(
@@ -12,30 +14,30 @@ module region_summary #(
     parameter SIDE = 8,                      // pixels of a region's side
     parameter BLOCKS = 2,                    // blocks of a region's side
     parameter ADDRESS_BITS = 6,              // ceil(log2(SIDE * SIDE))
-    parameter AHEAD = 0,                     // 1: address_i is the number of the pixel that comes next
-    parameter SUM_BITS = 12,                 // bits of the sum of a block and half of its pixels
+    parameter AHEAD = 0,                     // 1: address_i is the number of the next pixel; 0: that of this one
+    parameter SUM_BITS = 12,                 // bits of the sum of a block plus half of its pixels
     parameter FACTOR_BITS = 1,               // bits of FACTOR
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // sum * FACTOR >> SHIFT is sum / pixels of a block
-    parameter SHIFT = 4,                     // bits that are dropped of the product
-    parameter SECOND = 0,                    // 1: a frame is decided when the next is complete
-    parameter DEEP = 0                       // 1: more registers; means leave in the clock after the last pixel of a block
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (sum * FACTOR) >> SHIFT is the sum divided by the pixels of a block
+    parameter SHIFT = 4,                     // bits of the product that are dropped
+    parameter SECOND = 0,                    // 1: a frame is decided when the next frame is complete
+    parameter DEEP = 0                       // 1: more registers; a mean leaves one clock after the last pixel of its block
 ) (
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    rst_i,      // synchronous reset, active high
-    input  wire                    step_i,     // a pixel comes (DEEP: a clock before it is counted)
-    input  wire [ADDRESS_BITS-1:0] address_i,  // its number in the region, or that of the next
-    input  wire [       WIDTH-1:0] pixel_i,    // that pixel
+    input  wire                    step_i,     // a pixel comes (DEEP: one clock before it is counted)
+    input  wire [ADDRESS_BITS-1:0] address_i,  // number of the pixel in the region, or with AHEAD of the next pixel
+    input  wire [       WIDTH-1:0] pixel_i,    // the pixel of this step
     input  wire                    done_i,     // the counts are those of a whole frame
     input  wire                    decided_i,  // a decision is made in this clock
-    input  wire                    srs_i,      // its SRS
-    input  wire                    active_i,   // its SRS and TRS
-    input  wire [       WIDTH-1:0] level_i,    // means that differ by more are sent again
-    output wire                    summary_o,  // the means of the frame that is decided are sent; 0 unless decided_i
+    input  wire                    srs_i,      // SRS of that decision
+    input  wire                    active_i,   // SRS and TRS of that decision are both 1
+    input  wire [       WIDTH-1:0] level_i,    // a mean that differs by more than this level is sent again
+    output wire                    summary_o,  // the summary of the decided frame is sent; 0 unless decided_i
     output wire                    leaves_o,   // a mean leaves at this edge
-    output wire [       WIDTH-1:0] mean_o      // that mean
+    output wire [       WIDTH-1:0] mean_o      // the mean that leaves
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SECOND != 0 && SECOND != 1) begin : g_second SECOND_must_be_0_or_1 u_refused (); end
         if (DEEP != 0 && DEEP != 1) begin : g_deep DEEP_must_be_0_or_1 u_refused (); end
@@ -65,7 +67,7 @@ module region_summary #(
         end
     endgenerate
 
-    // Where a block is one pixel, the first of the next frame may be complete in the clock of the decision.
+    // If a block is one pixel, the first block of the next frame may be complete in the clock of the decision.
     reg sent_q;
     wire sent = SIDE == BLOCKS && decided_i ? summary_o : sent_q;
 
@@ -80,8 +82,8 @@ module region_summary #(
 
     assign leaves_o = complete && sent;
 
-    // A mean of the frame that is decided differs from what the screen shows. The level is that of the clock of the
-    // decision, so of several differences the widest is kept, and not whether one was above a level.
+    // A mean of the decided frame differs from what the screen shows. The level is that of the clock of the decision. So the
+    // largest of several differences is kept, and not whether one was above a level.
     wire differs;
     generate
         if (MEANS == 1) begin : g_one
@@ -100,7 +102,7 @@ module region_summary #(
         end else begin : g_some
             wire [WIDTH:0] difference;
             wire found, above, last_above;
-            // Ordered as the absolute value is: |difference| less 1 where it is negative, then whether it is.
+            // `width` orders differences as the absolute value does: |difference|, less 1 if it is negative, then whether it is negative.
             wire negative = difference[WIDTH];
             wire [WIDTH:0] width = {difference[WIDTH-1:0] ^ {WIDTH{negative}}, negative};
             reg [WIDTH:0] widest_q;
@@ -109,7 +111,7 @@ module region_summary #(
             );
             assign differs = above || last_above;
             if (DEEP) begin : g_late
-                // In the clock of the decision the last difference is on its way to the widest.
+                // In the clock of the decision the last difference has not yet reached widest_q.
                 reg [WIDTH:0] difference_q;
                 reg found_q;
                 always @(posedge clk_i) begin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Keeps the score of a frame until a slower feature has its own.
+// Keeps the score of a frame until a slower feature has its score. score_o holds score_i after the edge of load_i.
 `default_nettype none
 
 module score_hold #(
@@ -9,10 +9,10 @@ module score_hold #(
     input  wire             rst_i,    // synchronous reset, active high
     input  wire             load_i,   // take score_i at this edge
     input  wire [WIDTH-1:0] score_i,  // the score of a frame
-    output reg  [WIDTH-1:0] score_o   // the one taken last
+    output reg  [WIDTH-1:0] score_o   // score that was taken last
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
     endgenerate

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A mean of every block of every region of the serial array, with a port to write and a port to read. Up to 64 words
-// are distributed RAM, more are block RAM. A word that is written and read at one edge is not used.
+// Stores a mean for every block of every region of the serial array, with a port to write and a port to read. A mean is on
+// data_o one clock after its address. Up to 64 words are distributed RAM, more are block RAM. A word that is written and
+// read at one edge is not used.
 `default_nettype none
 
 module serial_means #(
@@ -10,13 +11,13 @@ module serial_means #(
 ) (
     input  wire                    clk_i,            // clock, rising edge
     input  wire                    write_i,          // write at this edge
-    input  wire [ADDRESS_BITS-1:0] write_address_i,  // where
+    input  wire [ADDRESS_BITS-1:0] write_address_i,  // address of the word that is written
     input  wire [       WIDTH-1:0] data_i,           // the mean that is written
-    input  wire [ADDRESS_BITS-1:0] read_address_i,   // where to read at this edge
+    input  wire [ADDRESS_BITS-1:0] read_address_i,   // address of the mean that is read at this edge
     output wire [       WIDTH-1:0] data_o            // the mean that was read
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WIDTH < 1) begin : g_width WIDTH_must_be_1_or_more u_refused (); end
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end

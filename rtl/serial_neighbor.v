@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Lane and slot of a region or of one of its eight neighbors. Region lane * FOLD + slot: a neighbor is
-// a constant number of lanes and slots away, and one lane more where the slots run over.
+// Computes lane and slot of a region or of one of its eight neighbors. Combinational. A region has the number
+// lane * FOLD + slot, so a neighbor is a constant number of lanes and slots away, and one lane more if the slots overflow.
 `default_nettype none
 
 module serial_neighbor #(
-    parameter COLUMNS = 28,   // regions of a row
+    parameter COLUMNS = 28,   // regions in a row of regions
     parameter FOLD = 1,       // regions of a lane
-    parameter SLOT_BITS = 1,  // at least 1
-    parameter LANE_BITS = 10  // of the number of a lane, at least 1
+    parameter SLOT_BITS = 1,  // bits of the number of a slot, at least 1
+    parameter LANE_BITS = 10  // bits of the number of a lane, at least 1
 ) (
     input  wire [LANE_BITS-1:0] lane_i,   // lane of the region
-    input  wire [SLOT_BITS-1:0] slot_i,   // ... its slot
-    input  wire                 left_i,   // the neighbor is to the left
-    input  wire                 right_i,  // ... to the right
-    input  wire                 above_i,  // ... above
-    input  wire                 below_i,  // ... below
+    input  wire [SLOT_BITS-1:0] slot_i,   // slot of the region
+    input  wire                 left_i,   // 1: the neighbor is in the column of regions to the left
+    input  wire                 right_i,  // 1: the neighbor is in the column of regions to the right
+    input  wire                 above_i,  // 1: the neighbor is in the row of regions above
+    input  wire                 below_i,  // 1: the neighbor is in the row of regions below
     output wire [LANE_BITS-1:0] lane_o,   // lane of the neighbor
-    output wire [SLOT_BITS-1:0] slot_o    // ... its slot
+    output wire [SLOT_BITS-1:0] slot_o    // slot of the neighbor
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (FOLD < 1) begin : g_fold FOLD_must_be_1_or_more u_refused (); end
@@ -29,7 +29,7 @@ module serial_neighbor #(
     endgenerate
 
     /* verilator lint_off UNUSEDSIGNAL */
-    // Whole lanes from a region to the one `regions` further on, which may be negative, and the rest.
+    // Returns the whole lanes from a region to the one `regions` after it. The argument may be negative.
     function [LANE_BITS-1:0] lanes(input integer regions);
         integer whole;
         begin

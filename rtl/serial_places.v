@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The places of a pixel in one direction: its own region, then a neighbor whose halo shows it, or the
-// halo that repeats it at the frame's border.
+// Computes the places of a pixel in one direction: a place in its own region, then in the halo of a neighboring region, or in
+// the halo that repeats the pixel at the frame's border. Combinational.
 `default_nettype none
 
 module serial_places #(
-    parameter SIDE = 8,      // of a region, at least 2 * HALO
+    parameter SIDE = 8,      // pixels of a side of a region, at least 2 * HALO
     parameter HALO = 1,      // pixels around a region, 1 or 2
-    parameter SCALE = 1,     // words from one pixel to the next
-    parameter WORD_BITS = 7  // of an address inside a slot
+    parameter SCALE = 1,     // address distance of neighboring pixels in this direction
+    parameter WORD_BITS = 7  // bits of an address inside a slot
 ) (
-    input  wire [$clog2(SIDE)-1:0] inner_i,   // where the pixel is in its region
-    input  wire                    first_i,   // no region before
-    input  wire                    last_i,    // no region after
-    input  wire [             1:0] place_i,   // which: 0 is that in the own region
-    output wire [             1:0] more_o,    // places beside the own region
-    output wire                    before_o,  // this one is in the region before
-    output wire                    after_o,   // ... in the region after
-    output wire [   WORD_BITS-1:0] offset_o   // from the pixel's word without a halo
+    input  wire [$clog2(SIDE)-1:0] inner_i,   // position of the pixel in its region
+    input  wire                    first_i,   // no region is before this one
+    input  wire                    last_i,    // no region is after this one
+    input  wire [             1:0] place_i,   // number of the place; 0 is the place in the own region
+    output wire [             1:0] more_o,    // number of places besides that in the own region
+    output wire                    before_o,  // this place is in the region before
+    output wire                    after_o,   // this place is in the region after
+    output wire [   WORD_BITS-1:0] offset_o   // address distance from the pixel's word without a halo
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (HALO < 1 || HALO > 2) begin : g_halo HALO_must_be_1_or_2 u_refused (); end
         if (SIDE < 2 * HALO) begin : g_side SIDE_must_be_twice_HALO_or_more u_refused (); end

@@ -1,33 +1,33 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Takes a frame row by row and says where its pixels go: lane, slot and word. Where neighborhoods are
-// shared a pixel goes to several places, one per clock: to its own region, and to a neighbor whose
-// halo shows it or, at the frame's border, to the halo that repeats it; in both directions.
+// Takes a frame row by row, and computes the place of each pixel: lane, slot and address. If neighborhoods are shared, a
+// pixel has several places, one per clock, in both directions: its own region, the halos of the neighbors that show it, and
+// the halos that repeat it at the frame's border. ready_o is 0 meanwhile.
 `default_nettype none
 
 module serial_raster_feed #(
     parameter SIDE = 8,       // pixels of a side of a region, 4 to 64
-    parameter HALO = 0,       // pixels around it
-    parameter COLUMNS = 28,   // regions side by side
-    parameter ROWS = 28,      // regions one below the other
+    parameter HALO = 0,       // pixels of the halo around a region
+    parameter COLUMNS = 28,   // regions in a row of regions
+    parameter ROWS = 28,      // rows of regions
     parameter FOLD = 1,       // regions of a lane
-    parameter WORD_BITS = 7,  // of an address inside a slot
-    parameter SLOT_BITS = 1,  // at least 1
-    parameter LANE_BITS = 10  // at least 1
+    parameter WORD_BITS = 7,  // bits of an address inside a slot
+    parameter SLOT_BITS = 1,  // bits of the number of a slot, at least 1
+    parameter LANE_BITS = 10  // bits of the number of a lane, at least 1
 ) (
     input  wire                 clk_i,     // clock, rising edge
     input  wire                 rst_i,     // synchronous reset, active high
-    input  wire                 valid_i,   // a pixel comes in
+    input  wire                 valid_i,   // a pixel is offered
     input  wire                 reopen_i,  // the frame before is done
-    output wire                 ready_o,   // a pixel would be taken
+    output wire                 ready_o,   // an offered pixel is taken
     output wire                 take_o,    // a pixel is taken
-    output wire                 place_o,   // the pixel goes to the place below
-    output wire                 last_o,    // the last place of the last pixel
-    output wire [LANE_BITS-1:0] lane_o,    // the place: lane
-    output wire [SLOT_BITS-1:0] slot_o,    // ... slot
-    output wire [WORD_BITS-1:0] word_o     // ... address inside the slot
+    output wire                 place_o,   // the pixel is written to the place below
+    output wire                 last_o,    // this is the last place of the last pixel
+    output wire [LANE_BITS-1:0] lane_o,    // lane of the place
+    output wire [SLOT_BITS-1:0] slot_o,    // slot of the place
+    output wire [WORD_BITS-1:0] word_o     // address of the place inside the slot
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
         if (HALO < 0 || HALO > 2) begin : g_halo HALO_must_be_0_to_2 u_refused (); end
@@ -51,19 +51,19 @@ module serial_raster_feed #(
     localparam LAST_ROW = ROWS - 1;
     localparam LAST_SLOT = FOLD - 1;
     /* verilator lint_off WIDTH */
-    localparam [WORD_BITS-1:0] SEGMENT = SIDE - 1;                // back to the start of a segment
+    localparam [WORD_BITS-1:0] SEGMENT = SIDE - 1;                // address distance back to the start of a row of a region
     localparam [WORD_BITS-1:0] NEXT_LINE = STRIDE - (SIDE - 1);
     /* verilator lint_on WIDTH */
 
     reg ready_q;
-    reg [INNER_BITS-1:0] x_q;  // in the region
+    reg [INNER_BITS-1:0] x_q;  // column of the pixel in its region
     reg [INNER_BITS-1:0] y_q;
-    reg [COLUMN_BITS-1:0] column_q;  // of the region
+    reg [COLUMN_BITS-1:0] column_q;  // column of the pixel's region
     reg [ROW_BITS-1:0] row_q;
     reg [WORD_BITS-1:0] word_q;  // y_q * STRIDE + x_q
     reg [LANE_BITS-1:0] lane_q;
     reg [SLOT_BITS-1:0] slot_q;
-    reg [LANE_BITS-1:0] row_lane_q;  // of the first region of the row
+    reg [LANE_BITS-1:0] row_lane_q;  // lane of the first region of the row of regions
     reg [SLOT_BITS-1:0] row_slot_q;
 
     wire last_x = x_q == LAST_INNER[INNER_BITS-1:0];
@@ -144,8 +144,8 @@ module serial_raster_feed #(
             assign word_o = word_q;
         end else begin : g_places
             reg busy_q;
-            reg [1:0] across_q;  // which place in its row
-            reg [1:0] down_q;    // which row of places
+            reg [1:0] across_q;  // number of the place in its row of places
+            reg [1:0] down_q;    // number of that row of places
             wire [1:0] across_more;
             wire [1:0] down_more;
             wire last_across = across_q == across_more;

@@ -20,25 +20,25 @@ module serial_sequencer #(
     parameter FOLD = 1,             // regions per lane
     parameter LANES = 784,          // lanes of the array
     parameter FEATURES = 1,         // spatial features, 1 to 4
-    parameter [7:0] KINDS = 8'd0,   // two bits for each, the first lowest: edge, corner, mad, variance
+    parameter [7:0] KINDS = 8'd0,   // two bits per feature, the first lowest: 0 edge, 1 corner, 2 mad, 3 variance
     parameter EDGE = 1,             // 1: `edge` is one of them
-    parameter CORNER = 0,           // ... `corner`
-    parameter MAD = 0,              // ... `mad`
-    parameter VARIANCE = 0,         // ... `variance`
+    parameter CORNER = 0,           // 1: the design has the feature `corner`
+    parameter MAD = 0,              // 1: the design has the feature `mad`
+    parameter VARIANCE = 0,         // 1: the design has the feature `variance`
     parameter BLOCKS = 0,           // blocks of a region's side of which means are sent: 1, 2 or 4; 0: none
-    parameter BLOCK_BITS = 1,       // of the number of a block, at least 1
+    parameter BLOCK_BITS = 1,       // bits of the number of a block, at least 1
     parameter FRACTION = 0,         // fraction bits of the mean of `mad`
-    parameter SUM_BITS = 14,        // of the sum of a region
+    parameter SUM_BITS = 14,        // bits of the sum of a region
     parameter COUNT_BITS = 7,       // of the pixels of a region
     parameter DENOISED_BASE = 64,   // where the denoised square starts in a slot
     parameter REFERENCE_BASE = 64,  // where the reference starts
-    parameter WORD_BITS = 7,        // of an address inside a slot
-    parameter SLOT_BITS = 1,        // of the number of a slot, at least 1
-    parameter REGION_BITS = 10,     // of the number of a region, empty slots included
+    parameter WORD_BITS = 7,        // bits of an address inside a slot
+    parameter SLOT_BITS = 1,        // bits of the number of a slot, at least 1
+    parameter REGION_BITS = 10,     // bits of the number of a region, empty slots included
     parameter POSITION_BITS = 6,    // of the number of a pixel in the larger square of centers
-    parameter INDEX_BITS = 1,       // of the number of a score
+    parameter INDEX_BITS = 1,       // bits of the number of a score
     parameter SCALE_BITS = 8,       // of the constant that is shifted from step to step
-    parameter ACC_BITS = 11         // of the accumulator
+    parameter ACC_BITS = 11         // bits of the accumulator
 ) (
     input  wire                     clk_i,             // clock, rising edge
     input  wire                     rst_i,             // synchronous reset, active high
@@ -65,7 +65,7 @@ module serial_sequencer #(
     output wire [POSITION_BITS-1:0] position_o         // of the pixel that leaves
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 4 || SIDE > 64) begin : g_side SIDE_must_be_4_to_64 u_refused (); end
         if (FEATURES < 1 || FEATURES > 4) begin : g_features FEATURES_must_be_1_to_4 u_refused (); end

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Which sides of the region in a slot are on the frame's border: a table, made from its numbers.
+// Looks up the sides of a slot's region that are on the frame's border, in a table made from the regions'
+// numbers. Combinational.
 `default_nettype none
 
 module serial_sides #(
     parameter FIRST = 0,     // number of the region in slot 0
-    parameter COLUMNS = 28,  // regions side by side
-    parameter ROWS = 28,     // regions one below the other
-    parameter SLOT_BITS = 1  // at least 1
+    parameter COLUMNS = 28,  // regions in a row of regions
+    parameter ROWS = 28,     // rows of regions
+    parameter SLOT_BITS = 1  // bits of the number of a slot, at least 1
 ) (
     input  wire [SLOT_BITS-1:0] slot_i,  // number of the slot
-    output wire [          3:0] sides_o  // {bottom, top, right, left}
+    output wire [          3:0] sides_o  // one bit per side on the border: {bottom, top, right, left}
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end

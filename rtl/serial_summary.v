@@ -1,41 +1,41 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What the irrelevant regions of the serial array send in place of their pixels: the means of their blocks, when the
-// screen shows none of them, or one has moved by more than a level.
+// Makes what the irrelevant regions of the serial array send in place of their pixels: the means of their blocks, if the
+// screen shows no summary, or if a mean differs from the shown one by more than level_i. summary_o comes with the decision.
 //
-// Sums of blocks pass, one region after the other, and become means, which are written to one of two memories while the
-// other one has those that the screen shows. Where a summary is sent the memories change places. Nothing waits for a
-// mean: until the decision there is a whole pass of a feature.
+// The sums of blocks pass, one region after the other, and become means. They are written to one of two memories, while the
+// other one has the means that the screen shows. If a summary is sent, the memories of that region change roles. No step
+// waits for a mean, because a whole pass of a feature lies before the decision.
 `default_nettype none
 
 module serial_summary #(
     parameter WIDTH = 8,                     // bits of a pixel
     parameter MEANS = 4,                     // blocks of a region: 1, 4 or 16
     parameter BLOCK_BITS = 2,                // bits of the number of a block, at least 1
-    parameter SUM_BITS = 12,                 // bits of the sum of a block, with half of its pixels
+    parameter SUM_BITS = 12,                 // bits of the sum of a block plus half of its pixels
     parameter FACTOR_BITS = 1,               // bits of FACTOR
-    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // sum * FACTOR >> SHIFT is sum / pixels
-    parameter SHIFT = 4,                     // bits that are dropped of the product
-    parameter SLOTS = 784,                   // regions and empty slots
+    parameter [FACTOR_BITS-1:0] FACTOR = 1,  // (sum * FACTOR) >> SHIFT is the sum divided by the pixels of a block
+    parameter SHIFT = 4,                     // bits of the product that are dropped
+    parameter SLOTS = 784,                   // number of regions plus empty slots
     parameter REGION_BITS = 10               // bits of the number of a slot of the array
 ) (
     input  wire                   clk_i,           // clock, rising edge
     input  wire                   rst_i,           // synchronous reset, active high
-    input  wire                   frame_i,         // a frame is done
+    input  wire                   frame_i,         // all scores of a frame have passed
     input  wire [REGION_BITS-1:0] next_region_i,   // region_i at the next clock
     input  wire [ BLOCK_BITS-1:0] next_block_i,    // block_i at the next clock
-    input  wire [REGION_BITS-1:0] region_i,        // the region that passes
-    input  wire [ BLOCK_BITS-1:0] block_i,         // its block
+    input  wire [REGION_BITS-1:0] region_i,        // number of the region that passes
+    input  wire [ BLOCK_BITS-1:0] block_i,         // number of the block that passes
     input  wire                   average_i,       // the sum of that block passes
-    input  wire [   SUM_BITS-1:0] sum_i,           // that sum
+    input  wire [   SUM_BITS-1:0] sum_i,           // the sum of that block
     input  wire                   decided_i,       // the decision for region_i is made
-    input  wire                   srs_i,           // its SRS
-    input  wire                   active_i,        // its SRS and TRS
-    input  wire [      WIDTH-1:0] level_i,         // means that differ by more are sent again
-    output wire                   summary_o,       // the summary is sent; 0 unless decided_i
+    input  wire                   srs_i,           // SRS of that decision
+    input  wire                   active_i,        // SRS and TRS of that decision are both 1
+    input  wire [      WIDTH-1:0] level_i,         // a mean that differs by more than this level is sent again
+    output wire                   summary_o,       // the summary of region_i is sent; 0 unless decided_i
     output wire [      WIDTH-1:0] mean_o           // the mean of block_i that region_i shows
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (MEANS != 1 && MEANS != 4 && MEANS != 16) begin : g_means MEANS_must_be_1_4_or_16 u_refused (); end
         if (BLOCK_BITS != (MEANS > 1 ? $clog2(MEANS) : 1)) begin : g_block_bits
@@ -67,8 +67,8 @@ module serial_summary #(
         end
     endgenerate
 
-    // Of each region: whether the screen shows a summary, and whether that is in the second memory. In a first frame it
-    // shows none, and the new means go to the first memory.
+    // Two flags per region: the screen shows a summary, and this summary is in the second memory. In the first frame it shows
+    // none, and the new means go to the first memory.
     reg  first_q;
     wire was_shown, was_second;
     wire shows = was_shown && !first_q;
@@ -86,13 +86,13 @@ module serial_summary #(
         .data_o({was_shown, was_second})
     );
 
-    // The means, read a clock before their region passes.
+    // The means, read one clock before their region passes.
     reg passed_q, to_second_q;
     reg [WORD_BITS-1:0] passed_at_q;
     reg [SUM_BITS-1:0] sum_q;
     reg [WIDTH-1:0] shown_q;
     wire [WIDTH-1:0] in_first, in_second;
-    // The bits below SHIFT are the remainder, those above the mean are never set.
+    // The bits below SHIFT are the remainder. The bits above the mean are never set.
     /* verilator lint_off UNUSEDSIGNAL */
     wire [PRODUCT_BITS-1:0] product = {{FACTOR_BITS{1'b0}}, sum_q} * {{SUM_BITS{1'b0}}, FACTOR};
     /* verilator lint_on UNUSEDSIGNAL */
@@ -108,7 +108,7 @@ module serial_summary #(
         .read_address_i(next), .data_o(in_second)
     );
 
-    // The difference of the mean from that shown, and of each region whether one was too wide.
+    // The difference of a mean from the shown one, and per region whether a difference was above the level.
     reg compared_q, starts_q;
     reg [REGION_BITS-1:0] compared_at_q;
     reg [WIDTH:0] difference_q;

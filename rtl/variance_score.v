@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// pixels * (sum of squares) - (sum)^2, which is pixels^2 times the variance. With DEEP the squares
-// come a clock behind the pixels, so that the square of the sum has a register.
+// Computes pixels * (sum of squares) - sum^2, which is pixels^2 times the variance. score_o holds it after the edge of
+// done_i. With DEEP the squares come one clock after the pixels, so that the square of the sum is in a register.
 `default_nettype none
 
 module variance_score #(
@@ -9,17 +9,17 @@ module variance_score #(
     parameter SQUARE_SUM_BITS = 22,  // bits of the sum of squares
     parameter PRODUCT_BITS = 28,     // bits of pixels * (sum of squares)
     parameter SCORE_BITS = 26,       // bits of the score
-    parameter DEEP = 0               // 1: sum_i is there a clock before done_i
+    parameter DEEP = 0               // 1: sum_i comes one clock before done_i
 ) (
     input  wire                       clk_i,         // clock, rising edge
     input  wire                       rst_i,         // synchronous reset, active high
     input  wire                       done_i,        // the sum of squares is that of a whole frame
-    input  wire [       SUM_BITS-1:0] sum_i,         // of the pixels of that frame
-    input  wire [SQUARE_SUM_BITS-1:0] square_sum_i,  // of their squares
-    output reg  [     SCORE_BITS-1:0] score_o        // of the last whole frame
+    input  wire [       SUM_BITS-1:0] sum_i,         // sum of the pixels of that frame
+    input  wire [SQUARE_SUM_BITS-1:0] square_sum_i,  // sum of the squares of these pixels
+    output reg  [     SCORE_BITS-1:0] score_o        // score of the last whole frame
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (PRODUCT_BITS < SUM_BITS) begin : g_product_bits
             PRODUCT_BITS_must_be_SUM_BITS_or_more u_refused ();
@@ -39,7 +39,7 @@ module variance_score #(
     wire [PRODUCT_BITS-1:0] square_sum = {{(PRODUCT_BITS - SQUARE_SUM_BITS) {1'b0}}, square_sum_i};
     wire [PRODUCT_BITS-1:0] larger = FACTOR * square_sum;
     wire [PRODUCT_BITS-1:0] smaller;
-    // The difference is smaller than either product.
+    // The difference is smaller than each product.
     /* verilator lint_off UNUSEDSIGNAL */
     wire [PRODUCT_BITS-1:0] score = larger - smaller;
     /* verilator lint_on UNUSEDSIGNAL */

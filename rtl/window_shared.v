@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Control of a 3x3 window over a region that comes with its halo: SIDE x SIDE pixels in, the
-// (SIDE-2) x (SIDE-2) centers that have all their neighbors out. Nothing to flush.
+// Control of a 3x3 window over a region that comes with its halo: it takes SIDE x SIDE pixels and gives the
+// (SIDE-2) x (SIDE-2) centers that have all their neighbors. A center steps with its lower right neighbor, so there is
+// nothing to flush.
 //
-// `border_i` names the sides where the halo lies outside the frame. There the window must see the
-// region's own border pixels repeated; elsewhere nothing is clamped.
+// `border_i` names the sides at which the halo is outside of the frame. There the window sees the region's own border pixels
+// repeated; at other sides it sees the halo.
 `default_nettype none
 
 module window_shared #(
@@ -14,18 +15,18 @@ module window_shared #(
     input  wire                    clk_i,      // clock, rising edge
     input  wire                    rst_i,      // synchronous reset, active high
     input  wire                    valid_i,    // a pixel comes in
-    input  wire [             3:0] border_i,   // sides outside the frame: {bottom, top, right, left}
-    output wire                    advance_o,  // lines and columns move at this edge
-    output wire                    step_o,     // with it a center is complete
+    input  wire [             3:0] border_i,   // sides of the region on the frame's border: {bottom, top, right, left}
+    output wire                    advance_o,  // the line memories and the columns move at this edge
+    output wire                    step_o,     // with advance_o: a center is complete
     output wire [ADDRESS_BITS-1:0] address_o,  // number of the center in its region
     output wire                    last_o,     // the center is the last of the frame
-    output wire                    top_o,      // the incoming column lacks its upper pixel
-    output wire                    bottom_o,   // ... its lower pixel
-    output wire                    left_o,     // the incoming column stands for its left neighbor too
-    output wire                    right_o     // the center's column stands for its right neighbor too
+    output wire                    top_o,      // the incoming column uses its middle pixel in place of the upper one
+    output wire                    bottom_o,   // the incoming column uses its middle pixel in place of the lower one
+    output wire                    left_o,     // the incoming column is used in place of its left neighbor
+    output wire                    right_o     // the center's column is used in place of its right neighbor
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (SIDE < 4) begin : g_side SIDE_must_be_4_or_more u_refused (); end
         if (SIDE_BITS != $clog2(SIDE)) begin : g_side_bits
@@ -39,10 +40,10 @@ module window_shared #(
     localparam LAST = SIDE - 1;
     localparam [SIDE_BITS-1:0] FIRST_CENTER = 1;
 
-    reg [SIDE_BITS-1:0] column_q;  // of the incoming pixel
+    reg [SIDE_BITS-1:0] column_q;  // column of the incoming pixel
     reg [SIDE_BITS-1:0] row_q;
-    // The initial value keeps synthesis from moving this register into the store's address port,
-    // which would cost the store a second port.
+    // The initial value keeps synthesis from moving this register into the address port of the store, which would give the
+    // store a second port.
     reg [ADDRESS_BITS-1:0] address_q = {ADDRESS_BITS{1'b0}};
 
     wire last_column = column_q == LAST[SIDE_BITS-1:0];
