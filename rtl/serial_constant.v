@@ -5,7 +5,7 @@
 
 module serial_constant #(
     parameter WIDTH = 8,       // bits of a pixel
-    parameter SIDE = 8,        // of a region
+    parameter SIDE = 8,        // pixels of a side of a region
     parameter MEDIAN = 1,      // 1: pixels are denoised
     parameter MAD = 0,         // 1: the design has the feature `mad`
     parameter VARIANCE = 0,    // 1: the design has the feature `variance`

@@ -1,22 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The scene of pattern_source for an array of RPUs (docs/boards.md): every region takes one of its pixels at each clock. What depends
-// on a column or a row alone is made once for it, and each register has an addition or a choice before it.
+// Makes the scene of pattern_source for an array of RPUs (docs/boards.md): every region gets one of its pixels at each clock.
+// Values that depend on a column or on a row alone are computed once for it, and each register has one addition or selection
+// in front of it. The first pixels come three clocks after reset.
 `default_nettype none
 
 module array_pattern #(
-    parameter COLUMNS = 4,   // regions side by side
-    parameter ROWS = 3,      // regions one below the other
+    parameter COLUMNS = 4,   // regions in a row of regions
+    parameter ROWS = 3,      // rows of regions
     parameter SIDE = 8,      // pixels of a side of a region, 2 to 64
     parameter SIDE_BITS = 3  // ceil(log2(SIDE))
 ) (
     input  wire                      clk_i,    // clock, rising edge
     input  wire                      rst_i,    // synchronous reset, active high
-    output wire                      valid_o,  // a pixel of every region; always, from three clocks after reset on
-    output wire [COLUMNS*ROWS*8-1:0] pixel_o,  // that pixel, row by row; element i is region i
-    output wire                      soon_o    // two clocks from now the first pixel of a frame is there
+    output wire                      valid_o,  // pixels are on pixel_o; always 1 from three clocks after reset on
+    output wire [COLUMNS*ROWS*8-1:0] pixel_o,  // one pixel per region, row by row; element i is of region i
+    output wire                      soon_o    // the first pixel of a frame comes two clocks from now
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
@@ -24,15 +25,15 @@ module array_pattern #(
         if (SIDE_BITS != $clog2(SIDE)) begin : g_side_bits SIDE_BITS_must_be_clog2_of_SIDE u_refused (); end
     endgenerate
 
-    // Counters: the place in every region, and what belongs to it in the region at the upper left. All count modulo 2^8 at most.
+    // Counters: the place in every region, and values at that place in the upper left region. All count modulo 2^9 or less.
     localparam LAST = SIDE - 1;
     reg [SIDE_BITS-1:0] column_q, line_q;  // u and v
-    reg first_q;                           // both are 0
+    reg first_q;                           // u and v are both 0
     reg [8:0] x_q;                         // u
     reg [7:0] y_q;                         // v
-    reg [7:0] mix_x_q, mix_y_q;            // 5 u, and 19 v
-    reg [6:0] right_q, start_q;            // u - 3 t, and -3 t
-    reg [6:0] down_q, top_q;               // v - t, and -t
+    reg [7:0] mix_x_q, mix_y_q;            // 5 u; 19 v
+    reg [6:0] right_q, start_q;            // u - 3 t; -3 t
+    reg [6:0] down_q, top_q;               // v - t; -t
     wire line_ends = column_q == LAST[SIDE_BITS-1:0];
     wire frame_ends = line_ends && line_q == LAST[SIDE_BITS-1:0];
     wire [6:0] next_start = frame_ends ? start_q - 7'd3 : start_q;
@@ -69,7 +70,7 @@ module array_pattern #(
         end
     end
 
-    // Which of the stages behind the counters have something.
+    // The stages behind the counters that hold something.
     reg second_q, third_q, fourth_q, soon_q;
     always @(posedge clk_i) begin
         second_q <= 1'b1;
@@ -86,7 +87,7 @@ module array_pattern #(
     assign valid_o = fourth_q;
     assign soon_o = soon_q;
 
-    // Second stage: of each column of regions and of each row.
+    // The second stage: values of each column of regions and of each row of regions.
     wire [COLUMNS*9-1:0] column_x;
     wire [COLUMNS*8-1:0] column_mix;
     wire [COLUMNS-1:0] column_square;
@@ -128,7 +129,7 @@ module array_pattern #(
             assign row_square[row] = own_square_q;
         end
 
-        // Third and fourth stage: of each region, and its pixel.
+        // The third and the fourth stage: values of each region, and its pixel.
         for (row = 0; row < ROWS; row = row + 1) begin : g_row
             for (column = 0; column < COLUMNS; column = column + 1) begin : g_column
                 localparam REGION = row * COLUMNS + column;

@@ -1,29 +1,29 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Sums up a CRC of what each RPU of an array says of each frame (docs/boards.md), as a short proof of what left it. The array
-// decides at every PIXELS-th clock, and what it forwards of that frame comes at the PIXELS clocks behind.
+// Adds up a CRC of the outputs of each RPU of an array for each frame (docs/boards.md), as a short proof of these outputs. The
+// array decides at every PIXELS-th clock, and forwards what it sends of that frame in the PIXELS clocks after that.
 //
-// When the next frame is decided, the CRCs of a row of regions become a chain, which moves by a region at each clock, and what
-// leaves the chains is added in a tree.
+// When the next frame is decided, the CRCs of a row of regions become a chain, which moves by one region per clock. The CRCs
+// that leave the chains are added in a tree. done_o comes with the sum of a frame.
 `default_nettype none
 
 module array_signature #(
-    parameter COLUMNS = 4,     // regions side by side
-    parameter ROWS = 3,        // regions one below the other
-    parameter HEAD_BYTES = 3,  // bytes of a decision and its scores
-    parameter PIXELS = 64      // clocks of a frame; COLUMNS or more, or a chain would be too slow
+    parameter COLUMNS = 4,     // regions in a row of regions
+    parameter ROWS = 3,        // rows of regions
+    parameter HEAD_BYTES = 3,  // bytes of a decision with its scores
+    parameter PIXELS = 64      // clocks of a frame; COLUMNS or more, because a chain would be too slow otherwise
 ) (
     input  wire                                 clk_i,            // clock, rising edge
     input  wire                                 rst_i,            // synchronous reset, active high
-    input  wire                                 decided_i,        // decisions and scores of a frame are there
-    input  wire [COLUMNS*ROWS*HEAD_BYTES*8-1:0] head_i,           // those; element i is region i
-    input  wire [             COLUMNS*ROWS-1:0] forward_valid_i,  // a pixel or a mean of that region leaves
-    input  wire [           COLUMNS*ROWS*8-1:0] forward_pixel_i,  // that pixel
-    output wire [                         31:0] sum_o,            // the sum of all whole frames so far, modulo 2^32
-    output wire [                         31:0] frames_o,         // whole frames so far
-    output wire                                 done_o            // the sum is that behind one of them
+    input  wire                                 decided_i,        // decisions and scores of a frame are on head_i
+    input  wire [COLUMNS*ROWS*HEAD_BYTES*8-1:0] head_i,           // decisions and scores; element i is of region i
+    input  wire [             COLUMNS*ROWS-1:0] forward_valid_i,  // one bit per region: a pixel or a mean of it leaves
+    input  wire [           COLUMNS*ROWS*8-1:0] forward_pixel_i,  // that pixel or mean; element i is of region i
+    output wire [                         31:0] sum_o,            // sum of all whole frames so far, modulo 2^32
+    output wire [                         31:0] frames_o,         // number of whole frames so far
+    output wire                                 done_o            // a frame is over, and sum_o is the sum after it
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
@@ -36,7 +36,7 @@ module array_signature #(
     localparam PIECES = (HEAD_BYTES + 3) / 4;
     localparam HEAD_BITS = HEAD_BYTES * 8;
 
-    // The sum of the number of a region in four bytes.
+    // Returns the CRC sum after the number of a region in four bytes.
     function [31:0] numbered(input [31:0] number);
         integer step;
         begin
@@ -45,7 +45,7 @@ module array_signature #(
         end
     endfunction
 
-    // Nodes of the tree, from the leaves on; level l begins at node START.
+    // The nodes of the tree, starting with the leaves; level l begins at node START.
     wire [64*LEAVES-33:0] nodes;
 
     genvar row, column, piece, level, node;
@@ -56,7 +56,7 @@ module array_signature #(
             assign nodes[32*row+:32] = chain[31:0];
             for (column = 0; column < COLUMNS; column = column + 1) begin : g_column
                 localparam REGION = row * COLUMNS + column;
-                // The sum of the region's number, and with it that of a decision and its scores, four bytes at a time.
+                // The CRC sum after the number of the region, and that after a decision with its scores, four bytes at a time.
                 localparam [31:0] NUMBERED = numbered(REGION[31:0]);
                 wire [32*PIECES+31:0] parts;
                 assign parts[31:0] = NUMBERED;
@@ -66,7 +66,7 @@ module array_signature #(
                         .crc_i(parts[32*piece+:32]), .data_i(head_i[REGION*HEAD_BITS+32*piece+:BITS]), .crc_o(parts[32*piece+32+:32])
                     );
                 end
-                // The sum so far, with what leaves now. With a new frame it moves on to the chain.
+                // The sum so far, and the pixel that leaves now. With a new frame the sum moves on to the chain.
                 reg [31:0] crc_q, chain_q;
                 wire [31:0] more;
                 packet_crc #(.BITS(8)) u_pixel (.crc_i(crc_q), .data_i(forward_pixel_i[REGION*8+:8]), .crc_o(more));
@@ -82,7 +82,7 @@ module array_signature #(
             assign nodes[32*row+:32] = 32'd0;
         end
         for (level = 0; level < LEVELS; level = level + 1) begin : g_level
-            // Nodes of all levels before this one, and before the next one.
+            // The number of nodes of all levels before this one, and before the next one.
             localparam FROM = 2 * LEAVES - (2 * LEAVES >> level);
             localparam TO = 2 * LEAVES - (2 * LEAVES >> (level + 1));
             for (node = 0; node < LEAVES >> (level + 1); node = node + 1) begin : g_node
@@ -93,10 +93,10 @@ module array_signature #(
         end
     endgenerate
 
-    // When something leaves the chains, and when it leaves the tree. Before the first frame there is none to add.
+    // Timing of the sums that leave the chains and the tree. Before the first decision there is no frame to add.
     localparam LEFT_BITS = $clog2(COLUMNS + 1);
     reg before_q;                // a frame has been decided
-    reg [LEFT_BITS-1:0] left_q;  // what is left in a chain
+    reg [LEFT_BITS-1:0] left_q;  // number of sums that are left in a chain
     wire moves = left_q != {LEFT_BITS{1'b0}};
     wire [LEVELS:0] adds, ends;
     assign adds[0] = moves;

@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Keeps what one RPU of an array says of one frame (docs/boards.md): decision, scores, and what it forwards. Which one is chosen in
-// two steps, first in each row, then of the rows, with a register behind each.
+// Keeps the outputs of one RPU of an array for one frame (docs/boards.md): decision, scores, and the pixels or means that it
+// forwards. The RPU is selected in two steps, first in each row of regions, then among the rows, with a register after each.
 `default_nettype none
 
 module array_snapshot #(
-    parameter COLUMNS = 4,      // regions side by side
-    parameter ROWS = 3,         // regions one below the other
-    parameter COLUMN_BITS = 2,  // bits of the number of a column
-    parameter ROW_BITS = 2,     // bits of the number of a row
-    parameter HEAD_BYTES = 3,   // bytes of a decision and its scores
+    parameter COLUMNS = 4,      // regions in a row of regions
+    parameter ROWS = 3,         // rows of regions
+    parameter COLUMN_BITS = 2,  // bits of the number of a column of regions
+    parameter ROW_BITS = 2,     // bits of the number of a row of regions
+    parameter HEAD_BYTES = 3,   // bytes of a decision with its scores
     parameter PIXELS = 64,      // pixels of a region, 4 to 2048
     parameter COUNT_BITS = 7    // ceil(log2(PIXELS + 1))
 ) (
     input  wire                                 clk_i,            // clock, rising edge
     input  wire                                 rst_i,            // synchronous reset, active high
-    input  wire                                 decided_i,        // decisions and scores of a frame are there
-    input  wire [COLUMNS*ROWS*HEAD_BYTES*8-1:0] head_i,           // those; element i is region i
-    input  wire [             COLUMNS*ROWS-1:0] forward_valid_i,  // a pixel or a mean of that region leaves
-    input  wire [           COLUMNS*ROWS*8-1:0] forward_pixel_i,  // that pixel
-    input  wire [              COLUMN_BITS-1:0] column_i,         // the column of the region that is kept
-    input  wire [                 ROW_BITS-1:0] row_i,            // its row
-    input  wire [                          6:0] frame_i,          // the number of the frame that is kept, modulo 128
-    input  wire                                 start_i,          // the next such frame is kept
-    output wire                                 captured_o,       // it is there
-    output wire [                         31:0] number_o,         // its number, from 0 on
-    output wire [             HEAD_BYTES*8-1:0] head_o,           // its decision and scores
-    output wire [               COUNT_BITS-1:0] count_o,          // how many pixels or means left
-    input  wire [                          8:0] place_i,          // four of them are asked for
-    output wire [                         31:0] word_o            // those, a clock later, the first in the lowest bits
+    input  wire                                 decided_i,        // decisions and scores of a frame are on head_i
+    input  wire [COLUMNS*ROWS*HEAD_BYTES*8-1:0] head_i,           // decisions and scores; element i is of region i
+    input  wire [             COLUMNS*ROWS-1:0] forward_valid_i,  // one bit per region: a pixel or a mean of it leaves
+    input  wire [           COLUMNS*ROWS*8-1:0] forward_pixel_i,  // that pixel or mean; element i is of region i
+    input  wire [              COLUMN_BITS-1:0] column_i,         // column of the region that is kept
+    input  wire [                 ROW_BITS-1:0] row_i,            // row of the region that is kept
+    input  wire [                          6:0] frame_i,          // number of the frame that is kept, modulo 128
+    input  wire                                 start_i,          // the next frame with this number is kept
+    output wire                                 captured_o,       // a whole frame of the region is kept
+    output wire [                         31:0] number_o,         // number of the kept frame, from 0 on
+    output wire [             HEAD_BYTES*8-1:0] head_o,           // decision and scores of the kept frame
+    output wire [               COUNT_BITS-1:0] count_o,          // number of pixels or means that were forwarded of the kept frame
+    input  wire [                          8:0] place_i,          // number of four pixels or means to be read
+    output wire [                         31:0] word_o            // these four, one clock later, the first in the lowest bits
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
@@ -44,7 +44,7 @@ module array_snapshot #(
     localparam HEAD_BITS = HEAD_BYTES * 8;
     localparam BITS = HEAD_BITS + 9;
 
-    // The region that the host has chosen, and what it says. Of one that is not there nothing comes.
+    // The region that the host has chosen, and its outputs. A region that does not exist gives zeros.
     reg [COLUMNS-1:0] in_column_q;
     reg [ROWS-1:0] in_row_q;
     wire [BITS*ROWS-1:0] of_rows;
@@ -82,9 +82,9 @@ module array_snapshot #(
     wire leaves = chosen_q[BITS-1];
     wire [7:0] pixel = chosen_q[HEAD_BITS+:8];
 
-    // What leaves comes behind its decision, the last of it with the next one.
+    // Pixels and means come after their decision, the last of them with the next decision.
     reg waits_q, keeps_q, captured_q;
-    reg [31:0] next_q, number_q;  // the number of the next frame, and of that which is kept
+    reg [31:0] next_q, number_q;  // number of the next frame; number of the kept frame
     reg [HEAD_BITS-1:0] head_q;
     reg [COUNT_BITS-1:0] count_q;
     wire hit = decided_q && waits_q && next_q[6:0] == frame_i;
@@ -123,7 +123,7 @@ module array_snapshot #(
     assign head_o = head_q;
     assign count_o = count_q;
 
-    // A word is written with each of its pixels, so that the last one is whole, too.
+    // A word is written with each of its pixels, so that the last word is written even if it is not full.
     localparam WORDS = (PIXELS + 3) / 4;
     localparam INDEX_BITS = WORDS > 1 ? $clog2(WORDS) : 1;
     reg [31:0] words_q[0:WORDS-1];

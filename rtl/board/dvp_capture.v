@@ -1,38 +1,38 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Pixels of a sensor on DVP become AXI4-Stream video (docs/boards.md): cleans vsync and href, finds the pixels, crops, and
-// passes them to another clock.
+// Turns the pixels of a sensor with a DVP interface into AXI4-Stream video (docs/boards.md): it cleans vsync and href, finds the
+// pixels, crops the frame, and passes the pixels to another clock.
 //
-// A pixel is held until the next one of its line comes or the line ends, so that the last one of a line, however short, carries
-// EOL. While the queue is full the held pixel stays, and those that come are lost: so a line that loses pixels still has its end,
-// and a frame its start.
+// A pixel is held until the next pixel of its line comes or the line ends, so that the last pixel of a line, however short,
+// carries EOL. While the queue is full the held pixel stays, and incoming pixels are lost. So a line that loses pixels still has
+// its end, and a frame its start.
 `default_nettype none
 
 module dvp_capture #(
     parameter BUS_BITS = 8,     // data lines, 8 or 4
     parameter FORMAT = 0,       // a pixel is: 0 each byte, 1 the first, 2 the second of two bytes, 3 two nibbles, high first, 4 low first
-    parameter VSYNC_HIGH = 1,   // between frames vsync is 1; 0: it is 0
+    parameter VSYNC_HIGH = 1,   // level of vsync between frames
     parameter LEFT = 0,         // pixels of a line that are left out at its start
     parameter TOP = 0,          // lines of a frame that are left out at its start
-    parameter COLUMNS = 128,    // pixels of a line that are taken then, at least 2
-    parameter LINES = 96,       // lines of a frame that are taken then, at least 2
+    parameter COLUMNS = 128,    // pixels of a line that are taken after these, at least 2
+    parameter LINES = 96,       // lines of a frame that are taken after these, at least 2
     parameter COLUMN_BITS = 7,  // ceil(log2(LEFT + COLUMNS))
     parameter LINE_BITS = 7     // ceil(log2(TOP + LINES))
 ) (
     input  wire                pclk_i,   // clock of the sensor, rising edge; it may stand still
-    input  wire                vsync_i,  // between two frames (VSYNC_HIGH)
-    input  wire                href_i,   // within a line
-    input  wire [BUS_BITS-1:0] data_i,   // a part of a pixel
-    input  wire                clk_i,    // clock of all that follows, rising edge
-    input  wire                rst_i,    // synchronous reset of that side, active high
-    output wire                valid_o,  // a pixel
-    output wire [         7:0] pixel_o,  // that pixel
-    output wire                sof_o,    // it is the first of a frame
-    output wire                eol_o,    // it is the last of a line
-    input  wire                ready_i,  // it is taken
-    output reg                 lost_o    // a pixel found no room; one clock for each
+    input  wire                vsync_i,  // vsync of the sensor: VSYNC_HIGH between two frames
+    input  wire                href_i,   // href of the sensor: 1 within a line
+    input  wire [BUS_BITS-1:0] data_i,   // a byte or nibble of a pixel
+    input  wire                clk_i,    // clock of the video, rising edge
+    input  wire                rst_i,    // synchronous reset in the clock of the video, active high
+    output wire                valid_o,  // a pixel is on pixel_o
+    output wire [         7:0] pixel_o,  // the pixel
+    output wire                sof_o,    // the pixel is the first of a frame
+    output wire                eol_o,    // the pixel is the last of a line
+    input  wire                ready_i,  // the sink takes the pixel
+    output reg                 lost_o    // a pixel was lost because the queue was full; one clock per pixel
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (FORMAT < 0 || FORMAT > 4) begin : g_format FORMAT_must_be_0_to_4 u_refused (); end
         if (BUS_BITS != (FORMAT > 2 ? 4 : 8)) begin : g_bus_bits BUS_BITS_must_be_8_or_with_FORMAT_3_and_4_be_4 u_refused (); end
@@ -46,7 +46,7 @@ module dvp_capture #(
         if (LINE_BITS != $clog2(TOP + LINES)) begin : g_line_bits LINE_BITS_must_be_clog2_of_TOP_plus_LINES u_refused (); end
     endgenerate
 
-    // The three last edges. What is wrong at the middle one alone is not seen; its data belongs to it.
+    // The last three samples. A level that only the middle sample has is ignored; the data of that sample is used.
     reg [2:0] href_q, vsync_q;
     reg [BUS_BITS-1:0] next_q, data_q;
     initial href_q = 3'd0;
@@ -60,9 +60,9 @@ module dvp_capture #(
     wire href = (href_q[0] && href_q[1]) || (href_q[0] && href_q[2]) || (href_q[1] && href_q[2]);
     wire between = (vsync_q[0] && vsync_q[1]) || (vsync_q[0] && vsync_q[2]) || (vsync_q[1] && vsync_q[2]);
 
-    // A line. What follows of one behind vsync is left out.
-    reg stale_q;  // vsync has come in this line
-    reg line_q;   // the edge before was in a line
+    // A line. The rest of a line after vsync is left out.
+    reg stale_q;  // vsync has come during this line
+    reg line_q;   // the sample before was in a line
     initial stale_q = 1'b0;
     initial line_q = 1'b0;
     wire line = href && !between && !stale_q;
@@ -71,7 +71,7 @@ module dvp_capture #(
         line_q  <= line;
     end
 
-    // Pixels: which edges have one, and what it is.
+    // The samples that complete a pixel, and the pixel.
     wire edge_with_pixel;
     wire [7:0] pixel;
     generate
@@ -79,7 +79,7 @@ module dvp_capture #(
             assign edge_with_pixel = 1'b1;
             assign pixel = data_q;
         end else begin : g_parts
-            reg second_q;  // the second part of a pixel is next
+            reg second_q;  // the next sample is the second part of a pixel
             initial second_q = 1'b0;
             always @(posedge pclk_i) second_q <= line && !second_q;
             assign edge_with_pixel = FORMAT == 1 ? !second_q : second_q;
@@ -93,7 +93,8 @@ module dvp_capture #(
         end
     endgenerate
 
-    // Where the pixel is: negative before the first that is taken. Behind the last one nothing counts, nor before the first vsync.
+    // The place of the pixel, negative before the first one that is taken. No pixel is taken after the last place or before
+    // the first vsync.
     localparam FIRST_COLUMN = -LEFT;
     localparam LAST_COLUMN = COLUMNS - 1;
     localparam FIRST_LINE = -TOP;
@@ -128,9 +129,9 @@ module dvp_capture #(
         end
     end
 
-    // The pixel that is held.
+    // The held pixel.
     reg held_q, held_sof_q, held_eol_q;
-    reg first_q;  // the next one that is held is the first of its frame
+    reg first_q;  // the next held pixel is the first of its frame
     reg [7:0] held_pixel_q;
     wire full;
     wire keep = comes && !(held_q && full);
@@ -154,7 +155,7 @@ module dvp_capture #(
         .read_clk_i(clk_i), .rst_i(rst_i), .valid_o(valid_o), .data_o({eol_o, sof_o, pixel_o}), .take_i(ready_i)
     );
 
-    // Losses, in Gray code. The other side counts after them, one at a clock.
+    // The number of lost pixels, in Gray code. The side of the video follows it by one per clock.
     reg [2:0] losses_q, losses_gray_q, told_q;
     (* ASYNC_REG = "TRUE" *) reg [2:0] losses_first_q, losses_seen_q;
     initial losses_q = 3'd0;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Writes the registers of a sensor after reset, one after the other, over I2C (docs/boards.md). What is written stands in a
-// memory outside, which shows a step at the same clock or a clock after it was asked for.
+// Writes the registers of a sensor after reset, one after the other, over I2C (docs/boards.md). The steps are in a memory
+// outside, which shows a step in the clock of its number or one clock later.
 //
-// A bit takes four quarters: in the first two scl is low, and sda changes with the second, so that it never does near an edge of
-// scl. Only a start and a stop, in the third quarter and behind the fourth, change sda while scl is high.
+// A bit takes four quarters. scl is low in the first two, and sda changes at the start of the second, so that it never changes
+// near an edge of scl. Only a start condition, in the third quarter, and a stop condition, after the fourth, change sda while
+// scl is high.
 `default_nettype none
 
 module i2c_setup #(
@@ -16,16 +17,16 @@ module i2c_setup #(
 ) (
     input  wire                       clk_i,      // clock, rising edge
     input  wire                       rst_i,      // synchronous reset, active high
-    output wire [      STEP_BITS-1:0] step_o,     // which step is asked for
-    input  wire [8*ADDRESS_BYTES+8:0] word_i,     // that step: from the highest bit on pause, address, value
+    output wire [      STEP_BITS-1:0] step_o,     // number of the step that is read
+    input  wire [8*ADDRESS_BYTES+8:0] word_i,     // the step: from the highest bit on a pause flag, the address, the value
     output reg                        scl_low_o,  // the clock line is driven to 0
     output reg                        sda_low_o,  // the data line is driven to 0
-    input  wire                       sda_i,      // the data line, of no clock
+    input  wire                       sda_i,      // level of the data line, asynchronous
     output wire                       done_o,     // all steps are done
-    output reg                        failed_o    // one was not acknowledged, three times
+    output reg                        failed_o    // a step was not acknowledged in three tries
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (ADDRESS_BYTES != 1 && ADDRESS_BYTES != 2) begin : g_address_bytes ADDRESS_BYTES_must_be_1_or_2 u_refused (); end
         if (STEPS < 1) begin : g_steps STEPS_must_be_1_or_more u_refused (); end
@@ -42,17 +43,17 @@ module i2c_setup #(
     localparam LAST_PAUSE = PAUSE - 1;
     localparam LAST_STEP = STEPS - 1;
     localparam [2:0] START = 3'd0;  // both lines rest for two quarters, in which the step comes; then a start condition
-    localparam [2:0] BITS = 3'd1;   // bytes, each with its acknowledgement
+    localparam [2:0] BITS = 3'd1;   // the bytes, each with its acknowledgement
     localparam [2:0] STOP = 3'd2;   // a stop condition
     localparam [2:0] WAIT = 3'd3;   // a pause
     localparam [2:0] DONE = 3'd4;   // the end, from the third quarter on
 
     reg [2:0] state_q;
     reg [1:0] quarter_q;
-    reg [TIME_BITS-1:0] time_q;   // clocks that are left of a quarter, or of a unit of a pause
-    reg [7:0] count_q;            // bit, and from bit 4 on byte, that is sent; units of a pause that have gone
+    reg [TIME_BITS-1:0] time_q;   // clocks left of a quarter, or of a unit of a pause
+    reg [7:0] count_q;            // number of the bit, from bit 4 on of the byte, that is sent; or units of a pause that are over
     reg [STEP_BITS-1:0] step_q;
-    reg [1:0] tries_q;            // of the step that were not acknowledged
+    reg [1:0] tries_q;            // tries of the step that were not acknowledged
     reg refused_q;                // a byte of the step was not acknowledged
     (* ASYNC_REG = "TRUE" *) reg sda_first_q, sda_q;
     wire pause = word_i[8*ADDRESS_BYTES+8];
@@ -77,7 +78,7 @@ module i2c_setup #(
     wire again = refused_q && tries_q != 2'd2;
     wire last_step = step_q == LAST_STEP[STEP_BITS-1:0];
     wire next_step = (state_q == STOP && bit_ends && !again) || (state_q == WAIT && paused);
-    // The acknowledgement is a ninth bit, after which the count goes on with the next byte.
+    // The acknowledgement is a ninth bit. After it the count continues with the next byte.
     wire [7:0] next_count = count_q + (state_q == BITS && in_answer ? 8'd8 : 8'd1);
 
     always @(posedge clk_i) begin

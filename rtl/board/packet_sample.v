@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Lets a slow line see some of the packets that pass (docs/boards.md): one that begins while nothing waits here is kept whole,
-// others pass unseen.
+// Copies some of the packets that pass to a slow line (docs/boards.md). A packet that begins while no packet waits here is
+// kept whole; other packets are not copied.
 `default_nettype none
 
 module packet_sample #(
@@ -10,27 +10,27 @@ module packet_sample #(
     input  wire        clk_i,    // clock, rising edge
     input  wire        rst_i,    // synchronous reset, active high
     input  wire [63:0] data_i,   // a word of a packet that passes
-    input  wire        valid_i,  // it is there, and is taken
-    input  wire        last_i,   // it is the last of its packet
-    output wire [63:0] data_o,   // a word of a packet that is kept
-    output wire        valid_o,  // it is there, and stays until it is taken
-    output wire        last_o,   // it is the last of its packet
-    input  wire        ready_i   // it is taken
+    input  wire        valid_i,  // a word of a packet is on data_i, and is taken
+    input  wire        last_i,   // the word is the last of its packet
+    output wire [63:0] data_o,   // a word of the kept packet
+    output wire        valid_o,  // a word is on data_o, until it is taken
+    output wire        last_o,   // the word is the last of the kept packet
+    input  wire        ready_i   // the sink takes the word
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
         if (WORD_BITS != $clog2(WORDS)) begin : g_word_bits WORD_BITS_must_be_clog2_of_WORDS u_refused (); end
     endgenerate
 
     reg [63:0] words_q[0:WORDS-1];
-    reg inside_q;                  // between the first and the last word of a packet
-    reg keeps_q;                   // the packet that passes is kept
-    reg full_q;                    // a packet waits
-    reg fetched_q;                 // its next word has been read
-    reg [WORD_BITS-1:0] last_q;    // place of its last word
-    reg [WORD_BITS-1:0] place_q;   // place of the next word, in or out
+    reg inside_q;                  // the passing packet is between its first and last word
+    reg keeps_q;                   // the passing packet is kept
+    reg full_q;                    // a kept packet waits
+    reg fetched_q;                 // the next word of the kept packet has been read
+    reg [WORD_BITS-1:0] last_q;    // place of the last word of the kept packet
+    reg [WORD_BITS-1:0] place_q;   // place of the next word, written or read
     reg [63:0] word_q;
 
     wire first = !inside_q;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Sums up the CRC fields of all ROW, REGION and END packets (docs/boards.md), as a short proof of what left a core. It only looks
-// at the stream. FRAME is left out, as it carries a time.
+// Adds up the CRC fields of all ROW, REGION and END packets (docs/boards.md), as a short proof of what left a core. It only
+// observes the stream. FRAME packets are left out, because they contain a time.
 `default_nettype none
 
 module packet_signature (
     input  wire        clk_i,     // clock, rising edge
     input  wire        rst_i,     // synchronous reset, active high
     input  wire [63:0] data_i,    // a word of a packet
-    input  wire        valid_i,   // it is there
-    input  wire        last_i,    // it is the last of its packet
-    input  wire        ready_i,   // it is taken
-    output wire [31:0] sum_o,     // the sum of all packets so far, modulo 2^32
-    output wire [31:0] frames_o,  // END packets so far
+    input  wire        valid_i,   // a word of a packet is on data_i
+    input  wire        last_i,    // the word is the last of its packet
+    input  wire        ready_i,   // the word is taken
+    output wire [31:0] sum_o,     // sum of all packets so far, modulo 2^32
+    output wire [31:0] frames_o,  // number of END packets so far
     output wire        done_o     // the last packet that was added was an END
 );
 
@@ -20,9 +20,9 @@ module packet_signature (
     localparam [3:0] REGION = 4'd4;
     localparam [3:0] END = 4'd5;
 
-    // A word and its packet, so that the sum starts at a register.
-    reg inside_q;                // within a packet, behind its head
-    reg counts_q, end_q;         // the packet is one of these, or an END
+    // The registered word and its packet. The sum starts at these registers.
+    reg inside_q;                // the word is in a packet, after its head
+    reg counts_q, end_q;         // the packet is a ROW, REGION or END packet; it is an END packet
     reg tail_q, add_q, add_end_q;
     reg [31:0] crc_q, sum_q, frames_q;
     reg done_q;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// AXI4-Stream video of a scene that moves (docs/boards.md), a word at every clock: a gradient, texture on parts of it, and bright
-// squares. A program computes the same in a few lines.
+// Sends AXI4-Stream video of a scene that moves (docs/boards.md), one word per clock: a gradient, texture on parts of it, and
+// bright squares. The same scene is a few lines of a program. The first word comes three clocks after reset.
 `default_nettype none
 
 module pattern_source #(
@@ -13,15 +13,15 @@ module pattern_source #(
 ) (
     input  wire                   clk_i,    // clock, rising edge
     input  wire                   rst_i,    // synchronous reset, active high
-    output wire                   valid_o,  // a word; always, from three clocks after reset on
-    output wire [LANES*WIDTH-1:0] pixel_o,  // that word, the left pixel in the lowest bits
-    output wire                   sof_o,    // it is the first of a frame
-    output wire                   eol_o,    // it is the last of a line
-    input  wire                   ready_i,  // it is taken
-    output wire [           31:0] frame_o   // number of the frame that it belongs to, from 0 on
+    output wire                   valid_o,  // a word is on pixel_o; always 1 from three clocks after reset on
+    output wire [LANES*WIDTH-1:0] pixel_o,  // the word, its left pixel in the lowest bits
+    output wire                   sof_o,    // the word is the first of a frame
+    output wire                   eol_o,    // the word is the last of a line
+    input  wire                   ready_i,  // the sink takes the word
+    output wire [           31:0] frame_o   // number of the frame of the word, from 0 on
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (WORDS < 2) begin : g_words WORDS_must_be_2_or_more u_refused (); end
         if (LINES < 2) begin : g_lines LINES_must_be_2_or_more u_refused (); end
@@ -33,19 +33,19 @@ module pattern_source #(
 
     localparam WORD_BEFORE_LAST = WORDS - 2;
     localparam LINE_BEFORE_LAST = LINES - 2;
-    reg second_q, third_q;  // the stages behind have a word
+    reg second_q, third_q;  // the second and the third stage hold a word
     wire step = !third_q || ready_i;
 
-    // First stage: where the word is, and what belongs to its first pixel. Everything is counted on, modulo 2^8 at most.
+    // The first stage: the place of the word, and values at its first pixel. All of them are counted modulo 2^9 or less.
     reg [WORD_BITS-1:0] word_q;
     reg [LINE_BITS-1:0] line_q;
     reg [31:0] frame_q;
     reg last_word_q, last_line_q;
-    reg [7:0] x_q, y_q;             // column and line
-    reg [8:0] ramp_q, line_ramp_q;  // x + 2 y, and 2 y
-    reg [7:0] mix_q, line_mix_q;    // 5 x + 19 y, and 19 y
-    reg [6:0] right_q, start_q;     // x - 3 t, and -3 t
-    reg [6:0] down_q, top_q;        // y - t, and -t
+    reg [7:0] x_q, y_q;             // column x; line y
+    reg [8:0] ramp_q, line_ramp_q;  // x + 2 y; 2 y
+    reg [7:0] mix_q, line_mix_q;    // 5 x + 19 y; 19 y
+    reg [6:0] right_q, start_q;     // x - 3 t; -3 t
+    reg [6:0] down_q, top_q;        // y - t; -t
     wire [8:0] next_ramp = last_line_q ? 9'd0 : line_ramp_q + 9'd2;
     wire [7:0] next_mix = last_line_q ? 8'd0 : line_mix_q + 8'd19;
     wire [6:0] next_start = last_line_q ? start_q - 7'd3 : start_q;
@@ -96,7 +96,7 @@ module pattern_source #(
         end
     end
 
-    // Second stage: the same of each pixel. Third stage: the pixels.
+    // The second stage: the same values of each pixel. The third stage: the pixels.
     reg second_sof_q, second_eol_q, sof_q, eol_q;
     reg [31:0] second_frame_q, third_frame_q;
     reg [7:0] second_y_q;

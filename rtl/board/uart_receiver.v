@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Receives bytes from a serial line: 8 bits, the lowest first, no parity, one stop bit. A byte without its stop bit is left out.
+// Receives bytes from a serial line: 8 bits, the lowest first, no parity, one stop bit. A byte without its stop bit is left
+// out. valid_o is 1 for one clock, about the middle of the stop bit.
 `default_nettype none
 
 module uart_receiver #(
@@ -7,26 +8,26 @@ module uart_receiver #(
 ) (
     input  wire       clk_i,    // clock, rising edge
     input  wire       rst_i,    // synchronous reset, active high
-    input  wire       rx_i,     // the line, of no clock
-    output wire       valid_o,  // a byte has come
-    output wire [7:0] byte_o    // that byte, at this clock
+    input  wire       rx_i,     // the line, asynchronous
+    output wire       valid_o,  // a byte has come, for one clock
+    output wire [7:0] byte_o    // the byte, in the clock of valid_o
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (DIVISOR < 4) begin : g_divisor DIVISOR_must_be_4_or_more u_refused (); end
     endgenerate
 
-    // The line is seen up to a clock late: so the middle of a bit is rounded down.
+    // The line is seen up to one clock late, so the middle of a bit is rounded down.
     localparam TIME_BITS = $clog2(DIVISOR);
     localparam LAST = DIVISOR - 1;
     localparam HALF = (DIVISOR - 1) / 2 - 1;
     (* ASYNC_REG = "TRUE" *) reg first_q, rx_q;
-    reg before_q;                // the line a clock ago
+    reg before_q;                // the line one clock ago
     reg busy_q, start_q;         // a byte comes; its start bit is next
     reg valid_q;
     reg [TIME_BITS-1:0] time_q;  // clocks until the middle of the next bit
-    reg [8:0] bits_q;            // those that have come; the start bit arrives below when all have
+    reg [8:0] bits_q;            // the bits that have come; the start bit is the lowest when all have come
     wire middle = busy_q && time_q == {TIME_BITS{1'b0}};
 
     always @(posedge clk_i) begin
@@ -48,7 +49,7 @@ module uart_receiver #(
             bits_q  <= 9'h1FF;
         end
         if (rst_i) begin
-            // Nothing begins before the line has been at rest.
+            // No byte begins before the line has been at rest.
             before_q <= 1'b0;
             busy_q   <= 1'b0;
             valid_q  <= 1'b0;

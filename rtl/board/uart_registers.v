@@ -1,51 +1,52 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // Reads and writes registers for a host on a serial line (docs/boards.md). A command is a REGISTER packet (docs/packets.md), and
-// its answer is that packet with what was read.
+// the answer is the same packet with the value that was read.
 //
-// Both go bit by bit through the same registers, of which each part of a packet turns its own: what is heard is compared with what
-// would be told, and stays where it would be told from. So there is no multiplexer of bytes, and the CRC takes a bit at a clock.
+// Command and answer pass bit by bit through the same registers; each part of a packet rotates its own register. A bit that is
+// received is compared with the bit that would be sent, and stays where it would be sent from. So there is no multiplexer of
+// bytes, and the CRC takes one bit per clock.
 `default_nettype none
 
 module uart_registers #(
-    parameter PAUSE = 160  // clocks after a byte, at least 16, after which a part of a command is forgotten
+    parameter PAUSE = 160  // clocks without a byte, at least 16, after which a partial command is dropped
 ) (
     input  wire        clk_i,           // clock, rising edge
     input  wire        rst_i,           // synchronous reset, active high
-    input  wire        valid_i,         // a byte has come, at least 10 clocks after the one before
-    input  wire [ 7:0] byte_i,          // that byte
-    output wire        answer_valid_o,  // a byte of an answer
-    output wire [ 7:0] answer_byte_o,   // that byte
-    output wire        answer_last_o,   // it is the last
-    input  wire        answer_ready_i,  // it is taken
-    input  wire [31:0] board_i,         // what address 0x1000 reads as
+    input  wire        valid_i,         // a byte has come, at least 10 clocks after the byte before
+    input  wire [ 7:0] byte_i,          // the byte that has come
+    output wire        answer_valid_o,  // a byte of an answer is on answer_byte_o
+    output wire [ 7:0] answer_byte_o,   // the byte of the answer
+    output wire        answer_last_o,   // the byte is the last of the answer
+    input  wire        answer_ready_i,  // the byte is taken
+    input  wire [31:0] board_i,         // value of the register at address 0x1000
     output wire [11:0] m_awaddr_o,      // AXI4-Lite: address of a write, in bytes
-    output wire        m_awvalid_o,     // it is there
-    input  wire        m_awready_i,     // it is taken
-    output wire [31:0] m_wdata_o,       // what is written
-    output wire [ 3:0] m_wstrb_o,       // which bytes of it: all
-    output wire        m_wvalid_o,      // it is there
-    input  wire        m_wready_i,      // it is taken
-    input  wire        m_bvalid_i,      // what was written has arrived
-    output wire        m_bready_o,      // this answer is taken
+    output wire        m_awvalid_o,     // the address of a write is on the port
+    input  wire        m_awready_i,     // the address of a write is taken
+    output wire [31:0] m_wdata_o,       // the value that is written
+    output wire [ 3:0] m_wstrb_o,       // one bit per byte of the value: always all ones
+    output wire        m_wvalid_o,      // the value is on the port
+    input  wire        m_wready_i,      // the value is taken
+    input  wire        m_bvalid_i,      // the write is done
+    output wire        m_bready_o,      // the answer to the write is taken
     output wire [11:0] m_araddr_o,      // address of a read, in bytes
-    output wire        m_arvalid_o,     // it is there
-    input  wire        m_arready_i,     // it is taken
-    input  wire [31:0] m_rdata_i,       // what was read
-    input  wire        m_rvalid_i,      // it is there
-    output wire        m_rready_o       // it is taken
+    output wire        m_arvalid_o,     // the address of a read is on the port
+    input  wire        m_arready_i,     // the address of a read is taken
+    input  wire [31:0] m_rdata_i,       // the value that was read
+    input  wire        m_rvalid_i,      // the value is on the port
+    output wire        m_rready_o       // the value is taken
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (PAUSE < 16) begin : g_pause PAUSE_must_be_16_or_more u_refused (); end
     endgenerate
 
     localparam [4:0] LAST_PLACE = 5'd23;
-    reg does_q, tells_q;  // a command is done; its answer is told; else one is heard
+    reg does_q, tells_q;  // a command is executed; its answer is sent; with neither, a command is received
     reg moves_q;          // a byte moves, bit by bit
     reg told_q;           // a byte of the answer waits to be taken
-    reg [4:0] place_q;    // of the byte in the packet; once it has moved, of the next
-    reg [2:0] bit_q;      // of the bit in the byte
+    reg [4:0] place_q;    // number of the byte in the packet; after it has moved, of the next byte
+    reg [2:0] bit_q;      // number of the bit in the byte
     reg [7:0] byte_q;
     reg [31:0] crc_q;
 
@@ -55,7 +56,7 @@ module uart_registers #(
     reg [31:0] value_q;
     wire core = address_q[15:12] == 4'd0;
 
-    // The bit of this place in an answer.
+    // The bit of an answer at this place.
     localparam [7:0] MARK = 8'hFA;
     localparam [7:0] TYPE = 8'h06;
     localparam [7:0] WORDS = 8'h03;
@@ -75,8 +76,8 @@ module uart_registers #(
     end
     wire now = tells_q ? tell : byte_q[0];
 
-    // What must be in a command as it is in its answer: the head without address and flag, and the CRC. Bytes 12 to 19 are not
-    // looked at.
+    // The bits that a command must have in common with its answer: the head without address and flag, and the CRC. Bytes 12 to
+    // 19 are not compared.
     wire looked_at = !in_flag && !in_address && (place_q[4:3] == 2'd0 || in_crc);
     reg wrong_q;
     wire wrong = wrong_q || (!tells_q && looked_at && now != tell);
@@ -84,11 +85,11 @@ module uart_registers #(
     wire packet_ends = byte_ends && place_q == LAST_PLACE;
     wire heard = packet_ends && !tells_q && !wrong;
 
-    // In the CRC's own place the sum only moves.
+    // In the bytes of the CRC, the sum only shifts.
     wire [31:0] next_crc;
     packet_crc #(.BITS(1)) u_crc (.crc_i(crc_q), .data_i(in_crc ? crc_q[0] : now), .crc_o(next_crc));
 
-    // A pause.
+    // The pause without bytes.
     localparam TIME_BITS = $clog2(PAUSE);
     localparam LAST_TIME = PAUSE - 1;
     reg [TIME_BITS-1:0] time_q;

@@ -7,21 +7,21 @@ module uart_sender #(
 ) (
     input  wire       clk_i,    // clock, rising edge
     input  wire       rst_i,    // synchronous reset, active high
-    input  wire       valid_i,  // a byte comes
-    input  wire [7:0] byte_i,   // that byte
-    output wire       ready_o,  // it is taken
-    output wire       tx_o      // the line
+    input  wire       valid_i,  // a byte is offered
+    input  wire [7:0] byte_i,   // the offered byte
+    output wire       ready_o,  // the offered byte is taken
+    output wire       tx_o      // the serial line
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (DIVISOR < 2) begin : g_divisor DIVISOR_must_be_2_or_more u_refused (); end
     endgenerate
 
     localparam TIME_BITS = $clog2(DIVISOR);
     localparam LAST = DIVISOR - 1;
-    reg [TIME_BITS-1:0] time_q;  // clocks that are left of the bit
-    reg [9:0] bits_q;            // those that are left of the byte; the highest 1 is the stop bit
+    reg [TIME_BITS-1:0] time_q;  // clocks left of the bit
+    reg [9:0] bits_q;            // bits left of the byte; the highest 1 is the stop bit
     initial bits_q = 10'd1;      // the line rests at 1
     wire bit_ends = time_q == {TIME_BITS{1'b0}};
     wire stop = bits_q[9:1] == 9'd0;

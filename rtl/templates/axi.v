@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// The camera on a bus: AXI4-Stream video in, packets on AXI4-Stream out, registers on AXI4-Lite. The array `rcm` is inside.
+// A camera core on AXI: it takes AXI4-Stream video, sends packets on AXI4-Stream, and has registers on AXI4-Lite. The array
+// `rcm` is inside (docs/axi.md of Foveate).
 `default_nettype none
 
 module rcm_axi #(
-    parameter [31:0] TICK_RATE = 32'd100000000  // frequency of aclk in Hz: ticks per second in packets
+    parameter [31:0] TICK_RATE = 32'd100000000  // frequency of aclk in Hz, which is the number of ticks per second in packets
 ) (
     (* X_INTERFACE_INFO = "xilinx.com:signal:clock:1.0 aclk CLK" *)
     (* X_INTERFACE_PARAMETER = "ASSOCIATED_BUSIF s_axis_video:m_axis_packets:s_axi, ASSOCIATED_RESET aresetn" *)
@@ -16,66 +17,66 @@ module rcm_axi #(
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TDATA" *)
     input  wire [{= video_bits - 1 =}:0] s_axis_video_tdata,    // {= lanes =} pixels, the left one in the lowest bits
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TVALID" *)
-    input  wire        s_axis_video_tvalid,   // they are there
+    input  wire        s_axis_video_tvalid,   // pixels are offered
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TREADY" *)
-    output wire        s_axis_video_tready,   // they are taken
+    output wire        s_axis_video_tready,   // the offered pixels are taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TUSER" *)
-    input  wire        s_axis_video_tuser,    // the first pixels of a frame
+    input  wire        s_axis_video_tuser,    // the offered pixels are the first of a frame
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 s_axis_video TLAST" *)
-    input  wire        s_axis_video_tlast,    // the last pixels of a line
+    input  wire        s_axis_video_tlast,    // the offered pixels are the last of a line
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TDATA" *)
     output wire [63:0] m_axis_packets_tdata,  // a word of a packet
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TKEEP" *)
-    output wire [ 7:0] m_axis_packets_tkeep,  // always all ones
+    output wire [ 7:0] m_axis_packets_tkeep,  // all ones: every byte of a word is valid
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TVALID" *)
-    output wire        m_axis_packets_tvalid, // it is there
+    output wire        m_axis_packets_tvalid, // a word of a packet is on tdata
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TREADY" *)
-    input  wire        m_axis_packets_tready, // it is taken
+    input  wire        m_axis_packets_tready, // the sink takes the word
     (* X_INTERFACE_INFO = "xilinx.com:interface:axis:1.0 m_axis_packets TLAST" *)
-    output wire        m_axis_packets_tlast,  // the last word of a packet
+    output wire        m_axis_packets_tlast,  // the word is the last of its packet
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWADDR" *)
     input  wire [11:0] s_axi_awaddr,          // address of a write, in bytes
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWPROT" *)
-    input  wire [ 2:0] s_axi_awprot,          // not looked at
+    input  wire [ 2:0] s_axi_awprot,          // ignored
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWVALID" *)
-    input  wire        s_axi_awvalid,         // it is there
+    input  wire        s_axi_awvalid,         // an address of a write is offered
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi AWREADY" *)
-    output wire        s_axi_awready,         // it is taken
+    output wire        s_axi_awready,         // the address is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WDATA" *)
-    input  wire [31:0] s_axi_wdata,           // what is written
+    input  wire [31:0] s_axi_wdata,           // the value that is written
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WSTRB" *)
-    input  wire [ 3:0] s_axi_wstrb,           // which bytes of it
+    input  wire [ 3:0] s_axi_wstrb,           // one bit per byte of the value: this byte is written
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WVALID" *)
-    input  wire        s_axi_wvalid,          // it is there
+    input  wire        s_axi_wvalid,          // a value is offered
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi WREADY" *)
-    output wire        s_axi_wready,          // it is taken
+    output wire        s_axi_wready,          // the value is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi BRESP" *)
     output wire [ 1:0] s_axi_bresp,           // always OKAY
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi BVALID" *)
-    output wire        s_axi_bvalid,          // what was written has arrived
+    output wire        s_axi_bvalid,          // the write is done
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi BREADY" *)
-    input  wire        s_axi_bready,          // this answer is taken
+    input  wire        s_axi_bready,          // the answer to the write is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARADDR" *)
     input  wire [11:0] s_axi_araddr,          // address of a read, in bytes
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARPROT" *)
-    input  wire [ 2:0] s_axi_arprot,          // not looked at
+    input  wire [ 2:0] s_axi_arprot,          // ignored
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARVALID" *)
-    input  wire        s_axi_arvalid,         // it is there
+    input  wire        s_axi_arvalid,         // an address of a read is offered
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi ARREADY" *)
-    output wire        s_axi_arready,         // it is taken
+    output wire        s_axi_arready,         // the address is taken
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RDATA" *)
-    output wire [31:0] s_axi_rdata,           // what was read
+    output wire [31:0] s_axi_rdata,           // the value that was read
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RRESP" *)
     output wire [ 1:0] s_axi_rresp,           // always OKAY
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RVALID" *)
-    output wire        s_axi_rvalid,          // it is there
+    output wire        s_axi_rvalid,          // the value is on rdata
     (* X_INTERFACE_INFO = "xilinx.com:interface:aximm:1.0 s_axi RREADY" *)
-    input  wire        s_axi_rready,          // it is taken
+    input  wire        s_axi_rready,          // the value is taken
 {%- for port in outside %}
     {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
 {%- if !outside.is_empty() %}
-    output wire        forget_o,              // at this edge what was stored is to be forgotten
+    output wire        forget_o,              // the memory outside must forget what was stored, at this edge
 {%- endif %}
     (* X_INTERFACE_INFO = "xilinx.com:signal:interrupt:1.0 interrupt_o INTERRUPT" *)
     (* X_INTERFACE_PARAMETER = "SENSITIVITY LEVEL_HIGH" *)
@@ -87,7 +88,7 @@ module rcm_axi #(
     localparam COLUMN_BITS = {= column_bits =};
     localparam REGION_BITS = {= region_bits =};
     localparam ROW_BITS = REGION_BITS - COLUMN_BITS + 1;
-    localparam BITS = {= bits =};  // of a packet at a clock
+    localparam BITS = {= bits =};  // bits of a packet that are made per clock
     localparam PART_BITS = {= part_bits =};
 
     wire unused_protection = |s_axi_awprot || |s_axi_arprot;
@@ -95,7 +96,7 @@ module rcm_axi #(
     wire unused_video = |s_axis_video_tdata[{= video_bits - 1 =}:{= word_bits =}];
 {%- endif %}
 
-    // A restart waits until no frame is under way, and then forgets all that the array knows.
+    // A restart waits until no frame is under way. It then resets the array.
     wire rst = !aresetn;
     wire enable, waits, restart, busy, idle_video, idle_packets;
     reg restarting_q;
@@ -105,11 +106,11 @@ module rcm_axi #(
     assign forget_o = forget;
 {%- endif %}
 
-    // Time.
+    // The time in ticks.
     reg [63:0] time_q;
     always @(posedge aclk) time_q <= rst ? 64'd0 : time_q + 1'b1;
 
-    // Whole frames for the array.
+    // Video becomes whole frames for the array.
     wire may_begin, behind, frame_begins, frame_skipped, frame_damaged, sof_early, sof_late, eol_early, eol_late;
     wire word_valid, word_first, word_ready;
     wire [{= word_bits - 1 =}:0] word;
@@ -152,7 +153,7 @@ module rcm_axi #(
 {%- endfor %}
     );
 
-    // What has been decided and has left, until its packets have.
+    // Decisions and pixels wait here until their packets leave.
     wire decided_frame, decided_last, row_dropped, row_valid, row_frame, row_take;
     wire region_whole, region_whole_frame, region_valid, region_frame, region_summary, region_take, read;
     wire [ROW_BITS-1:0] row, region_row;

@@ -1,33 +1,32 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// The registers of the core on AXI4-Lite; REGISTERS.md says what they mean. A register that is not there reads as 0, and
-// writing it does nothing. What a source waits for does not depend on what another one does: no output follows an input in the
-// same clock.
+// The registers of the core on AXI4-Lite; REGISTERS.md defines them. An address without a register reads as 0, and a write to
+// it has no effect. No output to the bus follows an input in the same clock, so no side of a handshake waits for another.
 `default_nettype none
 
 module {= module =} (
     input  wire        clk_i,     // clock, rising edge
     input  wire        rst_i,     // synchronous reset, active high
-    input  wire [11:0] awaddr_i,   // address of a write
-    input  wire        awvalid_i,  // it is there
-    output wire        awready_o,  // it is taken
-    input  wire [31:0] wdata_i,    // what is written
-    input  wire [ 3:0] wstrb_i,    // which bytes of it
-    input  wire        wvalid_i,   // it is there
-    output wire        wready_o,   // it is taken
-    output wire        bvalid_o,   // what was written has arrived
-    input  wire        bready_i,   // this answer is taken
-    input  wire [11:0] araddr_i,   // address of a read
-    input  wire        arvalid_i,  // it is there
-    output wire        arready_o,  // it is taken
-    output wire [31:0] rdata_o,    // what was read
-    output wire        rvalid_o,   // it is there
-    input  wire        rready_i,   // it is taken
-    input  wire        begin_i,   // thresholds are taken over at this edge
+    input  wire [11:0] awaddr_i,   // address of a write, in bytes
+    input  wire        awvalid_i,  // an address of a write is offered
+    output wire        awready_o,  // the address is taken
+    input  wire [31:0] wdata_i,    // the value that is written
+    input  wire [ 3:0] wstrb_i,    // one bit per byte of the value: this byte is written
+    input  wire        wvalid_i,   // a value is offered
+    output wire        wready_o,   // the value is taken
+    output wire        bvalid_o,   // the write is done
+    input  wire        bready_i,   // the answer to the write is taken
+    input  wire [11:0] araddr_i,   // address of a read, in bytes
+    input  wire        arvalid_i,  // an address of a read is offered
+    output wire        arready_o,  // the address is taken
+    output wire [31:0] rdata_o,    // the value that was read
+    output wire        rvalid_o,   // the value is on rdata_o
+    input  wire        rready_i,   // the value is taken
+    input  wire        begin_i,   // the core takes over all thresholds at this edge
 {%- if has_window %}
-    output wire [ 8:0] place_o,   // four values of the upper half are asked for
-    input  wire [31:0] values_i,  // those, a clock later
+    output wire [ 8:0] place_o,   // number of the four values that are read of the upper half of the addresses
+    input  wire [31:0] values_i,  // these four values, one clock later
 {%- endif %}
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
@@ -37,7 +36,7 @@ module {= module =} (
     reg {= register.range =} {= register.name =}_q;
 {%- endfor %}
 
-    // Address and data of a write are taken together, one write after the answer to the one before; a read likewise.
+    // Address and value of a write are taken together, and not before the last answer is taken. The same is true of a read.
     reg write_q, answered_q, read_q, found_q;
     wire [9:0] written = awaddr_i[11:2];
     wire [9:0] asked = araddr_i[11:2];
@@ -60,7 +59,7 @@ module {= module =} (
     assign arready_o = read_q;
     assign rvalid_o = found_q;
 
-    // What is written.
+    // Writes to registers.
     always @(posedge clk_i) begin
 {%- for taken in taken %}
         if (begin_i) {= taken.0 =}_q <= {= taken.1 =};
@@ -84,7 +83,7 @@ module {= module =} (
         end
     end
 
-    // What is read.
+    // Reads of registers.
     reg [31:0] found;
     reg [31:0] found_data_q;
     always @* begin

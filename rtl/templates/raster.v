@@ -6,12 +6,12 @@
 //   words    {= lanes =} pixels, {= pipelining =} pipelining
 //   frame    {= clocks =}
 //
-// Keep thresholds still from the first word of a frame until ready_o is 1 after its last.
+// Keep thresholds still from the first word of a frame until ready_o is 1 after its last word.
 `default_nettype none
 
 module {= module =} #(
-    parameter COLUMNS = {= columns =},  // regions side by side
-    parameter ROWS = {= rows =}      // regions one below the other
+    parameter COLUMNS = {= columns =},  // regions in a row of regions
+    parameter ROWS = {= rows =}      // rows of regions
 ) (
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}

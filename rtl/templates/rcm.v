@@ -1,20 +1,20 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// Relevance computation module: COLUMNS x ROWS regional processing units, region row * COLUMNS + column
-// in the lane of that number. All take their pixels at the same clocks and decide together.
+// Relevance computation module (RCM): COLUMNS x ROWS regional processing units. The lane of a region has the number
+// row * COLUMNS + column. All units take their pixels at the same clocks and decide at the same clock.
 `default_nettype none
 
 module rcm #(
-    parameter COLUMNS = {= columns =},  // regions side by side
-    parameter ROWS = {= rows =}      // regions one below the other
+    parameter COLUMNS = {= columns =},  // regions in a row of regions
+    parameter ROWS = {= rows =}      // rows of regions
 ) (
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
 {%- endfor %}
 );
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
@@ -40,7 +40,7 @@ module rcm #(
         end
     endgenerate
 
-    // Every unit says the same.
+    // decision_valid is the same for every unit.
     assign decision_valid_o = decision_valid[0];
     wire unused_decision_valid = |decision_valid;
 

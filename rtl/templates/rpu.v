@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// Regional processing unit: one {= n =}x{= n =} region of {= p =}-bit pixels, {= stream_pixels =} pixels per frame.
+// Regional processing unit (RPU): one {= n =}x{= n =} region of {= p =}-bit pixels, {= stream_pixels =} pixels per frame.
 //   scores   {= summary =}
 //   latency  {= latency =}
 //
-// Outputs change at the rising edge of clk_i; srs_o, trs_o and active_o follow the threshold inputs, too.
-// Thresholds are read when they are used: keep them still while a frame is under way.
+// Outputs change after the rising edge of clk_i. Only srs_o, trs_o and active_o also depend on the threshold inputs at
+// once. A threshold is read when it is used, so keep thresholds still while a frame is under way.
 `default_nettype none
 
 module rpu (
@@ -19,7 +19,7 @@ module rpu (
 {%- endfor %}
 {%- if median %}
 
-    // Denoise.
+    // Denoising.
     wire raw_advance, raw_step, raw_top, raw_bottom, raw_left, raw_right;
     wire [{= p - 1 =}:0] raw_upper, raw_middle, raw_lower, raw_center;
     wire [{= median_address_bits - 1 =}:0] unused_raw_address;
@@ -49,7 +49,7 @@ module rpu (
 
     {%- if deep %}
 
-    // The column before the incoming one is the center's: whether it is the first of its row.
+    // The column before the incoming one is the center's column. This flag says that it is the first of its row.
     reg raw_center_left_q;
     always @(posedge clk_i) if (raw_advance) raw_center_left_q <= raw_left;
 
@@ -72,7 +72,7 @@ module rpu (
     {%- endif %}
     {%- if keeps_raw %}
 
-    // The raw center keeps step with the median.
+    // The raw center is delayed as much as the median.
     wire [{= p - 1 =}:0] denoised_raw;
     line_delay #(.WIDTH({= p =}), .DEPTH({= median_registers =})) u_denoised_raw (
         .clk_i(clk_i), .advance_i(1'b1), .data_i(raw_center), .data_o(denoised_raw)
@@ -147,7 +147,7 @@ module rpu (
 {%- endfor %}
 {%- if sums %}
 
-    // Sums of the region, complete before the tail.
+    // Sums of the region, which are complete before the tail.
     wire sum_done;
     wire [{= sum_bits - 1 =}:0] pixel_sum;
     region_sum #(.WIDTH({= p =}), .SUM_BITS({= sum_bits =})) u_pixel_sum (
@@ -198,7 +198,7 @@ module rpu (
 {%- endif %}
 {%- if deep %}
 
-    // The store is read and written in one clock; pixels are compared and counted in the next.
+    // The store is read and written in one clock. Pixels are compared in that clock and counted in the next one.
     reg count_step, count_last;
     always @(posedge clk_i) begin
         count_step <= tail_step && !rst_i;
@@ -215,7 +215,7 @@ module rpu (
     assign decision_valid_o = decided;
     wire srs, forward;
 
-    // The frames before this one, read as they are overwritten.
+    // The stored frames, which are read as they are overwritten.
     wire [{= p - 1 =}:0] previous_pixel;
     frame_store #(.WIDTH({= p =}), .PIXELS({= pixels =}), .ADDRESS_BITS({= address_bits =})) u_previous (
         .clk_i(clk_i), .write_i(tail_step), .address_i(tail_address), .data_i(tail_pixel), .data_o(previous_pixel)
@@ -378,7 +378,7 @@ module rpu (
     );
 {%- endif %}
 
-    // Forward.
+    // Pixels that are forwarded.
     {%- if deep %}
     reg [{= p - 1 =}:0] leaving_pixel;
     always @(posedge clk_i) leaving_pixel <= {= forward_pixel =};

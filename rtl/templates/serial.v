@@ -6,13 +6,13 @@
 //   lanes    {= fold =} regions each, {= memory =}
 //   frame    {= clocks =}
 //
-// Outputs show registers, memories and, for the decision, threshold inputs. Keep thresholds still from the
-// first pixel of a frame until ready_o is 1 again.
+// Outputs follow registers and memories; those of the decision also depend on the threshold inputs at once. Keep thresholds
+// still from the first pixel of a frame until ready_o is 1 again.
 `default_nettype none
 
 module {= module =} #(
-    parameter COLUMNS = {= columns =},  // regions side by side
-    parameter ROWS = {= rows =}      // regions one below the other
+    parameter COLUMNS = {= columns =},  // regions in a row of regions
+    parameter ROWS = {= rows =}      // rows of regions
 ) (
 {%- for port in ports %}
     {= port.declaration =}  // {= port.doc =}
@@ -22,7 +22,7 @@ module {= module =} #(
     localparam [{= constant.width - 1 =}:0] {= constant.name =} = {= constant.width =}'d{= constant.value =};
 {%- endfor %}
 
-    // Limits: out of them elaboration stops at a module that does not exist.
+    // Limits: a value out of range stops elaboration at an instance of a module that does not exist.
     generate
         if (COLUMNS < 1) begin : g_columns COLUMNS_must_be_1_or_more u_refused (); end
         if (ROWS < 1) begin : g_rows ROWS_must_be_1_or_more u_refused (); end
@@ -36,7 +36,7 @@ module {= module =} #(
     endgenerate
 
     localparam LANES = {= lanes =};
-    localparam SLOTS = {= slots =};  // empty ones, too
+    localparam SLOTS = {= slots =};  // number of slots, empty ones included
 {%- include "sync.v" %}
 
     wire [{= slot_range =}:0] region;

@@ -2,13 +2,13 @@
 // {= banner =}
 //
 // For {= title =}:
-// the array `rcm` behind a pattern at full rate, with a sum of all that it says, captures and a serial line (docs/boards.md of Foveate).
+// the array `rcm` behind a pattern at full rate, with a sum of all its outputs, captures and a serial line (docs/boards.md of Foveate).
 `default_nettype none
 
 module board (
 {%- if pair %}
     input  wire       clk_p_i,  // the clock of the board, {= mhz =} MHz
-    input  wire       clk_n_i,  // its other half
+    input  wire       clk_n_i,  // the inverted half of that differential clock
 {%- else %}
     input  wire       clk_i,    // the clock of the board, {= mhz =} MHz
 {%- endif %}
@@ -25,7 +25,7 @@ module board (
     wire clk, unused_raw, locked;
     board_clock u_clock ({% if pair %}.clk_p_i(clk_p_i), .clk_n_i(clk_n_i){% else %}.clk_i(clk_i){% endif %}, .raw_o(unused_raw), .clk_o(clk), .locked_o(locked));
 
-    // Reset, until the clock has been there for a while.
+    // The reset ends once the clock has run for a while.
     reg [7:0] awake_q = 8'd0;
     wire rst = !awake_q[7];
     always @(posedge clk)
@@ -39,7 +39,7 @@ module board (
         .clk_i(clk), .rst_i(rst), .valid_o(pixel_valid), .pixel_o(pixel), .soon_o(soon)
     );
 
-    // Thresholds, as written, and as they are at this clock.
+    // The thresholds: as the host wrote them, and as the array uses them at this clock.
     wire taken, level_turn, temporal_turn, minimum_turn;
     array_turn #(
         .LEVEL_AT({= level_at =}), .TEMPORAL_AT({= temporal_at =}), .MINIMUM_AT({= minimum_at =}), .COUNT_BITS({= turn_bits =})
@@ -81,7 +81,7 @@ module board (
         .forward_pixel_o(forward_pixel)
     );
 
-    // What each RPU says, as bytes, at a register: decision and scores, the first of them in the lowest bits.
+    // The outputs of each RPU for a decision, registered as bytes: decision and scores, the first in the lowest bits.
     wire [REGIONS*HEAD_BYTES*8-1:0] head;
     genvar region;
     generate
@@ -104,7 +104,7 @@ module board (
         forward_pixel_q <= forward_pixel;
     end
 
-    // All of it is added up, and that of one RPU kept for the host.
+    // All outputs are added up, and those of one RPU are kept for the host.
     wire [31:0] sum, frames, status;
     wire frame_done, right, wrong;
     array_signature #(.COLUMNS(COLUMNS), .ROWS(ROWS), .HEAD_BYTES(HEAD_BYTES), .PIXELS({= pixels =})) u_signature (
@@ -131,7 +131,7 @@ module board (
         .number_o(captured_frame), .head_o(captured_head), .count_o(count), .place_i(place), .word_o(values)
     );
 
-    // Registers, and the serial line: commands in, answers out.
+    // The registers and the serial line: commands come in, answers go out.
     wire [11:0] awaddr, araddr;
     wire [31:0] wdata, rdata;
     wire [3:0] wstrb;
@@ -160,7 +160,7 @@ module board (
     assign sent = answer;
     assign answer_ready = sent_ready;
 {% include "serial_line.v" %}
-    // Lights: one blinks with frames, one says that a sum was wrong, one that all were right.
+    // Lights: one blinks with frames, one is on if a sum was wrong, one if all sums were right.
     wire [{= leds - 1 =}:0] lit = {{% if leds > 3 %}{= leds - 3 =}'d0, {% endif %}right, wrong, frames[{= blink =}]};
     assign led_o = {% if lit_low %}~{% endif %}lit;
 

@@ -8,17 +8,17 @@
 module board (
     input  wire       clk_i,               // the clock of the board, {= mhz =} MHz
     output wire       sensor_xclk_o,       // the sensor's clock
-    input  wire       sensor_pclk_i,       // the clock of its pixels
-    input  wire       sensor_vsync_i,      // between frames
-    input  wire       sensor_href_i,       // within a line
-    input  wire [{= capture.lines - 1 =}:0] sensor_data_i,       // data
-    inout  wire       sensor_scl,          // I2C, clock; pulled up outside
-    inout  wire       sensor_sda,          // I2C, data; pulled up outside
+    input  wire       sensor_pclk_i,       // the clock of the sensor's pixels
+    input  wire       sensor_vsync_i,      // vsync of the sensor: between frames
+    input  wire       sensor_href_i,       // href of the sensor: within a line
+    input  wire [{= capture.lines - 1 =}:0] sensor_data_i,       // pixel data of the sensor
+    inout  wire       sensor_scl,          // I2C clock; needs a pull-up outside
+    inout  wire       sensor_sda,          // I2C data; needs a pull-up outside
 {%- if capture.reset %}
     output wire       sensor_reset_n_o,    // 0: the sensor is reset
 {%- endif %}
 {%- if capture.power_down %}
-    output wire       sensor_power_down_o, // 1: it is off
+    output wire       sensor_power_down_o, // 1: the sensor is off
 {%- endif %}
     input  wire       rx_i,                // serial line from the host
     output wire       tx_o,                // serial line to the host
@@ -30,7 +30,7 @@ module board (
         .clk_i(clk_i), .raw_o(raw), .clk_o(clk), .locked_o(locked)
     );
 
-    // Reset, until the clock has been there for a while.
+    // The reset ends once the clock has run for a while.
     reg [7:0] awake_q = 8'd0;
     wire rst = !awake_q[7];
     always @(posedge clk)
@@ -42,7 +42,7 @@ module board (
     wire [31:0] status;
     wire wrong;
 
-    // The sensor: its registers, then its pixels.
+    // The sensor: its registers are written first, then its pixels are taken.
     wire [{= capture.step_bits - 1 =}:0] step;
     wire [{= capture.word_bits - 1 =}:0] step_word;
     wire scl_low, sda_low, done, failed, lost;
@@ -81,7 +81,7 @@ module board (
         .valid_o(sent_valid), .byte_o(sent), .ready_i(sent_ready)
     );
 {% include "serial_line.v" %}
-    // Lights: one blinks with frames, one says that something is wrong.
+    // Lights: one blinks with frames, one is on after an error.
     reg [3:0] frames_q;
     always @(posedge clk) if (rst) frames_q <= 4'd0; else if (pixel_valid && pixel_ready && sof) frames_q <= frames_q + 1'b1;
     wire [{= leds - 1 =}:0] lit = {{% if leds > 2 %}{= leds - 2 =}'d0, {% endif %}wrong, frames_q[3]};

@@ -19,6 +19,6 @@
         .s_axi_rvalid(rvalid), .s_axi_rready(rready), .interrupt_o(unused_interrupt)
     );
 
-    // The serial line: packets and answers out, commands in.
+    // The serial line: packets and answers go out, commands come in.
     wire sent_valid, sent_ready, heard_valid, answer_valid, answer_ready, answer_last;
     wire [7:0] sent, heard, answer;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// Compares the sum behind each of the first {= sums.len() =} frames with what the model says.
+// Compares the sum after each of the first {= sums.len() =} frames with that of the model.
 `default_nettype none
 
 module expected_sums (
     input  wire        clk_i,     // clock, rising edge
     input  wire        rst_i,     // synchronous reset, active high
-    input  wire        done_i,    // the sum is that behind a frame
-    input  wire [31:0] sum_i,     // that sum
-    input  wire [31:0] frames_i,  // frames so far
-    output reg         right_o,   // all sums have come, and were right
-    output reg         wrong_o    // one was wrong
+    input  wire        done_i,    // a frame is over, and sum_i is the sum after it
+    input  wire [31:0] sum_i,     // the sum
+    input  wire [31:0] frames_i,  // number of frames so far
+    output reg         right_o,   // all sums have come and were right
+    output reg         wrong_o    // at least one sum was wrong
 );
 
     reg [31:0] expected;

@@ -8,7 +8,7 @@
 module board (
 {%- if pair %}
     input  wire       clk_p_i,  // the clock of the board, {= mhz =} MHz
-    input  wire       clk_n_i,  // its other half
+    input  wire       clk_n_i,  // the inverted half of that differential clock
 {%- else %}
     input  wire       clk_i,    // the clock of the board, {= mhz =} MHz
 {%- endif %}
@@ -20,7 +20,7 @@ module board (
     wire clk, unused_raw, locked;
     board_clock u_clock ({% if pair %}.clk_p_i(clk_p_i), .clk_n_i(clk_n_i){% else %}.clk_i(clk_i){% endif %}, .raw_o(unused_raw), .clk_o(clk), .locked_o(locked));
 
-    // Reset, until the clock has been there for a while.
+    // The reset ends once the clock has run for a while.
     reg [7:0] awake_q = 8'd0;
     wire rst = !awake_q[7];
     always @(posedge clk)
@@ -39,7 +39,7 @@ module board (
     );
 
 {% include "core.v" %}
-    // All packets are taken at once and added up. The line carries those that it has time for, each whole.
+    // All packets are taken at once and added up. The serial line carries as many of them as it has time for, each whole.
     assign packet_ready = 1'b1;
     wire [31:0] sum, frames, status;
     wire frame_done, right, wrong;
@@ -63,7 +63,7 @@ module board (
         .valid_o(sent_valid), .byte_o(sent), .ready_i(sent_ready)
     );
 {% include "serial_line.v" %}
-    // Lights: one blinks with frames, one says that a sum was wrong, one that all were right.
+    // Lights: one blinks with frames, one is on if a sum was wrong, one if all sums were right.
     wire [{= leds - 1 =}:0] lit = {{% if leds > 3 %}{= leds - 3 =}'d0, {% endif %}right, wrong, frames[4]};
     assign led_o = {% if lit_low %}~{% endif %}lit;
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 // {= banner =}
 //
-// What {= title =} is set up with: a bit for a pause, address, value of each step.
+// The set-up of {= title =}: for each step one bit that makes it a pause, then the address and the value.
 `default_nettype none
 
 module sensor_steps (
     input  wire       clk_i,   // clock, rising edge
     input  wire [{= step_bits - 1 =}:0] step_i,  // number of a step
-    output reg  [{= word_bits - 1 =}:0] word_o   // that step, a clock later
+    output reg  [{= word_bits - 1 =}:0] word_o   // the step with this number, one clock later
 );
 
     always @(posedge clk_i)
