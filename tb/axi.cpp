@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Drives the buses of `{= top =}`. What happens is read from the standard input, a line each; what leaves goes to the
-// standard output, a line each, with the clock. Made from the design.
+// Drives the buses of `{= top =}`. Reads one command per line from the standard input, and writes one line per word or answer of
+// the core, with its clock, to the standard output. Made from the design.
 //
 //   argument 1   seed of gaps, stalls, delays, and of the values that registers have before reset
 //   argument 2   file for waves, in a build with tracing
 //
-//   beat F DATA       offers pixels until they are taken: F is 1 with the first of a frame, 2 with the last of a line
-//   gaps P, stalls P  from now on nothing is offered, or taken, at so many clocks in a hundred
-//   hold N            takes nothing for N clocks
-//   write A D S       writes a register, with these strobes; goes on at once
-//   read A            reads one; goes on at once
-//   apart V           1: an access does not wait for the answers to those before it; else for all of them
-//   join              waits until all of these are done
-//   interrupt V       says so if interrupt_o is not V
-//   clear A D         from now on writes D to A at every clock at which it can; clear 0 0 ends that
-//   rises             says how often interrupt_o has gone to 1 since the last of these, and how often at the edge of such a write
+//   beat F DATA       offers pixels until they are taken; F is 1 with the first of a frame, 2 with the last of a line
+//   gaps P, stalls P  from now on, offers or takes nothing in P percent of the clocks
+//   hold N            takes no word for N clocks
+//   write A D S       starts a write of D to register A with strobes S, and does not wait for the answer
+//   read A            starts a read of register A, and does not wait for the answer
+//   apart V           1: an access does not wait for the answers to earlier ones; 0: it waits for all of them
+//   join              waits until all accesses are answered
+//   interrupt V       reports an interrupt_o that differs from V
+//   clear A D         from now on writes D to A at every clock at which a write can start; clear 0 0 ends that
+//   rises             reports how often interrupt_o rose since the last of these commands, and how often at the edge of a `clear`
 //   align P           waits for a clock whose number is P modulo 2
 //   clocks N, idle N  waits N clocks, or until no word has been on the port for N clocks
-//   within            waits until a word of a packet has been taken, and not its last
+//   within            waits until a word of a packet has been taken that is not the last
 //   reset N           resets the core for N clocks
-//   patience N        what waits for more clocks than these is stuck
+//   patience N        a command that waits for more than N clocks is reported as stuck
 //
 // All inputs that mean nothing are random.
 
@@ -97,14 +97,14 @@ struct Access {
     std::uint32_t address, data, strobe;
 };
 
-// A read or a write that is offered, and those that have been taken and wait for their answers.
+// An access: reads or writes that are offered, and those that are taken and wait for their answers.
 struct Transfer {
     bool busy = false;
     bool address_taken = false, data_taken = false;
     unsigned address_delay = 0, data_delay = 0;
     Access access{};
     std::deque<Access> taken{};
-    // The next answer is taken only once it is there.
+    // The next answer is taken only after it was offered.
     bool takes_late = false;
 
     bool waits() const { return busy || !taken.empty(); }
@@ -118,7 +118,7 @@ class Bench {
   public:
     Bench(VerilatedContext& context, Top& top, std::uint64_t seed) : context_(context), top_(top), random_(seed) {}
 
-    // False when a line is none.
+    // Returns false if a line is not a command.
     bool take(char* line) {
         char* rest = nullptr;
         char* const word = strtok_r(line, " \n", &rest);
@@ -230,7 +230,7 @@ class Bench {
 
     void wrong(const char* port, const char* text) { std::printf("wrong %llu %s %s\n", clock_, port, text); }
 
-    // One clock: inputs change, nothing that leaves does, and then the edge comes.
+    // One clock: the inputs change, the outputs are checked not to follow them, and then the edge comes.
     void step() {
         drive_video();
         drive_registers();
@@ -299,7 +299,7 @@ class Bench {
         if (held_ > 0) --held_;
     }
 
-    // Whether a word stays on the port.
+    // Reports a word that is taken. Returns whether a word stays on the port.
     bool see_packets() {
         if (resetting_ || !top_.m_axis_packets_tvalid) return false;
         if (top_.m_axis_packets_tkeep != 0xFF) wrong("m_axis_packets_tkeep", "it is not all ones");
@@ -322,7 +322,7 @@ class Bench {
         own.pop_front();
     }
 
-    // A write of its own is offered at once, and its answer is taken at once.
+    // A write of `clear` is offered at once, and its answer is taken at once.
     void begin_clear() {
         if (!clears_ || write_.busy || !writes_.empty()) return;
         write_.busy = true;

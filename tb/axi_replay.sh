@@ -4,8 +4,8 @@
 #
 #   ./replay.sh [waves]
 #
-# What is heard goes into heard.txt; `waves` also writes waves.fst. Exit code 0: something else is heard than in the run
-# with the mismatch; 1: the same; 2: the simulation cannot be built or does not come to an end.
+# The output of the core goes into heard.txt; `waves` also writes waves.fst. Exit code 0: the output differs from the run with
+# the mismatch; 1: it is the same; 2: the simulation cannot be built or does not end.
 
 cd "$(dirname "$0")" || exit 2
 build=$(mktemp -d) || exit 2
@@ -19,7 +19,7 @@ verilator --cc --exe --build -j 0 -CFLAGS -Og --no-timing --top-module {= top =}
     "$@" "$PWD/axi.cpp" >"$build/log" 2>&1 || { cat "$build/log" && exit 2; }
 "$build/V{= top =}" {= seed =} waves.fst <traffic.txt >heard.txt
 code=$?
-# Foveate may replace what is listed.
+# Foveate may replace the listed files.
 for made in heard.txt waves.fst; do
     if [ -f "$made" ] && [ -f .foveate ]; then sha256sum "$made" >>.foveate; fi
 done

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Clocks `{= top =}`: reads one packed record of inputs per clock from the standard input and writes one
-// packed record of outputs per clock to the standard output. Made from the list of ports.
+// Clocks `{= top =}`: reads one packed record of inputs per clock from the standard input and writes one packed record of
+// outputs per clock to the standard output. Made from the list of ports.
 //
 //   argument 1   seed of the values that registers have before reset
 //   argument 2   file for waves, in a build with tracing
-//   argument 3   seconds: when the records are done, they are clocked again from memory, all of them
-//                and for so long, and what it took is the last line of the standard error; the
-//                standard input must be a file
+//   argument 3   seconds: after all records, they are clocked again from memory, as often as fits into this time, and
+//                the last line of the standard error says how long that took; the standard input must be a file
 //
 // Outputs are those after the rising edge, with the inputs of that edge still applied.
 
@@ -93,7 +92,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Kilobytes that the process has taken at most; 0 where the system does not tell.
+// Returns the largest memory of the process so far in kilobytes, or 0 if the system does not report it.
 long peak_kilobytes() {
     long peak = 0;
     if (std::FILE* const status = std::fopen("/proc/self/status", "r")) {
@@ -106,8 +105,8 @@ long peak_kilobytes() {
     return peak;
 }
 
-// Clocks the records again and again, without files and without a look at the outputs. The inputs are
-// unpacked anew at every clock; how long that takes is measured alone, afterwards.
+// Clocks the records again and again, without files and without using the outputs. The inputs are unpacked at every clock;
+// the time of that alone is measured afterwards.
 bool time_from_memory(Top& top, std::size_t count, double at_least) {
     const long peak = peak_kilobytes();
     std::vector<unsigned char> records(count * kInputBytes);
@@ -137,7 +136,7 @@ bool time_from_memory(Top& top, std::size_t count, double at_least) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    // What the Verilog prints must not end up between the records.
+    // Keeps texts that the Verilog prints from between the records.
     std::FILE* const records_out = fdopen(dup(STDOUT_FILENO), "wb");
     if (records_out == nullptr || dup2(STDERR_FILENO, STDOUT_FILENO) < 0) return 2;
 

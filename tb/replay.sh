@@ -4,8 +4,8 @@
 #
 #   ./replay.sh [iverilog|verilator] [waves]
 #
-# `waves` writes waves.fst (waves.vcd with Verilator). Exit code 0: no mismatch; 1: mismatch;
-# 2: the simulation cannot be built or does not come to an end.
+# `waves` writes waves.fst (waves.vcd with Verilator). Exit code 0: no mismatch; 1: a mismatch; 2: the simulation cannot be
+# built or does not end.
 
 cd "$(dirname "$0")" || exit 2
 simulator=${1:-{= simulator =}}
@@ -16,7 +16,7 @@ trap 'rm -rf "$build"' EXIT
 set --{% for file in files %} \
     {= file =}{% endfor %}
 
-# A simulator's exit code says no more than the verdict in its log.
+# The exit code of a simulator says no more than the verdict in its log.
 case $simulator in
 iverilog)
     iverilog -g2005 -s {= bench =} -o "$build/simulation" "$@" {= bench_file =} || exit 2
@@ -24,7 +24,7 @@ iverilog)
         ${waves:++waves=waves.fst} >"$build/log" 2>&1
     ;;
 verilator)
-    # Registers start at random, so that one which reset forgets does not start at 0 by chance.
+    # Registers start at random values. So a register that a reset forgets does not start at 0 by chance.
     verilator --binary --timing --top-module {= bench =} --Mdir "$build" \
         -Wno-fatal -Wno-lint -Wno-style ${waves:+--trace} \
         --x-assign unique --x-initial unique "$@" {= bench_file =} >"$build/log" 2>&1 ||
@@ -38,7 +38,7 @@ verilator)
     ;;
 esac
 
-# Foveate may replace what is listed.
+# Foveate may replace the listed files.
 for made in waves.fst waves.vcd; do
     if [ -n "$waves" ] && [ -f "$made" ] && [ -f .foveate ]; then sha256sum "$made" >>.foveate; fi
 done

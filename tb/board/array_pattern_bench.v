@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// array_pattern against the function of docs/boards.md: every region at each clock, without a gap, and again behind a reset.
+// Compares array_pattern with the function of docs/boards.md: every region at each clock, without a gap, also after a reset.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -53,7 +53,7 @@ module array_pattern_bench;
         end
     endfunction
 
-    // Clocks since reset: a pixel is there from the third on.
+    // Clocks since reset: pixels are there from the third clock on.
     integer since, u, v, t, region, wanted;
     reg soon_first, soon_second;
     always @(posedge clk) begin

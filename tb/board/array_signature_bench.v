@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// array_signature beside an array that says what it likes: the sum behind each frame is that of docs/boards.md, bit by bit.
+// Drives array_signature with random outputs of an array: the sum after each frame is that of docs/boards.md, computed bit by bit.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -38,7 +38,7 @@ module array_signature_bench;
         .sum_o(sum), .frames_o(frames), .done_o(done)
     );
 
-    // The CRC of packets, a bit at a time.
+    // The CRC of packets, one bit at a time.
     function [31:0] with_byte(input [31:0] crc, input [7:0] value);
         integer n;
         begin
@@ -70,7 +70,7 @@ module array_signature_bench;
             repeat (5) @(posedge clk);
             for (n = 0; n < 60; n = n + 1) begin
                 #1;
-                // What is decided, and with it the last pixels of the frame before.
+                // A decision, and with it the last pixels of the frame before.
                 for (place = 0; place < PIXELS; place = place + 1) begin
                     decided = place == 0;
                     for (region = 0; region < REGIONS * HEAD_BYTES; region = region + 1) head[region*8+:8] = $random(seed);

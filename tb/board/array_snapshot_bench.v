@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// array_snapshot beside an array that says what it likes: what is kept is what the chosen region said of the chosen frame, and
-// nothing else (docs/boards.md).
+// Drives array_snapshot with random outputs of an array: it keeps the outputs of the chosen region for the chosen frame, and
+// no others (docs/boards.md).
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -49,7 +49,7 @@ module array_snapshot_bench;
         .count_o(count), .place_i(place), .word_o(word)
     );
 
-    // What the chosen region said of each of the last frames.
+    // The outputs of the chosen region for each of the last frames.
     integer n, clock, region, chosen;
     reg [HEAD_BITS-1:0] said_head[0:511];
     reg [7:0] said[0:512*PIXELS-1];
@@ -91,7 +91,7 @@ module array_snapshot_bench;
         repeat (3 * PIXELS) @(posedge clk);
         for (tries = 0; tries < 24; tries = tries + 1) begin
             #2;
-            // Every seventh is a region that is not there.
+            // Every seventh region does not exist.
             column = tries % 7 == 6 ? COLUMNS + up_to(300) : up_to(COLUMNS - 1);
             row    = tries % 7 == 5 ? ROWS + up_to(300) : up_to(ROWS - 1);
             frame  = tries == 3 ? n + 100 : n + 3 + up_to(20);
@@ -100,7 +100,7 @@ module array_snapshot_bench;
             @(posedge clk);
             #2 start = 0;
             begun = n;
-            // One that has begun is forgotten with the next start.
+            // A capture that has begun is dropped at the next start.
             if (tries % 5 == 4) begin
                 while (n % 128 != (frame + 1) % 128) @(posedge clk);
                 repeat (PIXELS / 2) @(posedge clk);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// array_turn beside frames that follow each other: a frame takes over only when those before are through, and each threshold turns
-// at its own clock behind its first pixel (docs/boards.md).
+// Drives array_turn with frames that follow each other: a frame takes over thresholds only when those of earlier frames have
+// taken effect, and each threshold changes at its own clock after the frame's first pixel (docs/boards.md).
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -32,7 +32,7 @@ module array_turn_bench;
         .clk_i(clk), .rst_i(rst), .soon_i(soon), .begin_o(taken), .level_o(level), .temporal_o(temporal), .minimum_o(minimum)
     );
 
-    // The clock with the first pixel of the frame that has taken over is clock 0; two before it is announced.
+    // Clock 0 is that of the first pixel of the frame that has taken over. soon_i announces it two clocks before.
     integer at, clock, turns, busy;
     initial begin
         {at, turns, busy, clock} = 0;

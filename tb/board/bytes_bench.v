@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// packet_bytes between sources and a sink that stall: every packet and every answer comes whole, in order, and none within another.
+// Drives packet_bytes with sources and a sink that stall: every packet and every answer comes whole, in order, and not inside another.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -34,7 +34,7 @@ module bytes_bench;
         .ready_i(ready)
     );
 
-    // Bytes of a packet are 0xxxxxxx, of an answer 1xxxxxxx, so that the sink knows whose they are.
+    // Bytes of a packet are 0xxxxxxx, those of an answer 1xxxxxxx, so that the sink can tell them apart.
     reg [8:0] words[0:65535], answers[0:65535];  // {last, byte}
     integer words_in = 0, words_out = 0, answers_in = 0, answers_out = 0, packets = 0, replies = 0, pace, n, k;
     localparam COUNT = 300;
@@ -106,7 +106,7 @@ module bytes_bench;
                 if (words_out == words_in || given !== words[words_out][7:0]) fail("not the byte of the word");
                 if (!in_packet && waited) passed_by = passed_by + 1;
                 in_packet = !words[words_out][8];
-                // One that waits when a packet ends goes first.
+                // An answer or packet that waits when a packet ends goes first.
                 if (!in_packet) waited = answer_valid;
                 words_out = words_out + 1;
             end

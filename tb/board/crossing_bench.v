@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// clock_crossing between clocks of many rates, one of which may stand still: every word that found room comes once, in order.
+// Drives clock_crossing with clocks of many rates, one of which may stand still: every word that found room comes once, in order.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -89,10 +89,10 @@ module crossing_bench;
         first = out;
         #50000 if (fulls != 0 && DEPTH_BITS > 2) fail("full, though words are taken as fast as they come");
         if (out - first < 4990 && DEPTH_BITS > 2) fail("not a word for every clock");
-        // The write clock stands still; what waits comes.
+        // The write clock stands still, and the waiting words come.
         stand = 1;
         #1000 if (out != in || valid) fail("words did not come while the other clock stands still");
-        // A reset with a full queue: nothing of before it comes.
+        // A reset with a full queue: no word written before it comes.
         for (n = 0; n < 20; n = n + 1) begin
             stand = 0; writes = 100; takes = 0;
             #(400 * read_half) stand = 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A sensor in front of dvp_capture and axi_video. What is expected is written from docs/boards.md: pixels, SOF and EOL as each
-// line is sent, and for every row of its table what the core sees and what counts it.
+// Drives dvp_capture and axi_video with a sensor. The expected values are written from docs/boards.md: pixels, SOF and EOL of
+// each line that is sent, and for every row of its table the frame that the core sees and the counter that counts.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -11,8 +11,8 @@ module dvp_bench;
     parameter LEFT = 3;
     parameter TOP = 2;
     parameter SEED = 1;
-    localparam W = 8, H = 4;                     // what the core takes
-    localparam ACROSS = LEFT + W + 2, DOWN = TOP + H + 1;  // what the sensor sends
+    localparam W = 8, H = 4;                     // size of the frame that the core takes
+    localparam ACROSS = LEFT + W + 2, DOWN = TOP + H + 1;  // size of the frame that the sensor sends
     localparam BUS_BITS = FORMAT > 2 ? 4 : 8;
 
     integer seed = SEED;
@@ -32,13 +32,13 @@ module dvp_bench;
     // Clocks without a common period. Pixels come no faster than clk.
     reg clk = 0, pclk = 0, rst = 1;
     always #5 clk = !clk;
-    real half = 7.3;      // of pclk
-    integer jitter = 0;   // so many hundredths of it, either way
+    real half = 7.3;      // half of the period of pclk
+    integer jitter = 0;   // jitter of a half period, in hundredths of it, in both directions
     function integer between_0_and(input integer top);
         between_0_and = $unsigned($random(seed)) % (top + 1);
     endfunction
 
-    // The sensor: a list of edges, so that noise knows what stands beside it.
+    // The sensor: a list of edges, so that the noise generator knows the neighbors of an edge.
     localparam MOST = 20000;
     reg vsyncs[0:MOST-1], hrefs[0:MOST-1];
     reg [7:0] datas[0:MOST-1];
@@ -58,7 +58,7 @@ module dvp_bench;
         anything = $random(seed);
     endfunction
     function [7:0] scene(input integer frame, input integer line, input integer column);
-        scene = ((line - TOP) * W + column - LEFT + frame * 2 * W * H) ^ 8'h5A;  // of the pixels that are taken, none twice in four frames
+        scene = ((line - TOP) * W + column - LEFT + frame * 2 * W * H) ^ 8'h5A;  // the taken pixels differ from each other within four frames
     endfunction
     task put_pixel(input [7:0] p);
         case (FORMAT)
@@ -73,12 +73,12 @@ module dvp_bench;
         repeat (n) put(0, 0, anything(0));
     endtask
 
-    // What has to leave: of each line the pixels that the crop takes, the first of a frame with SOF, the last of a line with EOL.
+    // The expected output: of each line the pixels inside the crop, the first of a frame with SOF, the last of a line with EOL.
     reg [9:0] expected[0:MOST-1];  // {eol, sof, pixel}
     integer expect_line[0:MOST-1], expect_frame[0:MOST-1];
     integer expects = 0, lines_sent = 0, frames_sent = 0;
-    integer line_number = -1;      // of the next line behind vsync; -1: there was no vsync
-    reg started;                   // the frame has its SOF
+    integer line_number = -1;      // number of the next line after vsync; -1: there was no vsync
+    reg started;                   // the frame has had its SOF
     task vertical(input integer n);
         begin
             repeat (n) put(1, 0, anything(0));
@@ -87,7 +87,7 @@ module dvp_bench;
             frames_sent = frames_sent + 1;
         end
     endtask
-    // n pixels of a line of the scene, from column `from` on.
+    // Sends n pixels of a line of the scene, from column `from` on.
     task line(input integer frame, input integer number, input integer from, input integer n);
         integer k;
         begin
@@ -118,7 +118,7 @@ module dvp_bench;
         end
     endtask
 
-    // Noise: one wrong value where two before and two behind are as they should be, and no other noise within two.
+    // Noise: one wrong value where two values before and two after are right, without other noise within two values.
     integer noises = 0;
     task noise(input integer percent);
         integer i, last_h, last_v;
@@ -130,7 +130,7 @@ module dvp_bench;
                     && between_0_and(99) < percent) begin
                     last_h = i;
                 end
-                // Flipped once those behind have been looked at.
+                // The value is flipped after the values behind it have been examined.
                 if (i - last_v > 2 && vsyncs[i-2] == vsyncs[i] && vsyncs[i-1] == vsyncs[i] && vsyncs[i+1] == vsyncs[i] && vsyncs[i+2] == vsyncs[i]
                     && between_0_and(99) < percent) begin
                     last_v = i;
@@ -188,7 +188,7 @@ module dvp_bench;
         .repair_o(repair), .sof_early_o(sof_early), .sof_late_o(sof_late), .eol_early_o(eol_early), .eol_late_o(eol_late)
     );
 
-    // What leaves. With losses, pixels are missing; then a line still has its end and a frame its start.
+    // Checks the output. With losses pixels are missing, but a line still has its end and a frame its start.
     integer at = 0, losses = 0, missing = 0, taken = 0;
     reg blind = 0, lossy = 0, last_eol = 1, frame_open = 0;
     integer last_line = -1, last_frame = -1;
@@ -226,7 +226,7 @@ module dvp_bench;
         end
     end
 
-    // What the core sees, frame by frame, and what counts it.
+    // The frames that the core sees, one by one, and the counters of events.
     reg [7:0] want[0:MOST-1];
     integer wants = 0, saw = 0;
     integer counts[0:4];
@@ -271,7 +271,7 @@ module dvp_bench;
             losses = 0;
         end
     endtask
-    // Ends a scenario: the next frame's vsync closes it.
+    // Ends a scenario. The vsync of the next frame closes it.
     task ends(input integer sofs_early, input integer eols_early, input integer repairs);
         begin
             blank(8);
@@ -293,7 +293,7 @@ module dvp_bench;
         repeat (5) @(posedge clk);
         #1 rst = 0;
 
-        // 1: before the first vsync nothing is taken.
+        // 1: no pixel is taken before the first vsync.
         begin_scenario;
         for (l = 0; l < 3; l = l + 1) begin
             line(0, l, 0, ACROSS);
@@ -334,7 +334,7 @@ module dvp_bench;
         ends(0, 0, 0);
         if (noises < 100) fail("too little noise to show something");
 
-        // 9: a line that is lost: the next ones are one line higher, the last line comes twice. The sensor sends no more than H.
+        // 9: a line is lost. The next lines are one line higher, and the last line comes twice. The sensor sends H lines at most.
         begin_scenario;
         for (n = 0; n < 3; n = n + 1) begin
             vertical(6);
@@ -348,17 +348,17 @@ module dvp_bench;
             for (l = 0; l < H; l = l + 1) if (l != n) want_line(n, TOP + l);
             want_line(n, TOP + H - 1);
         end
-        // The frame is damaged when the next one begins.
+        // The frame is found to be damaged when the next one begins.
         frame_as_it_is(3);
         want_frame(3);
         ends(3, 0, 3);
 
-        // 10: href falls early: the rest of the line is its last pixel. Every length, in every line.
+        // 10: href falls early, and the last pixel fills the rest of the line. Every length, in every line.
         begin_scenario;
         for (n = 0; n < (W - 1) * H; n = n + 1) begin
             vertical(6);
             blank(5);
-            // One edge with href is no line.
+            // One edge with href is not a line.
             cut = FORMAT == 0 && LEFT == 0 && n % (W - 1) == 0 ? 2 : 1 + n % (W - 1);
             for (l = 0; l < DOWN; l = l + 1) begin
                 line(n, l, 0, l == TOP + n / (W - 1) ? LEFT + cut : ACROSS);
@@ -370,7 +370,7 @@ module dvp_bench;
         end
         ends(0, (W - 1) * H, (W - 1) * H);
 
-        // 11: href falls for two edges and more: two short lines, the lines behind H are left out.
+        // 11: href falls for two edges and more. There are two short lines, and the lines after line H are left out.
         begin_scenario;
         for (n = 2; n < 5; n = n + 1) begin
             vertical(6);
@@ -390,7 +390,7 @@ module dvp_bench;
         end
         ends(0, 6, 3);
 
-        // 12: vsync between two lines of a frame: its last line goes on to H, and the next frame begins.
+        // 12: vsync between two lines of a frame. Its last line is repeated up to H, and the next frame begins.
         begin_scenario;
         for (n = 1; n < H; n = n + 1) begin
             vertical(6);
@@ -410,7 +410,7 @@ module dvp_bench;
         end
         ends(H - 1, 0, H - 1);
 
-        // 13: vsync within a line: the line ends; what follows of it is left out.
+        // 13: vsync within a line. The line ends, and the rest of it is left out.
         begin_scenario;
         vertical(6);
         blank(5);
@@ -423,7 +423,7 @@ module dvp_bench;
         vertical(2);
         hrefs[n] = 1;
         hrefs[n+1] = 1;
-        // Behind it href stays 1: this is no line of the next frame.
+        // href stays 1 after vsync: this is not a line of the next frame.
         repeat (5) put_pixel(8'hEE);
         blank(40);
         for (l = 0; l < DOWN; l = l + 1) begin
@@ -434,10 +434,10 @@ module dvp_bench;
         want_line(1, TOP + 1);
         repeat (H - 2) for (c = 0; c < W; c = c + 1) want_pixel(scene(1, TOP + 2, LEFT + (c < 2 ? c : 1)));
         want_frame(2);
-        // The short line is repaired, and the frame was too short; it counts once.
+        // The short line is repaired, and the frame was too short. It counts once.
         ends(1, 1, 1);
 
-        // 14: href and vsync change at one edge, both ways; no blank lines between lines and vsync.
+        // 14: href and vsync change at one edge, in both directions, without blank lines between the lines and vsync.
         begin_scenario;
         for (n = 0; n < 2; n = n + 1) begin
             vertical(6);
@@ -450,7 +450,7 @@ module dvp_bench;
         vertical(20);
         ends(0, 0, 0);
 
-        // 15: pclk stands still within a line and behind one; the frame waits.
+        // 15: pclk stands still within a line and after one; the frame waits.
         begin_scenario;
         for (n = 0; n < 2; n = n + 1) begin
             frame_as_it_is(n);
@@ -460,7 +460,7 @@ module dvp_bench;
         end
         ends(0, 0, 0);
 
-        // 16: a reset of clk in the middle of a frame, while pclk stands still and the queue is full: nothing of before it comes.
+        // 16: a reset of clk in the middle of a frame, while pclk stands still and the queue is full: no earlier pixel comes.
         begin_scenario;
         blind = 1;
         for (n = 0; n < 3; n = n + 1) begin
@@ -492,7 +492,7 @@ module dvp_bench;
         want_frame(2);
         ends(0, 0, 0);
 
-        // 18: a core that takes no pixel now and then, slower than the queue lasts: nothing is lost, nothing changes.
+        // 18: a core that sometimes takes no pixel, but not for longer than the queue can hold: no pixel is lost or changed.
         begin_scenario;
         stalls = 40;
         half   = 13.0;
@@ -503,8 +503,8 @@ module dvp_bench;
         ends(0, 0, 0);
         stalls = 0;
 
-        // 19: a core that takes none for long: pixels are lost and counted, the lines still have their ends, and the frames
-        // their starts. In the last ones pixels come faster than clk, for as long as a line takes, and the start of a frame is lost.
+        // 19: a core that takes no pixel for long. Pixels are lost and counted, but lines still have their ends and frames their
+        // starts. In the last frames pixels come faster than clk, for the time of a line, and the start of a frame is lost.
         for (n = 0; n < 13; n = n + 1) begin
             begin_scenario;
             half       = (n % 2 ? 5.1 : 8.9) / (n > 9 ? 1.8 : 1) / (n > 9 && FORMAT != 0 ? 2 : 1);
@@ -524,7 +524,7 @@ module dvp_bench;
                     #((7 + ACROSS * (FORMAT == 0 ? 1 : 2)) * 2 * half * (1.3 + 0.4 * n + (n > 9 ? DOWN - 2 : 0))) stall = 0;
                 end
             join
-            // The last pixel needs edges to leave.
+            // The last pixel needs edges of pclk to leave.
             blank(8);
             play;
             #3000;
@@ -541,7 +541,7 @@ module dvp_bench;
             total_lost = total_lost + losses;
         end
         half = 7.3;
-        // 32: and then all is as before.
+        // 32: after these scenarios the capture works as before.
         begin_scenario;
         for (n = 0; n < 2; n = n + 1) frame_as_it_is(5);
         play;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// i2c_setup and a sensor on an open-drain bus. What has to be said is a list of transfers, written from docs/boards.md: three
-// tries of a step that is not acknowledged, pauses, then `done`. A monitor checks the rules and the times of the bus.
+// Drives i2c_setup with a sensor on an open-drain bus. The expected transfers are written from docs/boards.md: three tries of a
+// step that is not acknowledged, pauses, then `done`. A monitor checks the rules and the times of the bus.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -9,7 +9,7 @@ module i2c_bench;
     parameter ADDRESS_BYTES = 2;
     parameter QUARTER = 5;
     parameter PAUSE = 70;
-    parameter REGISTERED = 1;  // the memory of steps shows a step a clock later
+    parameter REGISTERED = 1;  // 1: the memory of steps shows a step one clock later
     parameter SEED = 1;
     localparam STEPS = 24, STEP_BITS = 5;
     localparam [6:0] DEVICE = 7'h5A;
@@ -31,7 +31,7 @@ module i2c_bench;
     reg clk = 0, rst = 1;
     always #(CLOCK / 2) clk = !clk;
 
-    // Steps: what is written, and how often which byte is not acknowledged.
+    // The steps: the values to write, and which byte is not acknowledged how often.
     reg [8*ADDRESS_BYTES+8:0] steps[0:STEPS-1];
     integer refusals[0:STEPS-1], refused_byte[0:STEPS-1];
     wire [STEP_BITS-1:0] step;
@@ -41,7 +41,7 @@ module i2c_bench;
 
     wire scl_low, sda_low, done, failed;
     reg sensor_low = 0;
-    // A pull-up is slow: a line rises late, but falls at once.
+    // A pull-up is slow, so a line rises late. It falls at once.
     localparam RISE = CLOCK * QUARTER / 3;
     wire scl_drive = !scl_low, sda_drive = !(sda_low || sensor_low);
     reg scl = 1, sda = 1;
@@ -54,7 +54,7 @@ module i2c_bench;
         .failed_o(failed)
     );
 
-    // Transfers that are to come: their bytes, how many of them, whether the last is refused, and the pause before.
+    // The expected transfers: their bytes, the number of bytes, whether the last one is refused, and the pause before.
     localparam MOST = 3 * STEPS;
     reg [31:0] transfer[0:MOST-1];  // the first byte is the highest
     integer lengths[0:MOST-1], pauses[0:MOST-1], of_step[0:MOST-1];
@@ -108,7 +108,7 @@ module i2c_bench;
                 if (number == transfers) fail("a transfer too many");
                 if (gap < 2 * quarter - RISE) fail("the bus rests too short before a start");
                 if (gap < pauses[number] * PAUSE * CLOCK) fail("a pause is too short");
-                // Per step, some quarters for the lines to rest.
+                // Each step has some quarters for the lines to rest.
                 if (gap > pauses[number] * PAUSE * CLOCK + 24 * quarter) fail("a pause is too long");
                 if ($realtime - scl_rose < 2 * quarter - RISE) fail("scl was not 1 for long enough before a start");
                 talks      = 1;
@@ -192,7 +192,7 @@ module i2c_bench;
                 steps[i][8*ADDRESS_BYTES+8] = 0;
                 refusals[i]     = 0;
                 refused_byte[i] = 0;
-                // Every kind of pause and of refusal; the last run has a pause last, others a write.
+                // Every kind of pause and of refusal. The last run ends with a pause, other runs with a write.
                 if (i % 5 == 2) begin
                     steps[i][8*ADDRESS_BYTES+8] = 1;
                     steps[i][7:0] = run == 0 && i == 2 ? 255 : i == 7 ? 0 : i == 12 ? 1 : $unsigned($random(seed)) % 9;
@@ -204,7 +204,7 @@ module i2c_bench;
             if (run == 5) steps[STEPS-1] = {1'b1, {8 * ADDRESS_BYTES{1'b1}}, 8'd7};
             reset;
             if (run == 3) begin
-                // A reset in the middle begins again from the first step.
+                // After a reset in the middle, the set-up begins again with the first step.
                 while (number < 3 || bit_number != 5) @(posedge clk);
                 if (done) fail("done while it goes on");
                 reset;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// pattern_source against the function of docs/boards.md, with a sink that stalls and one that never does.
+// Compares pattern_source with the function of docs/boards.md, with a sink that stalls and with one that never does.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -97,7 +97,7 @@ module pattern_bench;
         repeat (4) @(posedge clk);
         #1 rst = 0;
         repeat (3000) @(posedge clk);
-        // A word comes whether it is taken or not.
+        // A word is offered whether it is taken or not.
         stalls = 100;
         #1 rst = 1;
         repeat (3) @(posedge clk);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// uart_registers as a host and a core see it: commands that are whole are done and answered, others are not (docs/boards.md,
-// docs/packets.md). The core is a memory of 1024 registers on AXI4-Lite that answers when it likes.
+// Drives uart_registers as a host and a core do: whole commands are executed and answered, others are not (docs/boards.md,
+// docs/packets.md). The core is a memory of 1024 registers on AXI4-Lite that answers after a random time.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -43,7 +43,7 @@ module registers_bench;
         .m_rvalid_i(rvalid), .m_rready_o(rready)
     );
 
-    // The core: takes address and data of a write in any order, and keeps its answers until they are taken.
+    // The core: it takes address and data of a write in any order, and keeps an answer until it is taken.
     reg [31:0] registers[0:1023], model[0:1023];
     integer writes = 0, reads = 0;
     reg have_address = 0, have_data = 0;
@@ -146,7 +146,7 @@ module registers_bench;
         repeat (PAUSE + 5) @(posedge clk);
     endtask
 
-    // An answer, and the packet that it should be.
+    // Compares an answer with the expected packet.
     reg [7:0] heard[0:23];
     integer hears = 0, answers = 0;
     reg held = 0;
@@ -206,7 +206,7 @@ module registers_bench;
             where    = up_to(20) == 0 ? 4092 : {4'd0, up_to(1023), 2'd0};
             value    = is_write ? $random(seed) : 0;
             did      = writes + reads;
-            // What is not named is not looked at: what a read carries, and the upper words.
+            // The bench does not check fields that the page does not name: the value in a read command, and the upper words.
             make(is_write, where, is_write ? value : $random(seed));
             if (n % 4 == 3) begin
                 for (i = 12; i < 20; i = i + 1) packet[i] = $random(seed);
@@ -218,7 +218,7 @@ module registers_bench;
             if (writes + reads != did + 1) fail("not done once");
         end
         gap = 20;
-        // Addresses of the board: 0x1000, and others that read as 0; none reaches the core.
+        // Addresses of the board: 0x1000, and others that read as 0. None of them reaches the core.
         did = writes + reads;
         for (n = 0; n < 40; n = n + 1) begin
             board    = $random(seed);
@@ -231,7 +231,7 @@ module registers_bench;
         end
         if (writes + reads != did) fail("the board's address reaches the core");
         gap = 12;
-        // One wrong bit, anywhere that is looked at: nothing is done or answered, and the next command is.
+        // One wrong bit, in any bit that is checked: the command is not executed or answered, and the next command is.
         for (n = 0; n < 24 * 8; n = n + 1) begin
             make(n & 1, 16'h0104, 32'hA5A5A5A5);
             packet[n/8][n%8] = !packet[n/8][n%8];
@@ -245,7 +245,7 @@ module registers_bench;
                 hear(0, 16'h0104, model[16'h0104/4]);
             end
         end
-        // The CRC is right, but not the mark, type, flags, length or column.
+        // The CRC is right, but the mark, type, flags, length or column is wrong.
         for (n = 0; n < 24 * 8; n = n + 1) if (n != 12 && (n < 32 || n >= 48) && n < 64) begin
             make(1, 16'h0108, 32'h5A5A5A5A);
             packet[n/8][n%8] = !packet[n/8][n%8];
@@ -256,7 +256,7 @@ module registers_bench;
             if (writes + reads != did) fail("what is no REGISTER packet is done");
         end
         gap = 20;
-        // A part of a command is forgotten behind a pause, whatever its length; a shorter pause is none.
+        // A partial command of any length is dropped after a pause. A shorter interval does not count as a pause.
         for (n = 1; n < 24; n = n + 1) begin
             make(1, 16'h0200, n);
             say(n);
@@ -271,7 +271,7 @@ module registers_bench;
             model[16'h0200/4] = n;
             hear(1, 16'h0200, n);
         end
-        // Bytes before a mark are left out; so is what comes while an answer is told.
+        // Bytes before a mark are left out, and so are bytes that come while an answer is sent.
         for (n = 0; n < 20; n = n + 1) begin
             for (i = 0; i < 24; i = i + 1) packet[i] = $random(seed) & 8'h7F;
             say(1 + up_to(20));

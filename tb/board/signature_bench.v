@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// packet_signature beside a stream of packets of all types that stalls: the sum at each END is that of what has passed by then.
+// Drives packet_signature with a stalling stream of packets of all types: the sum at each END is that of the packets before it.
 `timescale 1ns / 1ps
 `default_nettype none
 

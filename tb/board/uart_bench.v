@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// uart_sender and uart_receiver, each against a line that is written from its definition: a start bit, 8 bits, a stop bit.
+// Compares uart_sender and uart_receiver with a line that is written from its definition: a start bit, 8 bits, a stop bit.
 `timescale 1ns / 1ps
 `default_nettype none
 
@@ -31,9 +31,9 @@ module uart_bench;
     wire ready, tx;
     uart_sender #(.DIVISOR(DIVISOR)) sender (.clk_i(clk), .rst_i(rst), .valid_i(send), .byte_i(given), .ready_o(ready), .tx_o(tx));
 
-    // The sender's line, clock by clock: what is expected of it is a list of levels.
+    // The line of the sender, clock by clock. The expected line is a list of levels.
     reg [9:0] frame;
-    integer left = 0, sent = 0, gaps = 0;  // clocks of a byte that are to come
+    integer left = 0, sent = 0, gaps = 0;  // clocks left of the byte
     reg started = 0;
     always @(negedge clk) if (started) begin
         if (left > 0) begin
@@ -58,7 +58,7 @@ module uart_bench;
             @(posedge clk);
             while (!ready) @(posedge clk);
             #1;
-            // Most follow without a pause.
+            // Most bytes follow without a pause.
             if (up_to(3) == 0) begin
                 send = 0;
                 repeat (up_to(3 * DIVISOR)) @(posedge clk);
@@ -69,7 +69,7 @@ module uart_bench;
         if (sent != 200) fail("bytes were not sent");
     end
 
-    // The receiver's line: its bits are longer or shorter than they should be, and begin at any time.
+    // The line of the receiver. Its bits are longer or shorter than they should be, and begin at any time.
     reg line = 1;
     wire valid;
     wire [7:0] got;
@@ -101,7 +101,7 @@ module uart_bench;
     endtask
     integer n, percent;
     initial begin
-        line = 0;  // no start bit: it is there at a reset
+        line = 0;  // this 0 is not a start bit, because it is there at a reset
         #200 line = 1;
         #(20 * DIVISOR * CLOCK);
         for (percent = -15; percent <= 15; percent = percent + 5) begin
@@ -115,7 +115,7 @@ module uart_bench;
         end
         each = DIVISOR * CLOCK;
         for (n = 0; n < 20; n = n + 1) begin
-            // Without its stop bit it is none, and neither is a line that stays at 0.
+            // A byte without its stop bit is left out, and so is a line that stays at 0.
             put($random(seed), 0);
             #(each * up_to(30)) line = 1;
             #(each * 2);
@@ -125,10 +125,10 @@ module uart_bench;
             put($random(seed), 1);
             #(each);
             if (at != expects) fail("a byte did not come behind one without a stop bit");
-            // A line that is 0 for less than half a bit is no start.
+            // A line that is 0 for less than half a bit is not a start bit.
             line = 0;
             #(DIVISOR > 7 ? each / 4 : CLOCK / 2) line = 1;
-            // What comes behind it is looked at in its own middle.
+            // The byte after it is sampled in the middle of its own bits.
             #(DIVISOR > 7 ? each * (100 + up_to(100)) / 100.0 : each * 12);
             each = DIVISOR * CLOCK * 0.985;
             if (DIVISOR > 7) put($random(seed), 1);

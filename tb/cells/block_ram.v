@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A model of the {= name =} of UltraScale+, as far as Yosys uses it: for a memory with a single port, port A
-// reads and writes; for one with a port to write and a port to read, A writes and B reads; where a word is wider
-// than a port, B writes and A reads, and both are one port of twice the width. Both have one clock and one width, and
-// no output register. Written from UG573, "UltraScale Architecture Memory Resources": a word of 8 bits and more has a
-// parity bit per byte beside its data, a port of 2^k data bits leaves the k lowest address bits out, and where the port
-// that writes is READ_FIRST, a word that is read at the same edge is shown as it was before, at either port.
+// A model of the {= name =} of UltraScale+, as far as Yosys uses it. For a memory with a single port, port A reads and writes.
+// For a memory with a port to write and a port to read, A writes and B reads; if a word is wider than a port, B writes and A
+// reads, and both act as one port of twice the width. Both ports have one clock and one width, and no output register.
+// Written from UG573, "UltraScale Architecture Memory Resources": a word of 8 bits and more has a parity bit per byte beside
+// its data, a port of 2^k data bits leaves out the k lowest address bits, and if the port that writes is READ_FIRST, a word
+// that is read at the same edge is shown as it was before, at either port.
 //
-// Memory and output start unknown. Values of parameters that are not modelled are an error of elaboration;
-// so must be parameters that are not declared here. What is not modelled of the inputs (a reset, an
-// address or enable that is unknown while something may be written) makes the memory unknown.
+// Memory and output are unknown at the start. Values of parameters that are not modelled are an error of elaboration, and
+// parameters that are not declared here must be one, too. Inputs that are not modelled (a reset, an address or an enable that
+// is unknown while a word may be written) make the memory unknown.
 `default_nettype none
 
 module {= name =} #(
@@ -28,12 +28,12 @@ module {= name =} #(
     parameter IS_RSTRAMB_INVERTED = 0,
     parameter IS_RSTREGARSTREG_INVERTED = 0,
     parameter IS_RSTREGB_INVERTED = 0,
-    // What the output shows after the start or a reset; unknown is modelled.
+    // Values of the output after the start or a reset. Only unknown values are modelled.
     parameter INIT_A = 0,
     parameter INIT_B = 0,
     parameter SRVAL_A = 0,
     parameter SRVAL_B = 0,
-    // Contents at the start; unknown ones are modelled.
+    // Initial contents. Only unknown values are modelled.
 {%- for start in contents %}
     parameter [255:0] {= start =} = 0{% if !loop.last %},{% endif %}
 {%- endfor %}
@@ -66,14 +66,14 @@ module {= name =} #(
 );
 
     localparam MOST = {= bytes =};
-    // Which port reads and which writes, and whether they are one port of twice the width.
+    // The ports that read and write, and whether both act as one port of twice the width.
     localparam READ_WIDTH = READ_WIDTH_A != 0 ? READ_WIDTH_A : READ_WIDTH_B;
     localparam WRITE_WIDTH = WRITE_WIDTH_A != 0 ? WRITE_WIDTH_A : WRITE_WIDTH_B;
     localparam READ_B = READ_WIDTH_A == 0;
     localparam WRITE_B = WRITE_WIDTH_A == 0;
     localparam DOUBLE = !READ_B && WRITE_B;
     localparam TWO = READ_B != WRITE_B;
-    // 2^SHIFT data bits and BYTES parity bits at a time.
+    // A port has 2^SHIFT data bits and BYTES parity bits.
     localparam SHIFT = READ_WIDTH == 72 ? 6 : READ_WIDTH == 36 ? 5 : READ_WIDTH == 18 ? 4 : READ_WIDTH == 9 ? 3
         : READ_WIDTH == 4 ? 2 : READ_WIDTH == 2 ? 1 : READ_WIDTH == 1 ? 0 : -1;
     localparam DATA = SHIFT < 0 ? 1 : 1 << SHIFT;
@@ -118,18 +118,18 @@ module {= name =} #(
     wire [{= address_bits - 1 =}:0] write_address = (WRITE_B ? ADDRBWRADDR : ADDRARDADDR) / DATA;
     wire read_enable = READ_B ? ENBWREN : ENARDEN;
     wire write_enable = WRITE_B ? ENBWREN : ENARDEN;
-    // A bit per byte; those of a port that is wider than the word repeat it.
+    // One bit per byte. A port that is wider than the word repeats these bits.
     localparam ENABLES = WRITE_B ? 2 * MOST : MOST;
     localparam ENABLED = BYTES > 1 ? BYTES : 1;
     wire [ENABLES-1:0] enables = WRITE_B ? WEBWE : WEA;
     wire [BITS-1:0] data = {DINPBDINP, DINPADINP, DINBDIN, DINADIN};
-    // Nothing but that; a second port has the same clock, and only its own task.
+    // Only these uses are modelled. A second port has the same clock, and only its own task.
     wire quiet_a = {RSTRAMARSTRAM, RSTREGARSTREG, SLEEP, ADDRENA} === 4'b0001;
     wire unwritten = READ_B ? WEBWE === {2 * MOST{1'b0}} : WEA === {MOST{1'b0}};
     wire quiet_b = {RSTRAMB, RSTREGB, ADDRENB} === 3'b001 && unwritten;
     integer i;
     reg quiet;
-    reg apart = 1'b0;  // the second port has had a clock of its own
+    reg apart = 1'b0;  // 1: the second port had a clock edge of its own
     always @(posedge CLKBWRCLK) if (CLKARDCLK !== 1'b1) apart <= 1'b1;
     reg [BITS-1:0] written;
 
@@ -154,7 +154,7 @@ module {= name =} #(
         end
     end
 
-    // Bits beyond the width say nothing, nor does a port that does not read.
+    // Bits beyond the width are ignored, and so is a port that does not read.
     genvar bit;
     generate
         for (bit = 0; bit < MOST * 8; bit = bit + 1) begin : g_data

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A model of the DSP48E2 of UltraScale+, as far as Yosys uses it: a signed product of 27 and 18 bits,
-// without a register. Written from UG579, "UltraScale Architecture DSP Slice": OPMODE 9'b00_000_01_01 is W = 0,
-// Z = 0, Y and X the two halves of the product; ALUMODE 0000 adds them; INMODE 00000 multiplies A[26:0] with B.
+// A model of the DSP48E2 of UltraScale+, as far as Yosys uses it: a signed product of 27 and 18 bits, without a register.
+// Written from UG579, "UltraScale Architecture DSP Slice": OPMODE 9'b00_000_01_01 sets W = 0 and Z = 0, and Y and X to the two
+// halves of the product; ALUMODE 0000 adds them; INMODE 00000 multiplies A[26:0] with B.
 //
-// Values of parameters that are not modelled are an error of elaboration; so must be parameters that are
-// not declared here. Control inputs with other values make the product unknown.
+// Values of parameters that are not modelled are an error of elaboration, and parameters that are not declared here must be
+// one, too. Control inputs with other values make the product unknown.
 `default_nettype none
 
 module DSP48E2 #(

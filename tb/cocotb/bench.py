@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A core on AXI between parts that we did not write: sources, sinks and masters of cocotbext-axi."""
+"""A core on AXI between the sources, sinks and masters of cocotbext-axi, which are not ours."""
 
 import json
 import os
@@ -10,9 +10,9 @@ from cocotb.clock import Clock
 from cocotb.triggers import ClockCycles, RisingEdge
 from cocotbext.axi import AxiLiteBus, AxiLiteMaster, AxiStreamBus, AxiStreamFrame, AxiStreamSink, AxiStreamSource
 
-# What the runner says of the core: frame size, bits, pixels per clock, clocks of a line, registers.
+# The properties of the core, from the runner: frame size, bits, pixels per clock, clocks of a line, registers.
 CORE = json.loads(Path(os.environ["FOVEATE_CORE"]).read_text())
-# Where each test leaves the frames that a receiver must see, and the packets that left.
+# The folder where each test leaves the frames that a receiver must see, and the packets that left.
 OUT = Path(os.environ["FOVEATE_OUT"])
 WIDTH, HEIGHT, BITS, LANES = (CORE[key] for key in ("width", "height", "bits", "lanes"))
 WORDS = -(-WIDTH // LANES)
@@ -20,20 +20,20 @@ REGISTERS = CORE["registers"]
 
 
 def paused(percent, seed):
-    """Endless: whether there is a pause at a clock."""
+    """Yields without end whether there is a pause at a clock."""
     chance = random.Random(seed)
     while True:
         yield chance.randrange(100) < percent
 
 
 class Bench:
-    """The core with its clock, and what is connected to it."""
+    """The core with its clock and everything that is connected to it."""
 
     def __init__(self, dut, name):
         self.dut = dut
         self.folder = OUT / name
         self.random = random.Random(name)
-        self.expected = []  # frames, as the array sees them
+        self.expected = []  # the frames that the array must see
         reset = {"reset": dut.aresetn, "reset_active_level": False}
         video = AxiStreamBus.from_prefix(dut, "s_axis_video")
         # A "byte" of the source is a word of the video.
@@ -43,7 +43,7 @@ class Bench:
         Clock(dut.aclk, 10, unit="ns").start()
 
     async def reset(self):
-        """Resets the core; what comes from now on is a new run."""
+        """Resets the core. A new run begins."""
         self.dut.aresetn.value = 0
         await ClockCycles(self.dut.aclk, 5)
         self.packets.clear()
@@ -59,12 +59,12 @@ class Bench:
         return await self.registers.read_dword(REGISTERS[register])
 
     def pace(self, gaps, stalls):
-        """Pauses at random, in percent of the clocks."""
+        """Makes source and sink pause at random, in percent of the clocks."""
         self.video.set_pause_generator(paused(gaps, 1))
         self.packets.set_pause_generator(paused(stalls, 2))
 
     def send(self, pixels, first=False):
-        """A line, however long; `first` says that it begins a frame."""
+        """Sends a line of any length; `first` says that it begins a frame."""
         self.send_words(words(pixels), [first] + [False] * (len(words(pixels)) - 1))
 
     def send_words(self, line, starts):
@@ -77,7 +77,7 @@ class Bench:
         self.expected.append(frame)
 
     async def drain(self):
-        """Until all has been taken, and nothing has left for a while."""
+        """Waits until all pixels have been taken, and no word has left for a while."""
         await self.video.wait()
         quiet = 0
         while quiet < CORE["quiet"]:
@@ -85,7 +85,7 @@ class Bench:
             quiet = 0 if self.dut.m_axis_packets_tvalid.value else quiet + 50
 
     def keep(self):
-        """Writes what came and what must be seen, for `foveate decode` and `foveate simulate`."""
+        """Writes the packets that came and the frames that must be seen, for `foveate decode` and `foveate simulate`."""
         frames = self.folder / "frames"
         frames.mkdir(parents=True)
         largest = 2**BITS - 1
@@ -102,13 +102,13 @@ class Bench:
 
 
 def words(pixels):
-    """The words of a line: the left pixel in the lowest bits."""
+    """Returns the words of a line, each with its left pixel in the lowest bits."""
     groups = [pixels[at : at + LANES] for at in range(0, len(pixels), LANES)]
     return [sum(pixel << (BITS * place) for place, pixel in enumerate(group)) for group in groups]
 
 
 def clip(count, seed):
-    """Frames in which a block of noise moves; the last of three is all noise."""
+    """Makes frames in which a block of noise moves; every third is all noise."""
     chance = random.Random(seed)
     grey = 2**BITS - 1
     tiles = [[chance.randrange(grey) for _ in range(WIDTH // 4 + 1)] for _ in range(HEIGHT // 4 + 1)]
@@ -125,11 +125,11 @@ def clip(count, seed):
 
 
 def cut(row, count):
-    """A line of which only so many words come, and what the core makes of it: it goes on with its last pixel."""
+    """Cuts a line after some words. Returns its words and the line that the core makes of it, filled with its last pixel."""
     kept = row[: count * LANES]
     return kept, kept + [kept[-1]] * (len(row) - len(kept))
 
 
 def short(frame, lines):
-    """A frame of which only so many lines come: it goes on with the last."""
+    """Returns the frame that the core makes if only some lines come: it repeats the last one."""
     return frame[:lines] + [frame[lines - 1]] * (len(frame) - lines)

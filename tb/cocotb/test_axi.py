@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What docs/axi.md promises, played by cocotbext-axi. The runner decodes the packets of each test, and compares what a receiver
-sees with what `simulate` says of the frames that each test expects."""
+"""Tests of docs/axi.md with cocotbext-axi. The runner decodes the packets of each test, and compares the screen of a receiver
+with that of `simulate` for the frames that each test expects."""
 
 import cocotb
 from bench import HEIGHT, LANES, REGISTERS, WIDTH, WORDS, Bench, clip, cut, short, words
@@ -11,7 +11,7 @@ EOL_EARLY, EOL_LATE, SOF_EARLY, SOF_LATE, SKIPPED, REGION, ROW, DONE = (1 << bit
 
 
 async def begin(dut, name, gaps=40, stalls=0):
-    """A core that was reset, whose source waits where it must."""
+    """Returns a core that was reset and is set up so that its source waits."""
     bench = Bench(dut, name)
     await bench.reset()
     await bench.write("control", ENABLE | WAIT)
@@ -21,7 +21,7 @@ async def begin(dut, name, gaps=40, stalls=0):
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def clean_video(dut):
-    """Pauses on both sides: nothing is lost."""
+    """With pauses on both sides, no pixel or packet is lost."""
     bench = await begin(dut, "clean_video", gaps=50, stalls=15)
     for frame in clip(5, 1):
         bench.send_frame(frame)
@@ -33,7 +33,7 @@ async def clean_video(dut):
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def damaged_video(dut):
-    """Every kind of damage, each before a whole frame."""
+    """Every kind of damage is repaired, each before a whole frame."""
     bench = await begin(dut, "damaged_video", gaps=60)
     frames = iter(clip(16, 2))
 
@@ -45,7 +45,7 @@ async def damaged_video(dut):
     bench.expected.append(frame)
     bench.send_frame(next(frames))
 
-    # Lines that are too long, the last one among them.
+    # Lines that are too long, the last line among them.
     frame = next(frames)
     for y, row in enumerate(frame):
         bench.send(row + [1] * (LANES * (y % 4)) if WIDTH % LANES == 0 else row, y == 0)
@@ -59,7 +59,7 @@ async def damaged_video(dut):
     bench.expected.append(frame)
     bench.send_frame(next(frames))
 
-    # A frame that ends within a line: the start of the next comes without an end of that line.
+    # A frame that ends within a line: the start of the next frame comes without an end of that line.
     frame, following = next(frames), next(frames)
     for y, row in enumerate(frame[:3]):
         bench.send(row, y == 0)
@@ -70,7 +70,7 @@ async def damaged_video(dut):
         bench.send(row)
     bench.expected += [short(frame[:3] + [last] + frame[4:], 4), following]
 
-    # Words behind a whole frame, and a frame without a start.
+    # Words after a whole frame, and a frame without a start.
     bench.send_frame(next(frames))
     bench.send(next(frames)[0])
     bench.send_frame(next(frames))
@@ -89,7 +89,7 @@ async def damaged_video(dut):
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def sink_that_stops(dut):
-    """A sink that takes nothing for frames: with `wait` the source waits, and what leaves is whole."""
+    """A sink takes no word for several frames: with `wait` the source waits, and all packets are whole."""
     bench = await begin(dut, "sink_that_stops", gaps=20)
     frames = clip(6, 3)
     for frame in frames:
@@ -109,7 +109,7 @@ async def sink_that_stops(dut):
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def register_storm(dut):
-    """Reads and writes by the byte, while video comes: no one disturbs the other."""
+    """Reads and writes of single bytes and incoming video do not disturb each other."""
     bench = await begin(dut, "register_storm", gaps=40)
     for frame in clip(3, 4):
         bench.send_frame(frame)
@@ -124,7 +124,7 @@ async def register_storm(dut):
         for number in range(300):
             await bench.registers.write(address + number % 4, bytes([number % 256]))
         await bench.write("interrupt_enable", 0xA5)
-        # The other bytes of the register are not those of the events.
+        # A write to the other bytes of the register does not touch the events.
         await bench.registers.write(address + 1, bytes([0x5A] * 3))
 
     await Combine(cocotb.start_soon(reads()), cocotb.start_soon(writes()))
@@ -142,7 +142,7 @@ async def register_storm(dut):
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def reset_in_the_middle(dut):
-    """A reset while pixels come and packets leave: then all is as at the first day."""
+    """After a reset while pixels come and packets leave, the core behaves as at the start."""
     bench = await begin(dut, "reset_in_the_middle", gaps=0, stalls=60)
     for frame in clip(3, 5):
         bench.send_frame(frame)
@@ -160,7 +160,7 @@ async def reset_in_the_middle(dut):
 
 @cocotb.test(timeout_time=5, timeout_unit="ms")
 async def not_enabled(dut):
-    """Frames that come while `enable` is 0 are left out, and `restart` forgets those before."""
+    """Frames that come while `enable` is 0 are left out, and `restart` clears what was known of earlier frames."""
     bench = await begin(dut, "not_enabled")
     frames = clip(5, 7)
     bench.send_frame(frames[0])

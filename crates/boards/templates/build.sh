@@ -3,12 +3,13 @@
 # {= banner =}
 #
 # Makes {= bitstream =} of {= title =}:
-# synthesizes with Yosys, places and routes with nextpnr from several seeds, and packs the fastest of them.
+# synthesizes with Yosys, places and routes with nextpnr from several seeds, and packs the fastest result.
 #
 #   sh build.sh [SEEDS]
 #
-# SEEDS says how many, 1 by default. Exit code 1: it does not fit, is too slow, or a tool fails; 2: bad usage; 3: a tool is missing.
-# YOSYS, NEXTPNR, PACK   programs to use instead of those that are found
+# SEEDS is the number of seeds, 1 by default. Exit code 1: the design does not fit, is too slow, or a tool fails; 2: bad usage;
+# 3: a tool is missing.
+# YOSYS, NEXTPNR, PACK   programs to use in place of those that are found
 
 seeds=${1:-1}
 cd "$(dirname "$0")" || exit 2
@@ -16,7 +17,7 @@ case $seeds in
 '' | *[!0-9]* | 0*) echo "\`$seeds\` seeds are none; use a number from 1 on" >&2 && exit 2 ;;
 esac
 
-# The first of these programs that is there, after the one that is asked for.
+# Prints the first of these programs that exists, beginning with the one that the user asked for.
 find_tool() {
     for name in "$@"; do
         [ -n "$name" ] && command -v "$name" && return
@@ -29,7 +30,7 @@ yosys=$(find_tool "${YOSYS:-}" {= yosys =}) || exit
 nextpnr=$(find_tool "${NEXTPNR:-}" {= nextpnr =}) || exit
 pack=$(find_tool "${PACK:-}" {= pack =}) || exit
 
-# What a program said, if it failed.
+# Runs a program with its output in a log, and shows the errors of a program that failed.
 run() {
     log=$1
     shift
@@ -39,14 +40,14 @@ run() {
     exit 1
 }
 
-# The names of the files that this script makes. Any other file of the folder belongs to somebody else.
+# Lists the files that this script makes. Any other file of the folder was not made by it.
 made() {
     for file in build/yosys.log build/board.json build/seed[0-9]*.* build/clocks build/sorted build/pack.log build/report.json \
         build/packed {= bitstream =}; do
         [ ! -f "$file" ] || echo "$file"
     done
 }
-# Whatever the end is, it is listed, so that Foveate may replace it.
+# Lists these files at every exit, so that Foveate may replace them.
 list() {
     [ -f .foveate ] && command -v sha256sum >/dev/null || return
     made | while read -r file; do sha256sum "$file"; done >>.foveate
@@ -64,7 +65,8 @@ while [ "$seed" -le "$seeds" ]; do
     # shellcheck disable=SC2046,SC2086 # words of their own
     run "build/seed$seed.log" "$nextpnr" {= arguments =} --timing-allow-fail --json build/board.json \
         --seed "$seed" --report "build/seed$seed.json" {= writes =}
-    # Of each clock the last line counts: before that it was not routed. Those of the core and of the sensor have their own.
+    # The last line of each clock is used, because the lines before are not of the routed design. The core and the sensor have
+    # separate clocks.
     tac "build/seed$seed.log" | sed -n "s/.*Max frequency for clock *'\([^']*\)': *\([0-9.]*\) MHz.*/\1 \2/p" | awk '!seen[$1]++' >"build/seed$seed.clocks"
     core=$(awk '!/pclk/ && !/clk_i/ { print $2 }' "build/seed$seed.clocks" | head -n 1)
     [ -n "$core" ] || core=$(awk '!/pclk/ { print $2 }' "build/seed$seed.clocks" | head -n 1)
@@ -74,7 +76,8 @@ while [ "$seed" -le "$seeds" ]; do
 done
 sort -n build/clocks >build/sorted
 worst=$(head -n 1 build/sorted)
-# Packed is the fastest core of those whose other clock is fast enough, too, or else the fastest.
+# Packs the core with the fastest clock among those whose other clock is fast enough, or else the one with the fastest
+# clock.
 best=$(awk '$1 >= {= core_mhz =} && $2 >= {= pclk_mhz =}' build/sorted | tail -n 1)
 fast=${best:+yes}
 [ -n "$best" ] || best=$(tail -n 1 build/sorted)

@@ -1,4 +1,4 @@
-  // Colours by another axis.
+  // Colours the marks by another axis.
   var pick = document.getElementById('pick');
   var legends = all('.by-axis');
   pick.hidden = legends.length === 0;
@@ -14,7 +14,7 @@
       var box = group >= colours ? group !== 2 * colours : false;
       mark.setAttribute('href', '#' + (best ? 'front-' : 'all-') + (box ? 'box' : 'dot'));
     });
-    // Marks of one place that look different are rings around each other.
+    // Marks at the same place with different colours are drawn as rings around each other.
     var above = new Map();
     marks.reverse().forEach(function (mark) {
       var x = mark.getAttribute('x');

@@ -4,7 +4,7 @@
   document.documentElement.classList.add('scripted');
   all('.copy, .js').forEach(function (one) { one.hidden = false; });
 
-  // Copies a configuration; where a page may not, selects it.
+  // Copies a configuration, or selects it on a page that may not copy.
   var copied = function (button, text) {
     var before = button.textContent;
     button.textContent = text;
@@ -33,7 +33,7 @@
   addEventListener('hashchange', open);
   open();
 
-  // Sorts by a column; what has no value stays last.
+  // Sorts by a column. Rows without a value stay last.
   all('table.sortable').forEach(function (table) {
     var heads = all('thead th', table);
     heads.forEach(function (head, column) {
@@ -62,7 +62,7 @@
 
 {% if !page.script.is_empty() %}{{ page.script|safe }}
 
-{% endif %}  // Says where a table goes on to the right.
+{% endif %}  // Shows that a table continues to the right.
   all('.wide').forEach(function (wide) {
     var inside = wide.querySelector('.scroll');
     var look = function () {
@@ -74,7 +74,7 @@
     look();
   });
 
-  // The mark nearest to a finger; of equally near ones that which lies above.
+  // Finds the mark nearest to a finger. Of several at the same distance it is the topmost.
   var REACH = 28;
   var nearest = function (figure, x, y) {
     var found = null;
@@ -87,7 +87,7 @@
     return found;
   };
 
-  // The figures of a mark below its plot, for fingers and keyboards, which cannot point at it.
+  // Shows the figures of a mark below its plot, for fingers and keyboards, which cannot point at it.
   var tell = function (figure, link) {
     var tip = figure.querySelector('.tip');
     all('.here').forEach(function (one) { one.classList.remove('here'); });
@@ -119,7 +119,7 @@
     });
   });
 
-  // Shows the same point everywhere.
+  // Shows the same point in all plots.
   var show = function (on) {
     return function (event) {
       if (event.pointerType === 'touch') { return; }

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// An array on a board: runs until a light says right or wrong, and then lets a host send commands, each when the answer to the one
-// before has come.
+// An array on a board: runs until a light says that all sums were right or one was wrong, and then lets a host send commands,
+// each after the answer to the one before.
 //
 //   program FOLDER [+faultN]
 //
-// FOLDER/host   commands: a byte, and the 24 bytes of one. If the byte is 1, it is sent until bit 1 of its answer is 1
-// FOLDER/heard  is written: the last answer to each
-// FOLDER/sums   is written: the sum behind each frame
-// prints the lights, the clocks until they were on, and the frame from which on what was written last holds
+// FOLDER/host   the commands: a byte, and the 24 bytes of the command; if the byte is 1, it is sent until bit 1 of its answer is 1
+// FOLDER/heard  written: the last answer to each command
+// FOLDER/sums   written: the sum after each frame
+// Prints the lights, the clocks until they were on, and the first frame with the thresholds that were written last.
 #include "Varray_bench.h"
 #include "verilated.h"
 
@@ -45,12 +45,12 @@ int main(int count, char **words) {
         if (top->done_o) sums.push_back(top->sum_o);
         if (!(top->led_o & 6)) continue;
         if (!lit) lit = clocks;
-        // Between answers the line rests.
+        // The line rests between answers.
         Bytes &answer = host.heard;
         const auto before = answer.size();
         host.listen(top->tx_o);
         is_broken = host.bad || (answer.size() != before && said < length);
-        // An answer that is whole; the command again, or the next one.
+        // After a whole answer, sends the command again, or the next one.
         if (answer.size() == length) {
             if (script[at] == 0 || (answer[8] & 2)) {
                 heard.insert(heard.end(), answer.begin(), answer.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A board with an array, and what its wires do not show: the sum behind each frame, and the frame at which what was written last is
-// taken over.
+// A board with an array, and signals that have no pins: the sum after each frame, and the frame that takes over the last
+// written thresholds.
 `default_nettype none
 
 module array_bench (
@@ -20,7 +20,7 @@ module array_bench (
     assign done_o = u_board.frame_done;
     assign sum_o = u_board.sum;
 
-    // Frames that have begun, and a write that waits for one.
+    // Counts the frames that have begun, and follows a write that waits for one.
     reg [31:0] begun_q = 32'd0;
     reg waits_q = 1'b0;
     always @(posedge u_board.clk) begin

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A board with the pull-ups of its I2C, and with a sensor that may pull the data line down.
+// A board with the pull-ups of its I2C bus, and with a sensor that may pull the data line down.
 `default_nettype none
 
 module board_bench (
-    input  wire             clk_i,      // the clock of the board; that of the core, as there is no PLL here
+    input  wire             clk_i,      // the clock of the board and of the core, as there is no PLL here
     input  wire             pclk_i,     // the clock of the sensor's pixels
-    input  wire             vsync_i,    // what the sensor drives
+    input  wire             vsync_i,    // vsync of the sensor
     input  wire             href_i,
     input  wire [`DATA-1:0] data_i,
-    input  wire             sda_low_i,  // the sensor pulls
-    output wire             scl_o,      // what is on I2C
+    input  wire             sda_low_i,  // the sensor pulls the data line down
+    output wire             scl_o,      // the clock line of I2C
     output wire             sda_o,
-    input  wire             rx_i,       // serial line
+    input  wire             rx_i,       // serial line from the host
     output wire             tx_o,
     output wire [      1:0] led_o
 );

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A board behind a pattern: runs until a light says right or wrong, and then lets a host read two registers.
+// A board behind a pattern: runs until a light says that all sums were right or one was wrong, and then lets a host read two
+// registers.
 //
 //   program FOLDER
 //
-// FOLDER/host   bytes that the host sends once the lights are on
-// FOLDER/heard  is written: the bytes that came since then
-// prints the lights, and the clocks until then
+// FOLDER/host   the bytes that the host sends once the lights are on
+// FOLDER/heard  written: the bytes that came after that
+// Prints the lights, and the clocks until they were on.
 #include "Vboard.h"
 #include "verilated.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A board on a bench: a sensor that drives what a file says, a slave on I2C, and a host on the serial line.
+// A board on a bench: a sensor whose outputs are read from a file, a slave on I2C, and a host on the serial line.
 //
 //   program FOLDER PCLK_PS NACKS
 //
-// FOLDER/wires   two bytes for each rising edge of pclk: {vsync, href, stopped} and data; of `stopped` there is no edge
-// FOLDER/host    bytes that the host sends, each with the microsecond before it, 4 bytes, little-endian
-// FOLDER/heard   is written: the bytes that came
-// FOLDER/setup   is written: a line for each write on I2C that was acknowledged, and the lights at the end
-// NACKS          so many bytes on I2C are not acknowledged
+// FOLDER/wires   two bytes for each rising edge of pclk: {vsync, href, stopped} and data; with `stopped` there is no edge
+// FOLDER/host    the bytes that the host sends, each after the microsecond at which it may be sent, 4 bytes, little-endian
+// FOLDER/heard   written: the bytes that came
+// FOLDER/setup   written: a line for each acknowledged write on I2C, and the lights at the end
+// NACKS          number of bytes on I2C that are not acknowledged
 #include "Vboard_bench.h"
 #include "verilated.h"
 
@@ -27,7 +27,7 @@ Bytes read(const std::string &path) {
     return Bytes(std::istreambuf_iterator<char>(file), {});
 }
 
-// A slave that takes whatever is written.
+// An I2C slave that accepts every write.
 struct Slave {
     std::FILE *log;
     int nacks;
@@ -38,12 +38,12 @@ struct Slave {
 
     void see(bool new_scl, bool new_sda) {
         if (scl && new_scl && sda != new_sda) {
-            if (!new_sda) {  // start
+            if (!new_sda) {  // a start condition
                 active = true;
                 bits = 0;
                 byte = 0;
                 bytes.clear();
-            } else if (active) {  // stop
+            } else if (active) {  // a stop condition
                 active = false;
                 if (bytes.size() > 1) {
                     for (const auto value : bytes) std::fprintf(log, "%02X ", value);
@@ -95,7 +95,7 @@ int main(int count, char **words) {
             if (top->pclk_i) {
                 top->pclk_i = 0;
             } else if (wire + 1 < wires.size()) {
-                // What is there at the rising edge was driven with the falling one.
+                // The values at the rising edge were driven at the falling edge.
                 if (!(wires[wire] & 4)) top->pclk_i = 1;
                 wire += 2;
             }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A host's end of a serial line, in clocks of the board: DIVISOR of them are a bit.
+// The host's end of a serial line, in clocks of the board: a bit has DIVISOR clocks.
 #include <vector>
 
 namespace {
@@ -12,7 +12,7 @@ struct Host {
     unsigned byte = 0;
     bool bad = false;  // a byte had no stop bit
 
-    // Looks at the line at a clock.
+    // Samples the line at a clock.
     void listen(bool tx) {
         if (bits == 0) {
             if (!tx) {
@@ -36,7 +36,7 @@ struct Host {
     int send_bits = 0, send_wait = 0;
     unsigned sending = 0;
 
-    // Drives the line at a clock while a byte is sent; whether the next one may begin.
+    // Drives the line at a clock while a byte is sent. Returns whether the next byte may begin.
     template <typename Level>
     bool sent(Level &rx) {
         if (send_wait > 0) {

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: MIT OR Apache-2.0 */
-/* See foveate.h. Registers are those of REGISTERS.md; packets those of Foveate's page about packets. */
+/* The functions of foveate.h. REGISTERS.md defines the registers, docs/packets.md of Foveate the packets. */
 #include "foveate.h"
 
 /* ---- Registers ---- */
@@ -36,7 +36,7 @@ static void put(const foveate_core *core, uint32_t address, uint32_t value) {
     core->bus.write(core->bus.context, address, value);
 }
 
-/* A field of a register that was read. */
+/* Returns a field of a register value. */
 #define FIELD(value, name) (((value) & FOVEATE_##name##_MASK) >> FOVEATE_##name##_SHIFT)
 
 foveate_status foveate_init(foveate_core *core, foveate_bus bus, uint64_t fingerprint) {
@@ -62,7 +62,7 @@ foveate_status foveate_init(foveate_core *core, foveate_bus bus, uint64_t finger
     return FOVEATE_OK;
 }
 
-/* Bits of `control` become 0 or 1; the others stay. `restart` reads as 0. */
+/* Sets bits of `control` to 0 or 1, and keeps the others. `restart` reads as 0. */
 static void control(const foveate_core *core, uint32_t mask, bool is_set) {
     const uint32_t others = get(core, FOVEATE_CONTROL) & ~mask;
     put(core, FOVEATE_CONTROL, is_set ? others | mask : others);
@@ -151,7 +151,7 @@ static uint64_t u64(const uint8_t *bytes) {
     return u32(bytes) | (uint64_t)u32(bytes + 4) << 32;
 }
 
-/* That of Ethernet, by half a byte at a time: a table of 64 bytes. */
+/* The CRC-32 of Ethernet, half a byte at a time, with a table of 64 bytes. */
 static uint32_t crc32(const uint8_t *bytes, size_t size) {
     static const uint32_t TABLE[16] = {0x00000000, 0x1DB71064, 0x3B6E20C8, 0x26D930AC, 0x76DC4190, 0x6B6B51F4,
                                        0x4DB26158, 0x5005713C, 0xEDB88320, 0xF00F9344, 0xD6D6A3E8, 0xCB61B38C,
@@ -169,7 +169,7 @@ static size_t lane(const foveate_design *design) {
     return design->pixel_bits <= 8 ? 1 : 2;
 }
 
-/* Bits that a ROW has for a region. */
+/* Returns the number of bits per region in a ROW packet. */
 static size_t decision_bits(const foveate_design *design) {
     return design->means > 0 ? 4 : 2;
 }
@@ -182,7 +182,7 @@ static size_t square(size_t side) {
     return side * side;
 }
 
-/* Words of the packet that begins with this head, its own and the tail's among them; 0 if no packet of the design begins so. */
+/* Returns the number of words of the packet with this head, head and tail included, or 0 if no packet of the design has it. */
 static size_t length(const foveate_design *design, const uint8_t *head) {
     const unsigned type = head[1] & 15, flags = head[1] >> 4;
     const unsigned row = u16(head + 4), column = u16(head + 6);
@@ -213,7 +213,7 @@ static size_t length(const foveate_design *design, const uint8_t *head) {
     return right && head[0] == MARK && u16(head + 2) == carried + 2 ? carried + 2 : 0;
 }
 
-/* Whether what a packet carries is what its type says. */
+/* Returns whether the payload of a packet is right for its type. */
 static bool is_sound(const uint8_t *bytes, unsigned type) {
     if (type != FOVEATE_PACKET_FRAME) return true;
     for (size_t at = 0; at < WORD; ++at)
@@ -280,7 +280,7 @@ unsigned foveate_value(const foveate_design *design, const foveate_packet *regio
     return lane(design) == 1 ? region->carried[index] : u16(region->carried + 2 * (size_t)index);
 }
 
-/* A screen of either kind of pixels. */
+/* A screen of bytes or of 16-bit numbers. */
 typedef struct {
     uint8_t *bytes;
     uint16_t *numbers;
@@ -295,7 +295,7 @@ static void dot(const screen_of *screen, size_t x, size_t y, unsigned value) {
         screen->numbers[at] = (uint16_t)value;
 }
 
-/* Paints a region with what a REGION has, or black without one. What lies outside of the frame is left out. */
+/* Paints a region with the values of a REGION packet, or black without a packet. Pixels outside of the frame are left out. */
 static void paint_region(const foveate_design *design, const screen_of *screen, unsigned row, unsigned column,
                          const foveate_packet *region) {
     const unsigned side = region && region->summary ? design->means : design->size;

@@ -1,11 +1,11 @@
-// Runs in the page, in Chromium: what a reader with a mouse and one with a finger would find.
+// Runs in the page, in Chromium, and reports what a reader with a mouse or a finger would find.
 addEventListener('load', function () {
   document.documentElement.style.scrollBehavior = 'auto';
   var found = {};
   // Tables that are cut, and a page that is wider than the window.
   found.cut = document.querySelectorAll('.wide.more').length;
   found.wider = Number(document.documentElement.scrollWidth > innerWidth);
-  // Rows that are under the headings, or out of sight, once a mark leads to them.
+  // Rows that are under the headings, or out of sight, after a mark leads to them.
   found.rows = 0;
   found.hidden = 0;
   Array.from(document.querySelectorAll('tbody tr[id^="p"]')).reverse().forEach(function (row) {
@@ -17,7 +17,7 @@ addEventListener('load', function () {
     found.rows += 1;
     found.hidden += Number(head.bottom > box.top + 1 || 0 > box.top || box.bottom > low);
   });
-  // Figures that a finger beside a mark brings up.
+  // Figures that a finger near a mark brings up.
   found.plots = 0;
   found.told = 0;
   document.querySelectorAll('figure.plot').forEach(function (figure) {
@@ -32,7 +32,7 @@ addEventListener('load', function () {
     found.plots += 1;
     found.told += Number(told ? tip.querySelectorAll('a').length === LINKS : false);
   });
-  // The least mark, in pixels of the screen.
+  // The smallest mark, in pixels of the screen.
   found.mark = Array.from(document.querySelectorAll('.mark')).reduce(function (least, mark) {
     return Math.min(least, mark.getBoundingClientRect().width);
   }, 1000);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A core on AXI as a processor sees it. A line comes on the standard input, an answer leaves on the standard output:
+// A core on AXI as a processor sees it. Each line of the standard input is a command, and its answer goes to the standard output:
 //
-//   r A     reads a register          -> its value
-//   w A V   writes one                -> ok
-//   f K     plays frame K of argument 1, until nothing leaves any more -> number of bytes, and the bytes that left
+//   r A     reads a register              -> its value
+//   w A V   writes a register             -> ok
+//   f K     plays frame K of argument 1, until no more packets leave -> number of bytes, and the bytes of the packets
 //   i       -> interrupt_o
 #include "Vrcm_axi.h"
 #include "verilated.h"
@@ -20,8 +20,8 @@ constexpr int kWidth = WIDTH, kHeight = HEIGHT, kBits = BITS, kLanes = LANES, kQ
 
 struct Core {
     Vrcm_axi top;
-    std::vector<std::uint8_t> left;  // what left as packets
-    int quiet = 0;                   // clocks since then
+    std::vector<std::uint8_t> left;  // the bytes of packets that left
+    int quiet = 0;                   // clocks since the last of them
 
     void clock() {
         top.eval();

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT OR Apache-2.0 */
-/* Software on a processor beside a core, as a user would write it with the driver. It asks core.cpp over its standard output,
- * and hears answers on its standard input. What the screen shows after each frame goes into the file of argument 1. */
+/* Software for a processor beside a core, as a user would write it with the driver. It sends commands to core.cpp on its standard
+ * output, and reads answers from its standard input. The screen after each frame goes into the file of argument 1. */
 #include "foveate.h"
 
 #include <stdio.h>
@@ -42,7 +42,7 @@ static unsigned interrupt(void) {
     return answer();
 }
 
-/* Plays a frame; what comes of it stands on the screen, and in the file. Returns how many packets came. */
+/* Plays a frame, and puts its packets on the screen and the screen into the file. Returns the number of packets. */
 static unsigned play(const foveate_core *core, unsigned number, bool is_first, FILE *file) {
     static uint8_t buffer[MOST], bytes[MOST];
     static uint16_t numbers[MOST];
@@ -91,7 +91,7 @@ int main(int count, char **arguments) {
     CHECK(foveate_init(&core, bus, FOVEATE_THIS_DESIGN) == FOVEATE_OK);
     CHECK(core.design.tick_rate == 100000000);
 
-    /* Several at once leave `control` as it was, and none is written if one is too large. */
+    /* A call with several thresholds leaves `control` as it was, and writes none if one value is too large. */
     foveate_let_wait(&core, true);
     CHECK(foveate_set(&core, large, 2) == FOVEATE_TOO_LARGE);
     CHECK(read_core(stdout, thresholds[0].address) != thresholds[0].value);

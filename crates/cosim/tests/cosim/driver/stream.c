@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: MIT OR Apache-2.0 */
-/* Says what the driver finds in the bytes of its standard input, which it hands on in pieces: a line for each packet, and the
- * bytes that are none. */
+/* Prints what the driver finds in the bytes of the standard input, which it receives in pieces: a line for each packet, and the
+ * number of bytes that belong to no packet. */
 #include "foveate.h"
 
 #include <stdio.h>
