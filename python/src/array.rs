@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Arrays of Python: what is one, what is asked for one, and how one of another type becomes one of pixels.
+//! Arrays of Python values: tests whether a value is an array, conversion of other values to arrays, and of arrays to pixels.
 
 use std::path::PathBuf;
 
@@ -8,11 +8,11 @@ use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::{PyBytes, PyString};
 
-/// The device of DLPack whose memory is that of the processor.
+/// The DLPack device whose memory is that of the processor.
 const PROCESSOR: i64 = 1;
 
-/// The value as an array, if no pixel of it is masked. What is none is asked for one: by NumPy, or by DLPack where it lies in
-/// the memory of the processor. `right` says what is expected.
+/// Returns a value as an array, if it has no masked pixels. A value that is no array is converted by NumPy, or by DLPack if
+/// it is in the memory of the processor. `right` says which array is expected.
 pub(crate) fn untyped<'py>(
     value: &Bound<'py, PyAny>,
     right: &str,
@@ -37,7 +37,7 @@ pub(crate) fn untyped<'py>(
     let how = if is_exchanged { "from_dlpack" } else { "asarray" };
     let asked = numpy.call_method1(how, (value,)).map_err(|error| {
         let py = value.py();
-        // Lists of rows of several lengths are such values; anything else is of another type.
+        // Lists of rows of several lengths raise such errors. Any other error has another type.
         let message = format!("{right}; {kind} cannot be read as one: {}", error.value(py));
         match error.is_instance_of::<PyValueError>(py) {
             true => PyValueError::new_err(message),
@@ -45,14 +45,14 @@ pub(crate) fn untyped<'py>(
         }
     })?;
     let array = asked.cast_into::<PyUntypedArray>()?;
-    // NumPy makes an array without a shape of anything.
+    // NumPy makes an array without a shape of any object.
     if array.ndim() == 0 {
         return Err(wrong(String::new()));
     }
     Ok(array)
 }
 
-/// Refuses an array that says of some of its values that they are none.
+/// Refuses an array with masked values.
 fn refuse_masks(value: &Bound<'_, PyAny>) -> PyResult<()> {
     let masked = value.py().import("numpy.ma")?.getattr("MaskedArray")?;
     if !value.is_instance(&masked)? {
@@ -69,7 +69,7 @@ fn refuse_masks(value: &Bound<'_, PyAny>) -> PyResult<()> {
     )))
 }
 
-/// Refuses what lies in the memory of another device, such as a graphics processor.
+/// Refuses an array in the memory of another device, such as a graphics processor.
 fn refuse_devices(value: &Bound<'_, PyAny>, right: &str) -> PyResult<()> {
     if !value.hasattr("__dlpack_device__")? {
         return Ok(());
@@ -87,7 +87,7 @@ fn refuse_devices(value: &Bound<'_, PyAny>, right: &str) -> PyResult<()> {
     )))
 }
 
-/// The conversion of an array to pixels of so many bits, by its type and by the values that it has.
+/// Describes how to convert an array to pixels of some bits, from its type and its values.
 pub(crate) fn conversion(array: &Bound<'_, PyUntypedArray>, bits: u32) -> PyResult<String> {
     let dtype = array.dtype();
     let (largest, pixels) = ((1u32 << bits) - 1, if bits > 8 { "uint16" } else { "uint8" });
@@ -96,7 +96,7 @@ pub(crate) fn conversion(array: &Bound<'_, PyUntypedArray>, bits: u32) -> PyResu
             let scaled = format!("frame.astype(\"{pixels}\") * {largest}");
             return Ok(format!("; for black and white, {scaled}"));
         }
-        // An array of another order of bytes.
+        // The array has another byte order.
         b'u' if dtype.itemsize() == 2 => {
             return Ok("; convert it, for example with frame.astype(\"uint16\")".to_owned());
         }
@@ -131,7 +131,7 @@ pub(crate) fn conversion(array: &Bound<'_, PyUntypedArray>, bits: u32) -> PyResu
     })
 }
 
-/// The smallest and the largest value; none where one is no number or infinite.
+/// Returns the smallest and the largest value, or `None` if a value is not a number or is infinite.
 fn range(array: &Bound<'_, PyUntypedArray>) -> PyResult<Option<(f64, f64)>> {
     if array.len() == 0 {
         return Ok(Some((0.0, 0.0)));
@@ -143,7 +143,7 @@ fn range(array: &Bound<'_, PyUntypedArray>) -> PyResult<Option<(f64, f64)>> {
     Ok((least.is_finite() && most.is_finite()).then_some((least, most)))
 }
 
-/// A number with no more digits than a message needs.
+/// Writes a number with no more digits than a message needs.
 fn short(value: f64) -> String {
     let text = format!("{value:.3}");
     let text = text.trim_end_matches('0').trim_end_matches('.');

@@ -23,10 +23,10 @@ use crate::tools;
 /// Parameters
 /// ----------
 /// config : str, path, dict, Design or Camera, optional
-///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or something that has a
-///     configuration. Without it the paper's design.
+///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or an object with a
+///     configuration. The default is the paper's design.
 /// threads : int, default 1
-///     Threads of a step, up to 256; 0 takes one per processor. The bits do not depend on it.
+///     Number of threads of a step, up to 256; 0 takes one per processor. Results do not depend on it.
 /// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
 ///     Keys to change, as in the file: `region={"size": 16}`.
 /// spatial : str, dict or list of these, optional
@@ -35,23 +35,23 @@ use crate::tools;
 /// Attributes
 /// ----------
 /// design : Design
-///     The design. Where the configuration names no size of a frame, it has that of the first frame.
+///     The design. If the configuration gives no frame size, it has the size of the first frame.
 /// frames : int
-///     Frames since the camera was made or reset.
+///     Number of frames since the camera was made or reset.
 ///
 /// Notes
 /// -----
-/// A camera belongs to one thread at a time: another that calls it in the meantime gets a RuntimeError. `step` does
-/// not hold the interpreter, so cameras of several threads run side by side. A camera can be pickled before its
-/// first frame; afterwards pickle `camera.design`. After a fork, a camera of one thread goes on where it was.
+/// A camera belongs to one thread at a time: another thread that calls it meanwhile gets a RuntimeError. `step` does not
+/// hold the interpreter, so cameras of several threads run in parallel. A camera can be pickled before its first frame;
+/// later, pickle `camera.design`. After a fork, a camera with one thread continues in both processes.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     If it is no valid design, or `threads` is out of range. The message names the key, the value and what would
-///     be right.
+///     If the design is not valid, or `threads` is out of range. The message names the key, its value, and a right
+///     value.
 /// FileNotFoundError
-///     If there is no such file.
+///     If a file does not exist.
 ///
 /// Examples
 /// --------
@@ -64,7 +64,7 @@ pub(crate) struct Camera {
     seen: Mutex<Seen>,
 }
 
-/// How many threads a step has: 0 is one per processor.
+/// Returns the number of threads of a step; 0 means one per processor.
 #[derive(Clone, Copy)]
 struct Threads(usize);
 
@@ -82,31 +82,31 @@ impl<'py> FromPyObject<'_, 'py> for Threads {
     }
 }
 
-/// What looks at frames of the size of the first one.
+/// The engine for frames of the size of the first frame.
 struct Eye {
-    /// That of the engine, for outcomes to share.
+    /// The design of the engine, which outcomes share.
     design: Arc<foveate_design::Design>,
     engine: Engine,
 }
 
-/// What a camera has seen.
+/// The state of a camera.
 struct Seen {
-    /// Kept when the camera forgets, for frames of the same size.
+    /// The engine, which is kept after a reset for frames of the same size.
     eye: Option<Eye>,
-    /// Frames since the camera has seen nothing.
+    /// Number of frames since the camera was made or reset.
     frames: u64,
-    /// Frames ever: which outcome the screen belongs to.
+    /// Number of frames in all, which says to which outcome the screen belongs.
     steps: u64,
-    /// When the last of them came.
+    /// Times of the frames.
     clock: StepClock,
-    /// The process that the threads belong to.
+    /// The process to which the threads belong.
     process: u32,
     bytes: Vec<u8>,
     words: Vec<u16>,
 }
 
 impl Camera {
-    /// A camera that has seen nothing.
+    /// Makes a camera that has seen no frame.
     fn of(config: Config, threads: usize) -> Self {
         let seen = Seen {
             eye: None,
@@ -124,7 +124,7 @@ impl Camera {
         &self.config
     }
 
-    /// The design that hardware is made of: that of the frames, which give a camera its size.
+    /// Returns the design for hardware, which has the size of the frames.
     pub(crate) fn sized(&self) -> PyResult<Design> {
         let frame = &self.config.camera.frame;
         if self.frames()? == 0 && (frame.width.is_none() || frame.height.is_none()) {
@@ -136,7 +136,7 @@ impl Camera {
         self.design()
     }
 
-    /// What the camera has seen, for one thread at a time.
+    /// Locks the state of the camera, for one thread at a time.
     fn seen(&self) -> PyResult<MutexGuard<'_, Seen>> {
         match self.seen.try_lock() {
             Ok(seen) => Ok(seen),
@@ -147,7 +147,7 @@ impl Camera {
         }
     }
 
-    /// The screen after a step, if there was none since.
+    /// Returns the screen after a step, if no later step has replaced it.
     pub(crate) fn screen(&self, py: Python<'_>, step: u64) -> PyResult<Screen> {
         let seen = self.seen()?;
         match &seen.eye {
@@ -176,7 +176,7 @@ impl Camera {
         Ok(Self::of(config, threads.0))
     }
 
-    /// The design: with the size of the first frame, once there was one.
+    /// The design. After the first frame it has the size of the frames.
     #[getter]
     fn design(&self) -> PyResult<Design> {
         let seen = self.seen()?;
@@ -186,7 +186,7 @@ impl Camera {
         }
     }
 
-    /// Frames since the camera was made or reset.
+    /// Number of frames since the camera was made or reset.
     #[getter]
     fn frames(&self) -> PyResult<u64> {
         Ok(self.seen()?.frames)
@@ -210,13 +210,13 @@ impl Camera {
     /// ----------
     /// frame : array of shape (height, width)
     ///     Grey pixels: uint8, or uint16 for designs of more than 8 bits per pixel, with values of the design's
-    ///     bits. Any strides; it is not copied if the pixels of a row are adjacent. What is no array is converted by
-    ///     `numpy.asarray`, or by `numpy.from_dlpack` in the memory of the processor.
+    ///     bits. Any strides are allowed; the array is not copied if the pixels of a row are adjacent. A value that is no array
+    ///     is converted by `numpy.asarray`, or by `numpy.from_dlpack` if it is in the memory of the processor.
     /// time_us : int, optional
-    ///     Time of the frame in microseconds, for tables, at or after that of the frame before; by default that of 30
-    ///     frames per second, counted from the last time that was given.
+    ///     Time of the frame in microseconds, for tables; not before that of the frame before. The default continues at 30
+    ///     frames per second from the last given time.
     /// keep : bool, default False
-    ///     Copy the rendered frame at once. Without it `outcome.rendered` must be read before the next step.
+    ///     Copy the rendered frame at once. Without it, read `outcome.rendered` before the next step.
     ///
     /// Returns
     /// -------
@@ -226,9 +226,9 @@ impl Camera {
     /// ------
     /// ValueError
     ///     If the frame has another shape than the first one, or a pixel that does not fit into the design's bits, or if
-    ///     `time_us` is before the time of the frame before.
+    ///     `time_us` is before the time of the last frame.
     /// TypeError
-    ///     If it is no array, has another dtype, or masked pixels. The message says how to convert what it has.
+    ///     If the frame is no array, or has another dtype or masked pixels. The message says how to convert it.
     /// RuntimeError
     ///     If another thread is using the camera.
     #[pyo3(signature = (frame, /, *, time_us=None, keep=false))]
@@ -277,12 +277,12 @@ impl Camera {
         Ok(format!("<foveate.Camera {design}, {} frames seen>", self.frames()?))
     }
 
-    /// Shows it in a notebook.
+    /// Shows the camera in a notebook.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("foveate._show")?.call_method1("design_card", (slf.get().design()?,))
     }
 
-    /// Writes the Verilog of the design to a folder; see `foveate.generate`. A camera without a size must have seen a frame.
+    /// Write the Verilog of the design to a folder; see `foveate.generate`. A camera without a size must have seen a frame.
     #[pyo3(signature = (folder, *, force=false, prefix=None))]
     fn generate<'py>(
         slf: &Bound<'py, Self>,
@@ -293,24 +293,24 @@ impl Camera {
         tools::generate_of(slf, folder, force, prefix)
     }
 
-    /// Area and logic levels of the design; see `foveate.estimate`. A camera without a size must have seen a frame.
+    /// Estimate area and logic levels of the design; see `foveate.estimate`. A camera without a size must have seen a frame.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         tools::estimate_of(slf)
     }
 
-    /// The registers of a core of this design on AXI.
+    /// List the registers of a core of this design on AXI.
     ///
     /// Returns
     /// -------
     /// tuple of Register
     ///     By address: `name`, `address` in bytes, `doc`, and `fields`, each with `name`, `low` (its lowest bit), `width`,
-    ///     `access` ("read", "read, write", "write 1" or "read, write 1 to clear"), `reset` (its value after a reset, None
-    ///     where the core says) and `doc`.
+    ///     `access` ("read", "read, write", "write 1" or "read, write 1 to clear"), `reset` (its value after a reset; None if
+    ///     it depends on the state of the core) and `doc`.
     ///
     /// Raises
     /// ------
     /// ValueError
-    ///     If the design is not on AXI: it needs `hardware={"interface": "axi"}`. Or if the camera has no size yet.
+    ///     If the design is not on AXI (it needs `hardware={"interface": "axi"}`), or if the camera has no size yet.
     fn registers<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         registers_of(slf.py(), &slf.get().sized()?)
     }
@@ -338,7 +338,7 @@ impl Camera {
 }
 
 impl Seen {
-    /// Makes ready for a frame, or refuses it.
+    /// Prepares the camera for a frame, or refuses the frame.
     fn fit(&mut self, config: &Config, threads: usize, frame: &Grey<'_>) -> PyResult<()> {
         let (width, height) = frame.size();
         let own_size = |eye: &Eye| (eye.design.width() as usize, eye.design.height() as usize);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Times of frames that are shown one by one, which never go back.
+//! Times of frames that are given one by one. They never decrease.
 
 use foveate_footage::FrameRate;
 use pyo3::exceptions::{PyOverflowError, PyTypeError, PyValueError};
 use pyo3::prelude::*;
 
-/// A time as Python gives it.
+/// A time as Python passes it.
 #[derive(Clone, Copy)]
 pub(crate) struct MicroSeconds(pub(crate) u64);
 
@@ -26,7 +26,7 @@ impl<'py> FromPyObject<'_, 'py> for MicroSeconds {
     }
 }
 
-/// The frame whose time was given last, and the time of the last frame.
+/// The last frame with a given time, and the time of the last frame.
 #[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct StepClock {
     given: (u64, u64),
@@ -34,7 +34,7 @@ pub(crate) struct StepClock {
 }
 
 impl StepClock {
-    /// The time of the next frame, which is the given one if that is not before the last.
+    /// Returns the time of the next frame: the given time, if it is not before that of the last frame.
     pub(crate) fn next(&self, number: u64, time_us: Option<u64>) -> PyResult<u64> {
         let (since, from) = self.given;
         let Some(time_us) = time_us else {
@@ -50,7 +50,7 @@ impl StepClock {
         Ok(time_us)
     }
 
-    /// Goes on to a frame that was taken. A time that was given is one from which others are counted.
+    /// Records a frame that was taken. A given time becomes the start from which later times are counted.
     pub(crate) fn take(&mut self, number: u64, time_us: u64) {
         let (since, from) = self.given;
         if time_us != from.saturating_add(FrameRate::default().time_us(number - since)) {

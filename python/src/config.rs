@@ -13,7 +13,7 @@ use crate::camera::Camera;
 use crate::design::Design;
 use crate::error::{os_error, raise};
 
-/// The configuration of `source`, changed by `sections`: `{"region": {"size": 16}}`.
+/// Returns the configuration of `source` with changes by `sections`, such as `{"region": {"size": 16}}`.
 pub(crate) fn read(
     source: Option<&Bound<'_, PyAny>>,
     sections: Option<&Bound<'_, PyDict>>,
@@ -23,7 +23,7 @@ pub(crate) fn read(
     Config::from_toml_with(&text, &overrides).map_err(raise)
 }
 
-/// The text of a preset, a TOML file, a mapping, a design or a camera.
+/// Returns the TOML text of a preset, a TOML file, a mapping, a design or a camera.
 fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(design) = source.cast::<Design>() {
         return Ok(design.get().config().to_toml());
@@ -37,7 +37,7 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
     if let Ok(name) = source.cast::<PyString>() {
         let name: String = name.extract()?;
         let name = name.as_str();
-        // A name without a folder or an extension is no file.
+        // A name without a folder or an extension is not a file.
         if Path::new(name).extension().is_none() && Path::new(name).components().count() == 1 {
             return Ok(Preset::find(name).map_err(raise)?.toml.to_owned());
         }
@@ -56,7 +56,7 @@ fn toml_of(source: &Bound<'_, PyAny>) -> PyResult<String> {
     })
 }
 
-/// The tables of a configuration, which are arguments of cameras and designs: None changes nothing.
+/// The tables of a configuration that are arguments of cameras and designs. None changes nothing.
 const SECTIONS: [&str; 9] = [
     "frame",
     "region",
@@ -69,7 +69,7 @@ const SECTIONS: [&str; 9] = [
     "hardware",
 ];
 
-/// Keys by name as the command line's `--set` has them.
+/// Returns the changed keys by their names in the command line's `--set`.
 fn overrides(sections: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     let mut found = Vec::new();
     for (name, value) in sections.iter() {
@@ -88,7 +88,7 @@ fn overrides(sections: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
             )));
         };
         if keys.is_empty() && !SECTIONS.contains(&name.as_str()) {
-            // A table that there is not is refused by its name, also without keys.
+            // An unknown table is refused by its name, even if it has no keys.
             found.push(format!("{name}={{}}"));
         }
         for (key, value) in keys.iter() {
@@ -99,7 +99,7 @@ fn overrides(sections: &Bound<'_, PyDict>) -> PyResult<Vec<String>> {
     Ok(found)
 }
 
-/// Features: a name, a dict, or a list of these.
+/// Returns features from a name, a dict, or a list of these.
 fn features(value: &Bound<'_, PyAny>) -> PyResult<Value> {
     let one = |value: &Bound<'_, PyAny>| -> PyResult<Value> {
         if let Ok(name) = value.extract::<String>() {
@@ -124,7 +124,7 @@ fn table(value: &Bound<'_, PyAny>, key: &str) -> PyResult<Table> {
     }
 }
 
-/// A Python value as TOML's. Scalars of NumPy are numbers, too.
+/// Converts a Python value to one of TOML. Scalars of NumPy count as numbers.
 fn literal(value: &Bound<'_, PyAny>, key: &str) -> PyResult<Value> {
     if value.is_instance_of::<PyBool>() {
         return Ok(Value::Boolean(value.extract()?));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A design, immutable.
+//! An immutable design.
 
 use foveate_design::{Config, PRESETS};
 use pyo3::prelude::*;
@@ -15,8 +15,8 @@ use crate::tools;
 /// Parameters
 /// ----------
 /// config : str, path, dict, Design or Camera, optional
-///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or something that has a
-///     configuration. Without it the paper's design.
+///     The name of a preset (`foveate.presets()`), a TOML file, a dict of its tables, or an object with a
+///     configuration. The default is the paper's design.
 /// frame, region, denoise, decision, temporal, render, periphery, hardware : dict, optional
 ///     Keys to change, as in the file: `region={"size": 16}`.
 /// spatial : str, dict or list of these, optional
@@ -31,27 +31,27 @@ use crate::tools;
 /// region_size : int
 ///     Side of a region in pixels, 2 to 64.
 /// columns, rows, regions : int
-///     Regions side by side, one below the other, and in all.
+///     Number of columns and rows of regions, and of all regions.
 /// features : tuple of str
 ///     Names of the spatial features.
 /// organization : str
-///     Structure of the array.
+///     Organization of the hardware: "pipelined", "serial" or "raster".
 /// cycles_per_frame : int
 ///     Clocks from one frame to the next.
 /// fingerprint : str
-///     16 hexadecimal digits, equal for equal configurations.
+///     16 hexadecimal digits, which are equal for equal configurations.
 ///
 /// Raises
 /// ------
 /// ValueError
-///     If it is no valid design. The message names the key, the value and what would be right.
+///     If the design is not valid. The message names the key, its value, and a right value.
 /// FileNotFoundError
-///     If there is no such file.
+///     If a file does not exist.
 #[pyclass(frozen, eq, hash, module = "foveate")]
 #[derive(Clone, Debug)]
 pub(crate) struct Design {
     inner: foveate_design::Design,
-    /// As it was given: where it names no size of a frame, a camera takes that of its frames.
+    /// The given configuration. If it has no frame size, a camera takes the size of its frames.
     written: Config,
 }
 
@@ -78,7 +78,7 @@ impl Design {
         Ok(Self { inner: written.validate().map_err(raise)?, written })
     }
 
-    /// The configuration as it was given.
+    /// Returns the given configuration.
     pub(crate) fn config(&self) -> &Config {
         &self.written
     }
@@ -127,19 +127,19 @@ impl Design {
         self.inner.region_size()
     }
 
-    /// Regions side by side.
+    /// Number of columns of regions.
     #[getter]
     fn columns(&self) -> u32 {
         self.inner.columns()
     }
 
-    /// Regions one below the other.
+    /// Number of rows of regions.
     #[getter]
     fn rows(&self) -> u32 {
         self.inner.rows()
     }
 
-    /// Regions of a frame.
+    /// Number of regions of a frame.
     #[getter]
     fn regions(&self) -> u32 {
         self.inner.regions()
@@ -152,7 +152,7 @@ impl Design {
         PyTuple::new(py, names.collect::<Vec<_>>())
     }
 
-    /// Structure of the array.
+    /// Organization of the hardware: "pipelined", "serial" or "raster".
     #[getter]
     fn organization(&self) -> &'static str {
         self.inner.organization().name()
@@ -164,7 +164,7 @@ impl Design {
         self.inner.timing().clocks_per_frame()
     }
 
-    /// 16 hexadecimal digits, equal for equal configurations.
+    /// 16 hexadecimal digits, which are equal for equal configurations.
     #[getter]
     fn fingerprint(&self) -> String {
         self.inner.fingerprint()
@@ -179,12 +179,12 @@ impl Design {
         format!("<foveate.Design {}>", in_words(&self.inner))
     }
 
-    /// Shows it in a notebook.
+    /// Shows the design in a notebook.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("foveate._show")?.call_method1("design_card", (slf,))
     }
 
-    /// Writes the Verilog of the design to a folder; see `foveate.generate`.
+    /// Write the Verilog of the design to a folder; see `foveate.generate`.
     #[pyo3(signature = (folder, *, force=false, prefix=None))]
     fn generate<'py>(
         slf: &Bound<'py, Self>,
@@ -195,19 +195,19 @@ impl Design {
         tools::generate_of(slf, folder, force, prefix)
     }
 
-    /// Area and logic levels of the design; see `foveate.estimate`.
+    /// Estimate area and logic levels of the design; see `foveate.estimate`.
     fn estimate<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         tools::estimate_of(slf)
     }
 
-    /// The registers of a core of this design on AXI.
+    /// List the registers of a core of this design on AXI.
     ///
     /// Returns
     /// -------
     /// tuple of Register
     ///     By address: `name`, `address` in bytes, `doc`, and `fields`, each with `name`, `low` (its lowest bit), `width`,
-    ///     `access` ("read", "read, write", "write 1" or "read, write 1 to clear"), `reset` (its value after a reset, None
-    ///     where the core says) and `doc`.
+    ///     `access` ("read", "read, write", "write 1" or "read, write 1 to clear"), `reset` (its value after a reset; None if
+    ///     it depends on the state of the core) and `doc`.
     ///
     /// Raises
     /// ------
@@ -227,7 +227,7 @@ impl Design {
     }
 }
 
-/// Names of the presets, and what each is for.
+/// Return the presets: a dict of their names and purposes.
 #[pyfunction]
 pub(crate) fn presets(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     let found = PyDict::new(py);
@@ -237,7 +237,7 @@ pub(crate) fn presets(py: Python<'_>) -> PyResult<Bound<'_, PyDict>> {
     Ok(found)
 }
 
-/// The design in one line.
+/// Describes a design in one line.
 pub(crate) fn in_words(design: &foveate_design::Design) -> String {
     let features: Vec<String> =
         design.features().iter().map(|feature| feature.kind().to_string()).collect();

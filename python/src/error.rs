@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Which exception says what. The messages are those of the command line.
+//! The exceptions for errors. The messages are those of the command line.
 
 use std::error::Error;
 use std::io::{self, ErrorKind};
@@ -29,22 +29,22 @@ create_exception!(
     "An external tool, such as Yosys or ffmpeg, is missing, too old, or has failed."
 );
 
-/// An error of a crate as Python's exception.
+/// Returns Python's exception for an error of a crate.
 pub(crate) trait Raise {
     fn raise(self) -> PyErr;
 }
 
-/// For `map_err`.
+/// Returns Python's exception for an error, for use in `map_err`.
 pub(crate) fn raise(error: impl Raise) -> PyErr {
     error.raise()
 }
 
-/// For `map_err` of what is wrong with a value.
+/// Returns a ValueError about a value, for use in `map_err`.
 pub(crate) fn value_error(problem: impl ToString) -> PyErr {
     PyValueError::new_err(problem.to_string())
 }
 
-/// An error of the operating system: the exception of its kind, with our message.
+/// Returns the exception for the kind of an error of the operating system, with the project's message.
 pub(crate) fn os_error(source: &io::Error, message: String) -> PyErr {
     match source.kind() {
         ErrorKind::NotFound => PyFileNotFoundError::new_err(message),
@@ -52,13 +52,13 @@ pub(crate) fn os_error(source: &io::Error, message: String) -> PyErr {
         ErrorKind::PermissionDenied => PyPermissionError::new_err(message),
         ErrorKind::IsADirectory => PyIsADirectoryError::new_err(message),
         ErrorKind::NotADirectory => PyNotADirectoryError::new_err(message),
-        // The reader refuses what the file says, or how long it is.
+        // The reader refuses the content or the length of the file.
         ErrorKind::InvalidData | ErrorKind::FileTooLarge => PyValueError::new_err(message),
         _ => PyOSError::new_err(message),
     }
 }
 
-/// A ValueError about a value, or, where an error of the operating system lies behind it, the exception of its kind.
+/// Returns a ValueError about a value, or the exception of an error of the operating system that caused it.
 fn behind(error: &(dyn Error + 'static)) -> PyErr {
     let mut cause = Some(error);
     while let Some(own) = cause {
@@ -70,7 +70,7 @@ fn behind(error: &(dyn Error + 'static)) -> PyErr {
     value_error(error)
 }
 
-/// Why a file could not be read of which only words are left.
+/// Finds the exception for a file that could not be read, if only a text of the error is left.
 fn unread(path: &Path, message: String) -> PyErr {
     let directory = || io::Error::from(ErrorKind::IsADirectory);
     let cause = match std::fs::File::open(path) {
@@ -122,7 +122,7 @@ impl Raise for StagingError {
     fn raise(self) -> PyErr {
         match self {
             Self::Write { ref source, .. } => os_error(source, self.to_string()),
-            // The option of the command line is an argument here.
+            // An option of the command line is an argument of a function here.
             _ => PyFileExistsError::new_err(self.to_string().replace("--force", "force=True")),
         }
     }

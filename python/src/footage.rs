@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Footage of the command line, frame by frame through a camera of its own.
+//! Footage of the command line, shown frame by frame to a camera of its own.
 
 use std::ffi::CString;
 use std::path::PathBuf;
@@ -26,7 +26,7 @@ use crate::options::input_options;
 use crate::outcome::{Outcome, Screen, Taken};
 use crate::work::at_once;
 
-/// Inputs as paths: one, or a list of these.
+/// Returns inputs as paths: one, or a list of several.
 pub(crate) fn paths(inputs: &Bound<'_, PyAny>) -> PyResult<Vec<PathBuf>> {
     if let Ok(path) = inputs.extract::<PathBuf>() {
         return Ok(vec![path]);
@@ -59,9 +59,9 @@ pub(crate) fn warn_of_skipped(
 /// design : Design
 ///     The design, with the size of the frames.
 /// total : int or None
-///     Frames in all, where that is known. A damaged video may promise more than it has.
+///     Number of frames, if it is known. A damaged video may have fewer.
 /// problem : str or None
-///     Why the footage ended before its end. The end then also gives a UserWarning.
+///     The error that ended the footage before its end, if any. The end of the iterator then also gives a UserWarning.
 #[pyclass(frozen, module = "foveate")]
 pub(crate) struct Run {
     design: Arc<foveate_design::Design>,
@@ -76,7 +76,7 @@ struct State {
     ended: bool,
 }
 
-/// A frame, what came of it, and the screen after it.
+/// A frame, its outcome, and the screen after it.
 struct Step {
     taken: Taken,
     frame: Raster,
@@ -84,7 +84,7 @@ struct Step {
 }
 
 impl Run {
-    /// A run belongs to one thread at a time; another waits for its frame without holding the interpreter.
+    /// Locks the state of the run. Another thread waits for it without holding the interpreter.
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -98,13 +98,13 @@ impl Run {
         foveate_design::Design::clone(&self.design).into()
     }
 
-    /// Frames in all; None where that is not known. A video may promise more than it has.
+    /// Number of frames; None if it is not known. A damaged video may have fewer.
     #[getter]
     fn total(&self) -> Option<u64> {
         self.total
     }
 
-    /// Why the footage ended before its end; None if it did not.
+    /// The error that ended the footage before its end; None without an error.
     #[getter]
     fn problem(&self, py: Python<'_>) -> Option<String> {
         py.detach(|| {
@@ -179,14 +179,14 @@ impl State {
 /// Parameters
 /// ----------
 /// inputs : path, pattern, "scene:NAME" or a list of these
-///     What the command line takes: a video, images, a set, a scene. Videos need ffmpeg.
+///     Inputs of the command line: a video, images, a set, a scene. Videos need ffmpeg.
 /// camera : Camera, Design, preset, file or dict, optional
-///     The camera. The run has one of its own that has seen nothing; what `camera` has seen does not matter and
-///     does not change.
+///     The camera. The run makes its own camera of this design, which has seen no frame; the state of `camera` is
+///     neither used nor changed.
 /// max_frames : int, optional
-///     At most this many frames; a scene has exactly this many.
+///     Largest number of frames; a scene has exactly this many.
 /// input_fps, rate : float or str, optional
-///     Take at most so many frames per second; frame rate of images, which have no times (30).
+///     Take at most this many frames per second; frame rate of images, which have no times (30).
 /// start, end : float or str, optional
 ///     Take frames from this time and before this time: seconds, or "HH:MM:SS".
 /// crop : (int, int, int, int), optional
@@ -194,9 +194,9 @@ impl State {
 /// resize : (int, int), optional
 ///     Scale every frame by area to this width and height, after cropping.
 /// images : {"clip", "set", "cifar-sheet"}, optional
-///     What image files are: frames of a clip (default), unrelated images, or sheets with an image per row.
+///     How image files are read: as frames of a clip (default), as unrelated images, or as sheets with an image per row.
 /// labels : path, optional
-///     Labels of an IDX file, if they are not beside it.
+///     File of labels of an IDX file, if it is not beside that file.
 ///
 /// Returns
 /// -------
@@ -206,7 +206,7 @@ impl State {
 /// Raises
 /// ------
 /// FileNotFoundError, ValueError
-///     If an input cannot be read, or does not go with the configuration.
+///     If an input cannot be read, or does not fit the configuration.
 /// ToolError
 ///     If ffmpeg is needed and missing.
 ///
@@ -257,9 +257,9 @@ pub(crate) fn simulate(
 /// Raises
 /// ------
 /// TypeError
-///     If it has another dtype.
+///     If the array has another dtype.
 /// ValueError
-///     If it has another shape.
+///     If the array has another shape.
 #[pyfunction]
 pub(crate) fn luma<'py>(
     py: Python<'py>,

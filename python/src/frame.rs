@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! A frame as Python holds it: an array of any layout. Rows whose pixels are adjacent are read where they lie.
+//! Frames from Python: arrays of any layout. Rows whose pixels are adjacent are read in place.
 
 use foveate_frame::Raster;
 use numpy::ndarray::ArrayView2;
@@ -13,15 +13,15 @@ use pyo3::prelude::*;
 use crate::array::{conversion, untyped};
 use crate::error::value_error;
 
-/// An array that is known to be a grey frame.
+/// An array that was checked to be a grey frame.
 pub(crate) enum Grey<'py> {
     Bytes(PyReadonlyArray2<'py, u8>),
     Words(PyReadonlyArray2<'py, u16>),
 }
 
 impl<'py> Grey<'py> {
-    /// The frame, if it is a two-dimensional array of `uint8` or `uint16`, for a design of so many bits per pixel. What is no
-    /// array is asked for one, as NumPy does.
+    /// Returns a frame from a two-dimensional array of `uint8` or `uint16`, for a design of some bits per pixel. A value that is
+    /// no array is converted, as NumPy does.
     pub(crate) fn of(frame: &Bound<'py, PyAny>, bits: u32) -> PyResult<Self> {
         const RIGHT: &str = "a frame is a 2-D array of grey pixels (height, width)";
         let array = untyped(frame, RIGHT)?;
@@ -73,7 +73,7 @@ impl<'py> Grey<'py> {
         }
     }
 
-    /// A copy of it with the depth of the design.
+    /// Returns a copy of the frame with the depth of the design.
     pub(crate) fn raster(&self, bits: u32) -> PyResult<Raster> {
         self.check(bits)?;
         let (width, height) = self.size();
@@ -90,7 +90,7 @@ impl<'py> Grey<'py> {
         }
     }
 
-    /// The pixels row by row, copied.
+    /// Returns a copy of the pixels, row by row.
     pub(crate) fn values(&self) -> Vec<u16> {
         match self {
             Self::Bytes(array) => array.as_array().iter().map(|&value| value.into()).collect(),
@@ -98,7 +98,7 @@ impl<'py> Grey<'py> {
         }
     }
 
-    /// Width and height.
+    /// Returns width and height in pixels.
     pub(crate) fn size(&self) -> (usize, usize) {
         let shape = match self {
             Self::Bytes(array) => array.shape(),
@@ -108,7 +108,7 @@ impl<'py> Grey<'py> {
     }
 }
 
-/// What would make a frame of what is none.
+/// Describes how to make a frame of a value that is none.
 fn hint(shape: &[usize]) -> &'static str {
     match shape {
         [_, _, 1] => "; take frame[:, :, 0]",
@@ -119,8 +119,8 @@ fn hint(shape: &[usize]) -> &'static str {
     }
 }
 
-/// The pixels with the distance of their rows: where they lie, or copied into `scratch` if the pixels of a row
-/// are not adjacent, or rows overlap or run upwards.
+/// Returns the pixels and the distance of their rows: in place, or copied into `scratch` if the pixels of a row are not
+/// adjacent, or if rows overlap or are in reverse order.
 pub(crate) fn rows<'a, T: Copy>(
     view: &'a ArrayView2<'_, T>,
     scratch: &'a mut Vec<T>,
@@ -131,9 +131,9 @@ pub(crate) fn rows<'a, T: Copy>(
     if let (Some(stride), true) = (stride, across == 1 || width == 1) {
         let stride = stride.max(width);
         let len = (height - 1) * stride + width;
-        // SAFETY: the view holds its first and its last pixel, which is `len - 1` behind the first, as both
-        // strides are positive. NumPy arrays lie in one allocation, so all between is readable. It is `u8` or
-        // `u16`, for which every bit pattern is valid. The borrow that made the view outlives the slice.
+        // SAFETY: the view contains its first and its last pixel, which is `len - 1` after the first, as both strides are
+        // positive. A NumPy array is one allocation, so all pixels between are readable. They are `u8` or `u16`, for which
+        // every bit pattern is valid. The borrow that made the view outlives the slice.
         #[allow(unsafe_code, reason = "ndarray gives no slice of rows with gaps")]
         let values = unsafe { std::slice::from_raw_parts(view.as_ptr(), len) };
         return (values, stride);

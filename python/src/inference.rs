@@ -26,7 +26,7 @@ use crate::options::input_options;
 use crate::study::json;
 use crate::work::interruptible;
 
-/// Stops when the flag is set.
+/// Stops an inference when the flag is set.
 struct Flag(Arc<AtomicBool>);
 
 impl Hooks for Flag {
@@ -37,8 +37,8 @@ impl Hooks for Flag {
     }
 }
 
-/// What is chosen of a run, by its names on the command line: taken out of `options`, which keeps those of
-/// inputs.
+/// Returns the choices of a run by their names on the command line. They are removed from `options`, which keeps the options
+/// of inputs.
 fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBuf>)> {
     let text = |name: &str| -> PyResult<Option<String>> {
         let value = take(options, name)?;
@@ -112,7 +112,7 @@ fn chosen(options: &Bound<'_, PyDict>) -> PyResult<(Options, Viewing, Vec<PathBu
     Ok((options, Viewing { framing, mapping, detector }, boxes))
 }
 
-/// The options that [`chosen`] takes, and the arguments.
+/// Returns the names of all options that [`chosen`] takes, and of the arguments.
 pub(crate) const OWN: [&str; 18] = [
     "network",
     "inputs",
@@ -134,16 +134,16 @@ pub(crate) const OWN: [&str; 18] = [
     "boxes",
 ];
 
-/// What a network is shown.
+/// The inputs that a network is run on.
 enum Shown {
     Paths(Vec<PathBuf>),
     Frames(Vec<Raster>),
 }
 
-/// Footage by its name, or frames as arrays.
+/// Returns footage by its name, or frames from arrays.
 fn shown(inputs: &Bound<'_, PyAny>, bits: u32) -> PyResult<Shown> {
     match paths(inputs) {
-        // Nothing is no frames as well.
+        // An empty list has no frames either.
         Ok(paths) if !paths.is_empty() => return Ok(Shown::Paths(paths)),
         _ => {}
     }
@@ -154,7 +154,7 @@ fn shown(inputs: &Bound<'_, PyAny>, bits: u32) -> PyResult<Shown> {
         ))
     };
     let kind = inputs.get_type().name()?;
-    // A clip that NumPy does not know is an array first.
+    // A sequence that NumPy does not know is converted to an array first.
     let is_clip = !inputs.hasattr("__iter__")? && inputs.hasattr("__dlpack__")?;
     let clip =
         is_clip.then(|| untyped(inputs, "a clip is an array of shape (frames, height, width)"));
@@ -180,14 +180,14 @@ fn shown(inputs: &Bound<'_, PyAny>, bits: u32) -> PyResult<Shown> {
     Ok(Shown::Frames(rasters))
 }
 
-/// A value that is given, taken out.
+/// Removes an option, and returns its value if it was given.
 fn take<'py>(options: &Bound<'py, PyDict>, name: &str) -> PyResult<Option<Bound<'py, PyAny>>> {
     let Some(value) = options.get_item(name)? else { return Ok(None) };
     options.del_item(name)?;
     Ok(Some(value).filter(|value| !value.is_none()))
 }
 
-/// Runs a network on what a camera sends, into a folder; returns the summary as JSON.
+/// Runs a network on the output of a camera, and writes a folder. Returns the summary as JSON.
 #[pyfunction]
 #[pyo3(signature = (network, inputs, camera, output, **options))]
 pub(crate) fn infer(

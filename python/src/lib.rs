@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //! The compiled part of the Python package `foveate`: the camera, its footage, its hardware and its networks.
 //!
-//! Nothing is computed here. Every function takes Python's values apart, calls the crate that does the work
-//! without holding the interpreter, and makes Python's values of the result. What needs no Rust, such as
-//! tables of pandas, is in the Python files beside.
+//! No result is computed here. Every function converts Python's values, calls the crate that does the work without holding
+//! the interpreter, and converts the result. Parts that need no Rust, such as tables of pandas, are in the Python files of
+//! the package.
 
 mod array;
 mod camera;
@@ -55,7 +55,7 @@ mod _foveate {
     #[pymodule_export]
     use crate::tools::{estimate, generate};
 
-    /// Runs the command `foveate` with these words, of which the first is its name; returns its exit code.
+    /// Run the command `foveate` with these words, the first of which is its name. Return its exit code.
     #[pyfunction]
     fn main(py: Python<'_>, words: Vec<OsString>) -> u8 {
         py.detach(|| foveate_cli::run(words))

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Options by name: which a function has, and which one was meant by one that it has not.
+//! Options by name: which of them a function has, and which one was probably meant by an unknown name.
 
 use foveate_footage::{Crop, FrameRate, ImagesAs, InputOptions, parse_time};
 use pyo3::exceptions::{PyTypeError, PyValueError};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
-/// Options of everything that reads footage, by their names on the command line.
+/// The options of all functions that read footage, by their names on the command line.
 const INPUT: [&str; 9] =
     ["max_frames", "input_fps", "rate", "start", "end", "crop", "resize", "images", "labels"];
-/// How like two names are, 0 to 1, for one to be meant by the other.
+/// The similarity of two names, 0 to 1, from which on one is probably meant by the other.
 const ALIKE: f64 = 0.8;
 
-/// The options of inputs. `own` are what else `function` has, taken out already.
+/// Returns the options of inputs. `own` are the other options of `function`, which have been removed already.
 pub(crate) fn input_options(
     function: &str,
     own: &[&str],
@@ -32,7 +32,7 @@ pub(crate) fn input_options(
     Ok(found)
 }
 
-/// Refuses an option that a function of Python's part does not have.
+/// Refuses an option that a function of the Python files does not have.
 #[pyfunction]
 pub(crate) fn refuse_option(function: &str, name: &str) -> PyResult<()> {
     let own: &[&str] = match function {
@@ -43,7 +43,7 @@ pub(crate) fn refuse_option(function: &str, name: &str) -> PyResult<()> {
     Err(unknown(function, own, name))
 }
 
-/// An option that there is not, with what there is.
+/// Returns the error for an unknown option, with the known ones.
 fn unknown(function: &str, own: &[&str], name: &str) -> PyErr {
     let all = || own.iter().chain(&INPUT);
     let alike = all().map(|other| (strsim::jaro_winkler(other, name), other));

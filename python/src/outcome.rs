@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What came of one frame. Arrays own their memory, and are made when they are first read.
+//! The outcome of one frame. Arrays own their memory, and are made when they are first read.
 
 use std::sync::Arc;
 
@@ -15,7 +15,7 @@ use pyo3::types::PyDict;
 use crate::camera::Camera;
 use crate::design::Design;
 
-/// A frame and what came of it, as numbers.
+/// A frame and its results, as numbers.
 pub(crate) struct Taken {
     pub(crate) design: Arc<foveate_design::Design>,
     pub(crate) result: FrameOutcome,
@@ -29,7 +29,7 @@ pub(crate) struct Taken {
 pub(crate) struct Screen(Py<PyUntypedArray>);
 
 impl Screen {
-    /// Pixels of a design's frame.
+    /// Returns the pixels of a frame of a design.
     pub(crate) fn of(py: Python<'_>, design: &foveate_design::Design, pixels: Plane<'_>) -> Self {
         let size = [design.height() as usize, design.width() as usize];
         Self(match pixels {
@@ -53,37 +53,37 @@ fn untyped<T: Element + Copy>(
         .unbind()
 }
 
-/// What came of one frame. Its arrays own their memory.
+/// The outcome of one frame: decisions, scores and the screen. Its arrays own their memory.
 ///
 /// Attributes
 /// ----------
 /// srs, trs, active : array of bool, shape (rows, columns)
 ///     Spatial relevance, temporal relevance, and both: the region's pixels are forwarded.
 /// action : array of uint8, shape (rows, columns)
-///     What becomes of a region on the screen: an index into `foveate.ACTIONS`.
+///     Action of each region on the screen, an index into `foveate.ACTIONS`.
 /// changed : array of int64, shape (rows, columns)
-///     Changed pixels of a region; all of them where there was no reference.
+///     Number of changed pixels of a region; all of its pixels without a valid reference.
 /// scores : dict of str to array of int64, shape (rows, columns)
 ///     Scores by feature, in the units of the contract: hits for `edge` and `corner`; the others have fraction bits.
 /// rendered : array of uint8 or uint16, shape (height, width)
-///     What the receiver's screen shows. An outcome of `Camera.step` reads it from the camera when it is asked for
-///     first, and raises a RuntimeError if the camera has taken another frame since, unless it was kept.
+///     Frame on the receiver's screen. An outcome of `Camera.step` reads it from the camera at the first use, and
+///     raises a RuntimeError if the camera has taken another frame since, unless the step was called with `keep`.
 /// frame : array of uint8 or uint16, shape (height, width), or None
-///     The frame as the camera saw it; None for `Camera.step`, where it is the caller's.
+///     The frame as the camera saw it; None for `Camera.step`, whose caller has the frame.
 /// number : int
 ///     Number of the frame, from 0.
-/// time_us : int
+/// Time of the frame in microseconds since the first.
 ///     Time since the first frame in microseconds.
 /// name, label : str or None
-///     Name of the frame and class of the image, where it has one.
+///     Name of the frame and class of the image, if there are any.
 /// design : Design
 ///     The design that the frame was shown to.
 #[pyclass(frozen, module = "foveate")]
 pub(crate) struct Outcome {
     taken: Taken,
-    /// The frame itself, where it was read from footage.
+    /// The frame itself, if it was read from footage.
     frame: Option<Screen>,
-    /// Whose screen shows the rendered frame, and after which step.
+    /// The camera whose screen shows the rendered frame, and the number of its step.
     camera: Option<(Py<Camera>, u64)>,
     rendered: PyOnceLock<Screen>,
     srs: PyOnceLock<Py<PyArray2<bool>>>,
@@ -120,7 +120,7 @@ impl Outcome {
         }
     }
 
-    /// Of a camera, which still has the rendered frame if it is not kept.
+    /// Makes the outcome of a camera's step, which reads the rendered frame later unless it is kept.
     pub(crate) fn of_camera(
         py: Python<'_>,
         taken: Taken,
@@ -131,7 +131,7 @@ impl Outcome {
         Self::new(py, taken, None, Some((camera, step)), screen)
     }
 
-    /// Of a run, with everything.
+    /// Makes the outcome of a run, with frame and rendered frame.
     pub(crate) fn of_run(py: Python<'_>, taken: Taken, frame: Screen, screen: Screen) -> Self {
         Self::new(py, taken, Some(frame), None, Some(screen))
     }
@@ -144,7 +144,7 @@ impl Outcome {
         [self.taken.design.rows() as usize, self.taken.design.columns() as usize]
     }
 
-    /// An array of regions, made once.
+    /// Returns an array of regions, which is made once.
     fn once<T: Element>(
         &self,
         py: Python<'_>,
@@ -175,13 +175,13 @@ impl Outcome {
         self.taken.time_us
     }
 
-    /// Name of the frame; None where it was an array.
+    /// Name of the frame; None for a frame given as an array.
     #[getter]
     fn name(&self) -> Option<&str> {
         self.taken.name.as_deref()
     }
 
-    /// Class of the image; None where there is none.
+    /// Class of the image; None without a label.
     #[getter]
     fn label(&self) -> Option<&str> {
         self.taken.label.as_deref()
@@ -199,7 +199,7 @@ impl Outcome {
         self.once(py, &self.trs, self.taken.result.trs.iter().copied())
     }
 
-    /// Which regions are sent, those relevant in space and in time: array of bool, shape (rows, columns).
+    /// Regions that are relevant in space and in time, whose pixels are sent: array of bool, shape (rows, columns).
     #[getter]
     fn active(&self, py: Python<'_>) -> Py<PyArray2<bool>> {
         self.once(py, &self.active, self.taken.result.active.iter().copied())
@@ -211,7 +211,7 @@ impl Outcome {
         self.once(py, &self.action, self.taken.result.actions.iter().map(|&action| code(action)))
     }
 
-    /// Changed pixels of a region, all of them where there was no reference: array of int64, shape (rows, columns).
+    /// Number of changed pixels of a region, all of its pixels without a valid reference: array of int64, shape (rows, columns).
     #[getter]
     fn changed(&self, py: Python<'_>) -> Py<PyArray2<i64>> {
         let counts = self.taken.result.temporal_count.iter();
@@ -234,14 +234,14 @@ impl Outcome {
         Ok(self.scores.get_or_try_init(py, make)?.clone_ref(py))
     }
 
-    /// The frame as the camera saw it: array of uint8 or uint16, shape (height, width); None where it was an array, which is
-    /// the caller's.
+    /// The frame as the camera saw it: array of uint8 or uint16, shape (height, width); None for a frame that was given as an
+    /// array, because the caller has it.
     #[getter]
     fn frame(&self, py: Python<'_>) -> Option<Py<PyUntypedArray>> {
         self.frame.as_ref().map(|frame| frame.0.clone_ref(py))
     }
 
-    /// The picture on the receiver's screen: array of uint8 or uint16, shape (height, width). Read it before the next step, unless it was kept.
+    /// The frame on the receiver's screen: array of uint8 or uint16, shape (height, width). Read it before the next step, unless it was kept.
     #[getter]
     fn rendered(&self, py: Python<'_>) -> PyResult<Py<PyUntypedArray>> {
         let read = || {
@@ -258,7 +258,7 @@ impl Outcome {
         format!("<foveate.Outcome of frame {number}: {active} of {columns}x{rows} regions active>")
     }
 
-    /// Shows it in a notebook.
+    /// Shows the outcome in a notebook.
     fn _repr_html_<'py>(slf: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
         slf.py().import("foveate._show")?.call_method1("outcome_card", (slf,))
     }
@@ -270,7 +270,7 @@ impl Outcome {
     }
 }
 
-/// The number of an action, its place in `foveate.ACTIONS`.
+/// Returns the number of an action, which is its index in `foveate.ACTIONS`.
 fn code(action: Action) -> u8 {
     match action {
         Action::Blank => 0,
@@ -280,7 +280,7 @@ fn code(action: Action) -> u8 {
     }
 }
 
-/// Values row by row.
+/// Returns the values of all regions, row by row.
 fn array<T: Element>(
     py: Python<'_>,
     values: impl ExactSizeIterator<Item = T>,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Pictures that notebooks show.
+//! Pictures for notebooks.
 
 use foveate_frame::{convert_depth, display_depth};
 use foveate_pictures::palette::{ACTIVE, CHANGED, RELEVANT};
@@ -12,7 +12,7 @@ use pyo3::types::PyBytes;
 use crate::frame::Grey;
 use crate::outcome::Outcome;
 
-/// A grey frame of so many bits per pixel as a PNG.
+/// Returns a grey frame of some bits per pixel as a PNG.
 #[pyfunction]
 #[pyo3(signature = (frame, bits=8))]
 pub(crate) fn grey_png<'py>(
@@ -30,14 +30,14 @@ pub(crate) fn grey_png<'py>(
     let bytes: Vec<u8> = if depth == 8 {
         values.map(|value| u8::try_from(value).unwrap_or(u8::MAX)).collect()
     } else {
-        // The encoder takes native order and writes what PNG wants.
+        // The encoder takes native byte order and writes the byte order of PNG.
         values.flat_map(u16::to_ne_bytes).collect()
     };
     let colour = if depth == 8 { ExtendedColorType::L8 } else { ExtendedColorType::L16 };
     png(py, &bytes, grey.size(), colour)
 }
 
-/// The decisions of an outcome as a PNG with a pixel per region, in the colours of the overlays.
+/// Returns the decisions of an outcome as a PNG with one pixel per region, in the colours of the overlays.
 #[pyfunction]
 pub(crate) fn decisions_png<'py>(
     py: Python<'py>,

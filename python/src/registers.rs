@@ -7,9 +7,9 @@ use pyo3::prelude::*;
 use crate::design::Design;
 use crate::error::value_error;
 
-/// Name, lowest bit, width, access, value after a reset, and what it means.
+/// A field of a register: name, lowest bit, width, access, value after a reset, and description.
 type FieldRow = (String, u32, u32, &'static str, Option<u32>, String);
-/// Name, address, what it is, and its fields.
+/// A register: name, address, description, and fields.
 type Row = (String, u32, String, Vec<FieldRow>);
 
 fn field(own: Field) -> FieldRow {
@@ -22,7 +22,7 @@ fn row(own: Register) -> Row {
     (name, address, doc, fields.into_iter().map(field).collect())
 }
 
-/// The table of a design, or why there is none.
+/// Returns the table of a design's registers, or the reason why it has none.
 pub(crate) fn registers_of<'py>(py: Python<'py>, design: &Design) -> PyResult<Bound<'py, PyAny>> {
     let inner = design.inner();
     let Some(table) = register_table(inner) else {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! What one asks of a design over footage: why a region was sent, and how far it is from the ideal camera.
+//! Questions about a design over footage: why a region was sent, and how far the design is from the ideal camera.
 
 use std::sync::atomic::Ordering;
 
@@ -14,12 +14,12 @@ use crate::footage::{paths, warn_of_skipped};
 use crate::options::input_options;
 use crate::work::{at_once, interruptible};
 
-/// A value as JSON, from which Python makes its own.
+/// Returns a value as JSON, from which Python makes its own value.
 pub(crate) fn json(value: &impl serde::Serialize) -> PyResult<String> {
     serde_json::to_string(value).map_err(value_error)
 }
 
-/// Why a region was sent or dropped: JSON and text.
+/// Explains why a region was sent or dropped, as JSON and as text.
 #[pyfunction]
 #[pyo3(signature = (inputs, camera=None, *, frame, region, **options))]
 pub(crate) fn explain(
@@ -40,7 +40,7 @@ pub(crate) fn explain(
     Ok((json(&explanation)?, explanation.to_string()))
 }
 
-/// Errors of a design against the ideal camera: JSON, and why the footage ended early.
+/// Measures the errors of a design against the ideal camera. Returns them as JSON, and the error that ended the footage early.
 #[pyfunction]
 #[pyo3(signature = (inputs, camera=None, *, ideal=None, **options))]
 pub(crate) fn fidelity(

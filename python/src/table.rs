@@ -16,7 +16,7 @@ enum Values {
     Long(Vec<i64>),
     Int(Vec<i32>),
     Flag(Vec<bool>),
-    /// Numbers of texts, and the texts.
+    /// Numbers of texts, and the texts that they stand for.
     Text(Vec<u8>, Vec<&'static str>),
 }
 
@@ -47,7 +47,7 @@ impl Values {
         }
     }
 
-    /// An array; of texts the numbers and the texts.
+    /// Returns a column as an array; a column of texts as their numbers and the texts.
     fn into_python(self, py: Python<'_>) -> PyResult<Bound<'_, PyAny>> {
         Ok(match self {
             Self::Long(values) => values.into_pyarray(py).into_any(),
@@ -62,7 +62,7 @@ impl Values {
     }
 }
 
-/// The columns of the table by name.
+/// Returns the columns of the table by name.
 #[pyfunction]
 pub(crate) fn event_columns<'py>(
     outcomes: &Bound<'py, PyAny>,

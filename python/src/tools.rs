@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Hardware of a design: its core, and its area.
+//! Hardware of a design: its core and its area.
 
 use std::path::PathBuf;
 
@@ -17,10 +17,10 @@ use crate::error::{raise, value_error};
 use crate::study::json;
 use crate::work::{at_once_with, interruptible};
 
-/// Columns of a report.
+/// Number of columns of a text report.
 const WIDTH: usize = 100;
 
-/// The design of a camera or a configuration.
+/// Returns the design of a camera or a configuration.
 fn design(camera: &Bound<'_, PyAny>) -> PyResult<foveate_design::Design> {
     if let Ok(camera) = camera.cast::<Camera>() {
         return Ok(camera.get().sized()?.inner().clone());
@@ -28,7 +28,7 @@ fn design(camera: &Bound<'_, PyAny>) -> PyResult<foveate_design::Design> {
     config::read(Some(camera), None)?.validate().map_err(raise)
 }
 
-/// Writes the core of a design; returns its files.
+/// Writes the core of a design. Returns its files.
 #[pyfunction]
 #[pyo3(signature = (camera, folder, force, prefix=None))]
 pub(crate) fn generate(
@@ -49,7 +49,7 @@ pub(crate) fn generate(
     Ok(core.files)
 }
 
-/// Area and logic levels from Yosys: JSON and text.
+/// Measures area and logic levels with Yosys. Returns them as JSON and as text.
 #[pyfunction]
 pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(String, String)> {
     let design = design(camera)?;
@@ -62,7 +62,7 @@ pub(crate) fn estimate(py: Python<'_>, camera: &Bound<'_, PyAny>) -> PyResult<(S
     Ok((json(&report)?, render_text(&report, WIDTH)))
 }
 
-/// `foveate.generate` as a method of a camera or a design.
+/// Calls `foveate.generate` for a method of a camera or a design.
 pub(crate) fn generate_of<'py>(
     camera: &Bound<'py, PyAny>,
     folder: &Bound<'py, PyAny>,
@@ -76,7 +76,7 @@ pub(crate) fn generate_of<'py>(
     work.call_method("generate", (camera, folder), Some(&options))
 }
 
-/// `foveate.estimate` as a method of a camera or a design.
+/// Calls `foveate.estimate` for a method of a camera or a design.
 pub(crate) fn estimate_of<'py>(camera: &Bound<'py, PyAny>) -> PyResult<Bound<'py, PyAny>> {
     camera.py().import("foveate._work")?.call_method1("estimate", (camera,))
 }

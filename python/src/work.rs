@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Long work, which Ctrl-C ends.
+//! Long computations, which Ctrl-C interrupts.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,13 +8,13 @@ use std::time::{Duration, Instant};
 
 use pyo3::prelude::*;
 
-/// How often Python is asked whether a signal has come.
+/// The interval at which Python is asked for signals.
 const PATIENCE: Duration = Duration::from_millis(20);
-/// How long work that was told to stop is waited for.
+/// The time for which work that was told to stop is waited for.
 const GRACE: Duration = Duration::from_millis(200);
 
-/// Does `work` that leaves nothing behind on a thread of its own, without the interpreter. When a signal raises an
-/// exception, that is what is left, at once; what is still computed is for nobody.
+/// Runs `work` without side effects on a thread of its own, without holding the interpreter. If a signal raises an
+/// exception, returns it at once; the result of the unfinished work is dropped.
 pub(crate) fn at_once<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce() -> T + Send + 'static,
@@ -22,7 +22,7 @@ pub(crate) fn at_once<T: Send + 'static>(
     at_once_with(py, move |_| work())
 }
 
-/// The same with a flag that is set then, for what should end, such as a tool.
+/// Runs `work` as above, and sets a flag at a signal, for work that should end, such as a tool.
 pub(crate) fn at_once_with<T: Send + 'static>(
     py: Python<'_>,
     work: impl FnOnce(Arc<AtomicBool>) -> T + Send + 'static,
@@ -37,8 +37,8 @@ pub(crate) fn at_once_with<T: Send + 'static>(
     }
 }
 
-/// Does `work` on a thread of its own, without the interpreter. When a signal raises an exception, the flag is
-/// set, the work comes to its end, and the exception is what is left.
+/// Runs `work` on a thread of its own, without holding the interpreter. If a signal raises an exception, sets the flag,
+/// waits for the end of the work, and returns the exception.
 pub(crate) fn interruptible<T: Send>(
     py: Python<'_>,
     work: impl FnOnce(Arc<AtomicBool>) -> T + Send,
@@ -53,7 +53,7 @@ pub(crate) fn interruptible<T: Send>(
     })
 }
 
-/// Waits until it is finished, or, with a limit, so long after a signal has raised an exception. Returns the exception.
+/// Waits for the end of the work, or, with a limit, for that time after a signal. Returns the exception of the signal.
 fn wait(
     py: Python<'_>,
     is_finished: impl Fn() -> bool,
@@ -61,7 +61,7 @@ fn wait(
     limit: Option<Duration>,
 ) -> Option<PyErr> {
     let mut raised: Option<(PyErr, Instant)> = None;
-    // Mostly short: what is done at once is not waited for.
+    // Most work is short. It is not waited for if it ends at once.
     let mut pause = Duration::from_micros(100);
     let is_over =
         |(_, since): &(PyErr, Instant)| limit.is_some_and(|limit| since.elapsed() > limit);
