@@ -8,7 +8,7 @@
 >>> for outcome in fv.simulate("street.mp4", camera, max_frames=100): ...
 >>> fv.events(outcomes)                     # a table of region events
 
-Every number is computed by the same code as that of the command line, so the bits are the same.
+Every number is computed by the code of the command line, so the results are equal, bit by bit.
 """
 from foveate._foveate import (
     Camera,
@@ -26,7 +26,7 @@ from foveate._results import Estimate, Explanation, Fidelity, Inference
 from foveate._tables import events
 from foveate._work import estimate, explain, fidelity, generate, infer
 
-#: Names of the values of ``Outcome.action``: what becomes of a region on the screen.
+#: Names of the values of ``Outcome.action``, the actions for a region on the screen.
 ACTIONS = ("blank", "hold", "forward", "summarize")
 
 

@@ -1,19 +1,19 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Packages that only a part of ``foveate`` needs, and what is said where one is missing."""
+"""Packages that only a part of ``foveate`` needs, and the error if one is missing."""
 from __future__ import annotations
 
 from importlib.util import find_spec
 
 
 def missing(user: str, package: str, extra: str) -> ImportError:
-    """The error of a part that lacks a package: one line that says what to install."""
+    """Return the error of a part that lacks a package: one line that says what to install."""
     name = {"PIL": "pillow"}.get(package, package)
     return ImportError(f"{user} needs {name}, which is not installed: pip install {name}, or in a clone of the sources "
                        f"pip install '.[{extra}]'", name=package)
 
 
 def need(user: str, packages: list[str], extra: str) -> None:
-    """Refuse to begin what would end for want of a package. Imports none of them."""
+    """Raise an error if a package is missing, before any work begins. Imports none of the packages."""
     for package in packages:
         if find_spec(package) is None:
             raise missing(user, package, extra)

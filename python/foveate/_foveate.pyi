@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Types of the compiled part. What everything does is said in its docstrings, ``help(foveate.Camera)``."""
+"""Types of the compiled part. The documentation is in its docstrings: ``help(foveate.Camera)``."""
 import os
 from pathlib import Path
 from collections.abc import Iterable, Iterator, Mapping, Sequence

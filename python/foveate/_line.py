@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A serial line to a board: commands go out, and answers are found among the packets that come."""
+"""A serial line to a board: sends commands, and finds the answers among the received packets."""
 from __future__ import annotations
 
 import struct
@@ -7,54 +7,54 @@ import time
 import zlib
 from typing import Any, Protocol
 
-#: A register that always reads the same, if there is a core.
+#: Address of a register whose value is constant in every core.
 IDENTITY = 0
-#: Bytes of the head of a packet, and of a whole REGISTER.
+#: Number of bytes of the head of a packet, and of a whole REGISTER packet.
 HEAD, SIZE = 8, 24
 
 
 class Port(Protocol):
-    """What ``serial.Serial`` of pyserial does, and may be done by others."""
+    """The methods of pyserial's ``serial.Serial`` that are used here; other objects may have them."""
 
     def read(self, size: int, /) -> bytes | None:
-        """Up to so many bytes; fewer when a time is over."""
+        """Return up to ``size`` bytes; fewer after a timeout."""
 
     def write(self, data: bytes, /) -> Any:
-        """Send all of them."""
+        """Send all bytes."""
 
 
 def packet(address: int, value: int, is_written: bool) -> bytes:
-    """A REGISTER packet: head, what it carries, and tail."""
+    """Return a REGISTER packet: head, payload and tail."""
     body = struct.pack("<BBHHHIII", 0xFA, 6 | is_written << 4, SIZE // 8, address, 0, value, 0, 0)
     return body + struct.pack("<I", zlib.crc32(body))
 
 
 class Line:
-    """Reads and writes registers over a port. What else comes is kept."""
+    """Reads and writes registers over a port, and keeps all other received bytes."""
 
     def __init__(self, port: Port, timeout: float, attempts: int) -> None:
         self._port, self._timeout, self._attempts = port, timeout, attempts
         self._bytes = bytearray()
-        #: A command was sent again, so an answer to it may still come.
+        #: True after a command was sent again, because a second answer to it may still come.
         self._is_late = False
 
     def read(self, address: int) -> int:
-        """What a register reads."""
+        """Return the value of a register."""
         return self._ask(address, 0, False)
 
     def write(self, address: int, value: int) -> None:
-        """Writes a register."""
+        """Write a register."""
         self._ask(address, value, True)
 
     def received(self) -> bytes:
-        """The bytes of other packets since this was called last."""
+        """Return the bytes of other packets since the last call."""
         found = bytes(self._bytes)
         self._bytes.clear()
         return found
 
     def _ask(self, address: int, value: int, is_written: bool) -> int:
         if self._is_late and address != IDENTITY:
-            # Answers come in the order of commands: behind this one there is no old one that the next would be taken for.
+            # Answers come in the order of commands, so no old answer can follow this one and be mistaken for the next.
             self._ask(IDENTITY, 0, False)
             self._is_late = False
         command, start = packet(address, value, is_written), len(self._bytes)
@@ -65,7 +65,7 @@ class Line:
             while True:
                 self._hear()
                 answer, start = self._answer(command, start)
-                # Another value answers an older command.
+                # An answer with another value belongs to an older command.
                 if answer is not None and (answer == value or not is_written):
                     return answer
                 if answer is None and time.monotonic() > until:
@@ -78,8 +78,8 @@ class Line:
         )
 
     def _hear(self) -> None:
-        """Takes what has come."""
-        # Beyond what has come a port would wait for more.
+        """Take the bytes that have come."""
+        # A port that is asked for more bytes than have come would wait for them.
         came = self._port.read(max(1, getattr(self._port, "in_waiting", 1)))
         if came:
             self._bytes += came
@@ -87,7 +87,7 @@ class Line:
             time.sleep(0.001)
 
     def _answer(self, command: bytes, start: int) -> tuple[int | None, int]:
-        """The value of the first answer from here on, which is taken out; and from where on to look next."""
+        """Remove the first answer from a position on. Return its value, and the position at which to search next."""
         address, is_written = struct.unpack_from("<H", command, 4)[0], command[1] >> 4 == 1
         while (at := self._bytes.find(command[:HEAD], start)) >= 0:
             found = bytes(self._bytes[at : at + SIZE])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The registers of a core on AXI, by their names: over whatever reads and writes one, or over a serial line."""
+"""The registers of a core on AXI, by their names: over functions that read and write one, or over a serial line."""
 from __future__ import annotations
 
 import difflib
@@ -10,12 +10,12 @@ from typing import Any, NamedTuple
 from foveate._foveate import Camera, Design
 from foveate._line import Line, Port
 
-#: The register of a board around a core, above those of the core: name, lowest bit and width of its fields.
+#: The register of a board, above those of its core: name, lowest bit and width of each field.
 BOARD, BOARD_FIELDS = 0x1000, (("done", 0, 1), ("failed", 1, 1), ("lost", 16, 16))
 
 
 class RegisterField(NamedTuple):
-    """Some bits of a register that say one thing. ``reset`` is None where the core says."""
+    """A field of a register: adjacent bits with one meaning. ``reset`` is None if it depends on the state of the core."""
 
     name: str
     low: int
@@ -55,31 +55,32 @@ for _tuple, _docs in (
 
 
 def table(rows: Iterable[tuple[str, int, str, Iterable[Any]]]) -> tuple[Register, ...]:
-    """What the compiled part says of a design."""
+    """Return the registers of a design from the table of the compiled part."""
     return tuple(Register(name, address, doc, tuple(RegisterField(*field) for field in fields)) for name, address, doc, fields in rows)
 
 
 class Registers:
     """Drive a core on AXI: ``core["edge_level"] = 120``.
 
-    A name is that of a register, or of a field behind it: ``core["status.busy"]``. A name that is not there is a KeyError that
-    says the nearest one, and a value that does not fit a ValueError; nothing is written then. One thread at a time.
+    A name is that of a register, or of a register and a field: ``core["status.busy"]``. An unknown name raises a KeyError with
+    the nearest known name, and a value that does not fit raises a ValueError; nothing is written then. Only one thread may use
+    an object at a time.
 
     Parameters
     ----------
     design : Camera, Design, preset, file or dict
         The design of the core.
     read : callable
-        Takes an address in bytes, below the base of the core, and returns what is read there: ``read`` of PYNQ's ``MMIO``.
+        Takes an address in bytes, relative to the base of the core, and returns the value there, such as ``read`` of PYNQ's ``MMIO``.
     write : callable
-        Takes an address and a value: ``write`` of PYNQ's ``MMIO``.
+        Takes an address and a value, and writes it, such as ``write`` of PYNQ's ``MMIO``.
 
     Raises
     ------
     ValueError
         If the design is not on AXI.
     RuntimeError
-        If there is no core, or its registers or its design are others. The message says both values. Nothing is written.
+        If there is no core, or the core has other registers or another design. The message has both values. Nothing is written.
     """
 
     def __init__(self, design: Any, read: Callable[[int], int], write: Callable[[int, int], object]) -> None:
@@ -102,11 +103,11 @@ class Registers:
         design : Camera, Design, preset, file or dict
             The design of the core.
         port : object with read(n) and write(bytes)
-            ``serial.Serial`` of pyserial, with a ``timeout`` of its own: without one its ``read`` may wait for ever.
+            pyserial's ``serial.Serial`` with its own ``timeout``: without one its ``read`` may wait for ever.
         timeout : float, default 0.3
             Seconds to wait for an answer, before the command is sent again.
         attempts : int, default 3
-            How often a command is sent, before a TimeoutError.
+            Number of times that a command is sent before a TimeoutError is raised.
         """
         line = Line(port, timeout, attempts)
         core = cls(design, line.read, line.write)
@@ -114,7 +115,7 @@ class Registers:
         return core
 
     def _check(self) -> None:
-        """Compares what a core always says with the design, and writes nothing."""
+        """Compare the constant registers of the core with the design. Writes nothing."""
         for name, problem in (("identity", "there is no Foveate core"), ("version", "the core has another map of registers")):
             for _, found, right in self._differing(name):
                 raise RuntimeError(f"{problem}: `{name}` reads {found:#x}, not {right:#x}")
@@ -124,7 +125,7 @@ class Registers:
             raise RuntimeError(f"the core has another design than expected: its fingerprint is {fingerprint}, not {self._fingerprint}{also}")
 
     def _differing(self, *names: str) -> Iterator[tuple[str, int, int]]:
-        """Constant fields of these registers that read otherwise than in this design: name, what is read, and what is right."""
+        """Yield the constant fields of these registers that differ from the design: name, value read, and right value."""
         for name in names:
             register, _ = self._find(name)
             value = int(self._read(register.address))
@@ -133,14 +134,14 @@ class Registers:
                     yield f"{name}.{field.name}", _part(value, field), field.reset
 
     def _find(self, name: str) -> tuple[Register, RegisterField | None]:
-        """A register, and its field if it has one of that name or only one."""
+        """Return a register, and the field of that name or its only field."""
         if name not in self._names:
             near = difflib.get_close_matches(str(name), self._names, 1, 0)
             raise KeyError(f"this core has no register `{name}`; the nearest is `{near[0]}`")
         return self._names[name]
 
     def __iter__(self) -> Iterator[str]:
-        """All names, of registers and of fields."""
+        """Return the names of all registers and fields."""
         return iter(self._names)
 
     def __getitem__(self, name: str) -> int:
@@ -152,7 +153,7 @@ class Registers:
         self._put([self._ready(name, value)])
 
     def _ready(self, name: str, value: int) -> tuple[int, int, int]:
-        """Address of what is to be written, the bits that stay as they are, and the others."""
+        """Return the address of a write, a mask of the bits that are kept, and the value of the other bits."""
         register, field = self._find(name)
         meant = [one for one in ([field] if field else register.fields) if one.access != "read"]
         if not meant:
@@ -161,7 +162,7 @@ class Registers:
         width = max(one.low + one.width for one in meant) - low
         if not 0 <= value < 1 << width:
             raise ValueError(f"{name} = {value}: expected 0 to {(1 << width) - 1}")
-        # A 1 that is read of an event and written again would clear it.
+        # An event that reads as 1 would be cleared if this 1 were written back.
         others = (one for one in register.fields if field not in (None, one) and one.access == "read, write")
         return register.address, sum(_mask(one) for one in others), value << low
 
@@ -172,8 +173,8 @@ class Registers:
     def set(self, **values: int) -> None:
         """Write several thresholds that the core takes over together when the next frame begins.
 
-        ``control.enable`` is 0 meanwhile, and set back even if a write fails. So frames that begin in this time are left out: some
-        microseconds on a bus, some milliseconds on a serial line. Nothing is left out for one threshold alone.
+        ``control.enable`` is 0 meanwhile, and is restored even if a write fails. So frames that begin in this time are left out: some
+        microseconds on a bus, some milliseconds on a serial line. For a single threshold no frame is left out.
         """
         ready = [self._ready(name, value) for name, value in values.items()]
         if any(name.split(".")[0] == "control" for name in values):
@@ -188,35 +189,35 @@ class Registers:
             self["control"] = before
 
     def events(self) -> list[str]:
-        """Names of what has happened since it was cleared."""
+        """Return the names of the events that have happened since they were cleared."""
         value = self["events"]
         return [field.name for field in self._names["events"][0].fields if _part(value, field)]
 
     def clear(self, *names: str) -> None:
-        """Clear these events: ``core.clear(*core.events())``. Those that came since stay, and without names all do."""
+        """Clear these events: ``core.clear(*core.events())``. Other events stay; without names all events stay."""
         ready = [self._ready(f"events.{name}", 1) for name in names]
         if ready:
             self._put([(ready[0][0], 0, sum({value for _, _, value in ready}))])
 
     def counters(self) -> dict[str, int]:
-        """Frames that came (modulo 2^32), frames repaired and skipped, and regions dropped (modulo 2^16)."""
+        """Return the counters: frames that came (modulo 2^32), repaired and skipped frames, and dropped regions (modulo 2^16)."""
         return {name: self[name] for name in ("frames", "repaired", "skipped", "dropped")}
 
     def restart(self) -> None:
-        """Let the core forget its references once no frame is under way. ``status.restarting`` is 1 until then."""
+        """Make all references of the core invalid as soon as no frame is under way. ``status.restarting`` is 1 until then."""
         self["control.restart"] = 1
 
     def board(self) -> dict[str, int]:
-        """What the board around a core on a serial line says: sensor ``done`` and ``failed``, pixels ``lost`` (modulo 2^16)."""
+        """Return the state of the board of a core on a serial line: sensor ``done`` and ``failed``, pixels ``lost`` (modulo 2^16)."""
         if self._line is None:
             raise RuntimeError("only a core on a serial line has a board; see Registers.over_serial")
         value = self._line.read(BOARD)
         return {name: value >> low & (1 << width) - 1 for name, low, width in BOARD_FIELDS}
 
     def received(self) -> bytes:
-        """All bytes but answers that came over the serial line while commands waited, once: a part of a recording.
+        """Return the bytes other than answers that came over the serial line while commands waited. Each byte is returned once.
 
-        They stand before what is read from the port next.
+        They are part of a recording, and come before the bytes that are read from the port next.
         """
         return b"" if self._line is None else self._line.received()
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Results that are a dict of the command line's JSON, and show themselves as its text."""
+"""Results as a dict of the command line's JSON, which are printed as its text."""
 from __future__ import annotations
 
 from html import escape
@@ -26,11 +26,11 @@ class _Report(dict[str, Any]):
 
 
 class Explanation(_Report):
-    """Why a region was sent or dropped: pixels, scores, thresholds, votes and the rule, as ``foveate explain --json`` has them."""
+    """The reason why a region was sent or dropped: pixels, scores, thresholds, votes and the rule, as in ``foveate explain --json``."""
 
 
 class Estimate(_Report):
-    """Area and logic levels, as ``foveate estimate --json`` has them."""
+    """Area and logic levels, as in ``foveate estimate --json``."""
 
 
 class Fidelity(dict[str, Any]):
@@ -39,7 +39,7 @@ class Fidelity(dict[str, Any]):
     Attributes
     ----------
     problem : str or None
-        Why the footage ended before its end, if it did.
+        The error that ended the footage before its end, if any.
     """
 
     def __init__(self, values: dict[str, Any], problem: str | None) -> None:
@@ -48,7 +48,7 @@ class Fidelity(dict[str, Any]):
 
     @property
     def problem(self) -> str | None:
-        """Why the footage ended before its end; None if it did not."""
+        """The error that ended the footage before its end; None without an error."""
         return self._problem
 
     def _repr_html_(self) -> str:
@@ -57,14 +57,14 @@ class Fidelity(dict[str, Any]):
 
 
 class Inference:
-    """A network behind the camera: what was saved, and its outputs.
+    """The result of a network behind the camera: its outputs, and what the masks saved.
 
     Attributes
     ----------
     folder : pathlib.Path
-        What ``foveate infer`` writes: tables, charts and ``report.html``.
+        The folder that ``foveate infer`` writes: tables, charts and ``report.html``.
     summary : dict
-        ``inference.json``.
+        The content of ``inference.json``.
     """
 
     def __init__(self, folder: Path, summary: dict[str, Any]) -> None:
@@ -82,11 +82,11 @@ class Inference:
 
     @property
     def outputs(self) -> dict[str, np.ndarray[Any, Any]]:
-        """Outputs by name, each an array [frames, ...shape], read when asked for."""
+        """Outputs by name, each an array of shape [frames, ...shape], read from the folder at each use."""
         return {entry["name"]: np.load(self.folder / entry["array"]) for entry in self.summary["outputs"]}
 
     def table(self, name: str) -> np.ndarray[Any, Any]:
-        """Read a table of the folder, ``layers`` or ``frames``, as a structured array."""
+        """Read a table of the folder, ``layers`` or ``frames``, as a structured array. Raises a KeyError for an unknown name."""
         path = self.folder / f"{name}.csv"
         if not path.is_file():
             tables = ", ".join(sorted(path.stem for path in self.folder.glob("*.csv")))

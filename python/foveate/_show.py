@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""How designs, cameras and outcomes show themselves in a notebook."""
+"""Designs, cameras and outcomes as HTML for notebooks."""
 from __future__ import annotations
 
 from base64 import b64encode
@@ -11,7 +11,7 @@ from foveate._foveate import decisions_png, grey_png
 if TYPE_CHECKING:
     from foveate import Design, Outcome
 
-#: The widest that a picture is shown, in CSS pixels.
+#: The largest width of a picture in CSS pixels.
 _WIDTH = 360
 
 
@@ -38,7 +38,7 @@ def outcome_card(outcome: Outcome) -> str:
     try:
         pictures.append(("rendered", grey_png(outcome.rendered, design.pixel_bits)))
     except RuntimeError:
-        # The camera has moved on; the decisions are still there.
+        # The camera has taken another frame, so that only the decisions are left.
         pass
     pictures.append(("active green, SRS alone orange, TRS alone blue", decisions_png(outcome)))
     figures = "".join(

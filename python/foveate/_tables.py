@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Region events as the tables that people work with."""
+"""Region events as tables of NumPy, pandas and PyArrow."""
 from __future__ import annotations
 
 from collections.abc import Iterable
@@ -29,9 +29,9 @@ def events(outcomes: Iterable[Outcome], *, only_active: bool = False, kind: str 
     Parameters
     ----------
     outcomes : iterable of Outcome
-        What ``Camera.step`` or ``simulate`` gave, all of one design. A generator is read to its end.
+        Outcomes of ``Camera.step`` or ``simulate``, all of one design. A generator is read to its end.
     only_active : bool, default False
-        Only the rows of active regions: the events that the camera sends.
+        Keep only the rows of active regions, whose pixels the camera sends.
     kind : {"numpy", "pandas", "pyarrow"}
         A structured array, a data frame, or a table of Arrow. Pandas and PyArrow must be installed.
 
@@ -45,7 +45,7 @@ def events(outcomes: Iterable[Outcome], *, only_active: bool = False, kind: str 
     Raises
     ------
     ValueError
-        If there are no outcomes, or they are of different designs.
+        If there are no outcomes, or if they have different designs.
     """
     if kind not in ("numpy", "pandas", "pyarrow"):
         raise ValueError(f"kind = {kind!r}: expected 'numpy', 'pandas' or 'pyarrow'")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What the command line does beside simulating, as functions."""
+"""Functions for the commands other than ``simulate``."""
 from __future__ import annotations
 
 import functools
@@ -25,7 +25,7 @@ _Function = TypeVar("_Function", bound=Callable[..., Any])
 
 
 def _named(function: _Function) -> _Function:
-    """Refuse an option that the function does not have with the nearest one that it has."""
+    """Make a function refuse an unknown option with the name of the nearest known one."""
     known = set(inspect.signature(function).parameters)
 
     @functools.wraps(function)
@@ -62,7 +62,7 @@ def explain(
     inputs : path, pattern, "scene:NAME" or a list of these
         Footage, as of ``simulate``.
     camera : Camera, Design, preset, file or dict, optional
-        The camera. What it has seen does not matter: the frames before run through one of its own.
+        The camera. Its own state is neither used nor changed: the earlier frames are shown to another camera of its design.
     frame : int, default 0
         Number of the frame.
     region : (int, int), default (0, 0)
@@ -78,7 +78,7 @@ def explain(
     Raises
     ------
     IndexError
-        If there is no such frame or region.
+        If the frame or the region does not exist.
     """
     values, text = _foveate.explain(
         inputs, camera, frame=frame, region=region, max_frames=max_frames, input_fps=input_fps, rate=rate, start=start, end=end,
@@ -110,9 +110,9 @@ def fidelity(
     inputs : path, pattern, "scene:NAME" or a list of these
         Footage, as of ``simulate``.
     camera : Camera, Design, preset, file or dict, optional
-        The design to judge.
+        The design to measure.
     ideal : Camera, Design, preset, file or dict, optional
-        The task. By default that of ``camera`` itself, so that only its rounding and its windows are judged.
+        The ideal design. The default is ``camera`` itself, so that only its rounding and its windows are measured.
     max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
         How inputs are read, see ``simulate``.
 
@@ -137,24 +137,24 @@ def generate(camera: Any, folder: PathLike, *, force: bool = False, prefix: str 
     camera : Camera, Design, preset, file or dict
         The design. A camera that takes its size from its frames must have seen one.
     folder : path
-        The folder to write. It appears when it is complete.
+        The folder to write. It appears only when it is complete.
     force : bool, default False
         Replace the folder if it holds a generated core.
     prefix : str, optional
-        What the names of all modules begin with, before a ``_``, so that several cores fit into one chip. With
-        ``"auto"`` it is made from the fingerprint of the design.
+        Prefix of the names of all modules, before a ``_``, so that several cores fit into one chip. With ``"auto"`` it
+        is made from the fingerprint of the design.
 
     Returns
     -------
     list of pathlib.Path
-        The files.
+        The files that were written.
 
     Raises
     ------
     ValueError
-        If names of modules cannot begin with the prefix, or a camera has no size yet.
+        If names of modules cannot begin with the prefix, or if the camera has no size yet.
     FileExistsError
-        If the folder holds something.
+        If the folder is not empty.
     """
     return [Path(folder) / name for name in _foveate.generate(camera, folder, force, prefix)]
 
@@ -178,7 +178,7 @@ def estimate(camera: Any) -> Estimate:
     ToolError
         If Yosys is missing or fails.
     ValueError
-        If a camera has no size yet.
+        If the camera has no size yet.
     """
     values, text = _foveate.estimate(camera)
     return Estimate(json.loads(values), text)
@@ -215,7 +215,7 @@ def infer(
     images: Images | None = None,
     labels: PathLike | None = None,
 ) -> Inference:
-    """Run a network on what a camera sends, and count what its masks save.
+    """Run a network on the output of a camera, and count what its masks save.
 
     Parameters
     ----------
@@ -227,32 +227,33 @@ def infer(
     camera : Camera, Design, preset, file or dict, optional
         The camera in front of the network.
     output : path, optional
-        The folder to write; by default one that lives as long as the result.
+        The folder to write. The default is a temporary folder, which is removed together with the result.
     mode : str, optional
         "dense", "exact", "compare", "truncate=T" or "fixed"; "exact" without it.
     tune : str, optional
-        What limits may change of the outputs, such as "variation=10%": in place of a mode.
+        The largest change of the outputs for which limits are searched, such as "variation=10%"; in place of a mode.
     reference : bool, default False
-        Compute every frame whole, too, and say how far the outputs are from it; always with "truncate=T", "fixed" and ``tune``.
+        Compute every frame whole as well, and measure how far the outputs are from it. Always on with "truncate=T", "fixed" and
+        ``tune``.
     accelerator : str, optional
-        The name of an accelerator, or its file.
+        The name of an accelerator, or the path of its file.
     mean, scale : float or sequence of float, default 0 and 1
-        What is taken from pixels, and what they are then divided by: a number, or one for each channel.
+        The number that is subtracted from pixels, and the number by which they are then divided; or one per channel.
     framing : str, default "same"
         "same", "letterbox", "letterbox=416x416", "stretch" or "stretch=416x416".
     whole_frames : bool, default False
-        The network runs on the frames before the camera, too.
+        Run the network also on the frames before the camera.
     noise : str, optional
-        Standard deviations in grey levels of 8 bits, such as "1,2,4": the network runs on whole frames with such Gaussian noise, too; "0" is none.
-        With ``whole_frames`` or ``detect`` it is "1,2,4" without it.
+        Standard deviations in grey levels of 8 bits, such as "1,2,4": run the network also on whole frames with such Gaussian
+        noise; "0" is none. The default with ``whole_frames`` or ``detect`` is "1,2,4".
     every : int, default 1
-        The network sees one of so many frames.
+        Run the network on one of this many frames.
     detect : str, optional
         The format of detections, such as "yolox,score=0.3".
     boxes : path or list of paths, optional
         Ground-truth boxes.
     pictures : bool, default False
-        Write the outputs as pictures, too, where they are some.
+        Write the outputs that are pictures as image files, too.
     force : bool, default False
         Replace ``output`` if it holds a result.
     max_frames, input_fps, rate, start, end, crop, resize, images, labels : optional
@@ -261,16 +262,16 @@ def infer(
     Returns
     -------
     Inference
-        Its ``summary``, ``outputs`` and tables.
+        The result, with ``summary``, ``outputs`` and tables.
 
     Raises
     ------
     TypeError
-        If there is no such option, or ``inputs`` are neither footage nor frames.
+        If an option does not exist, or if ``inputs`` are neither footage nor frames.
     FileNotFoundError, IsADirectoryError, PermissionError
         If the network or another file cannot be read.
     ValueError
-        If what is read is wrong, or does not go together.
+        If a file has wrong content, or if the inputs do not fit each other.
     """
     options: dict[str, Any] = dict(
         mode=mode, tune=tune, reference=reference, accelerator=accelerator, mean=mean, scale=scale, framing=framing,

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Data sets and transforms of PyTorch: what a receiver of a region camera would learn from.
+"""Data sets and transforms for PyTorch whose images are the screen of a region camera's receiver.
 
 Every image is a first frame, so every TRS is 1 and SRS alone decides, as in ``foveate dataset``. Needs ``torch``.
 """
@@ -31,7 +31,7 @@ class _Indexed(Protocol):
 
 
 class RegionTransform(Generic[_T]):
-    """Show every image to a camera, and return what the receiver's screen shows.
+    """Show every image to a camera, and return the screen of the receiver.
 
     For ``torchvision.transforms.Compose``, before ``ToTensor``. It can be pickled, copied, and called from several threads.
 
@@ -48,7 +48,7 @@ class RegionTransform(Generic[_T]):
     """
 
     def __init__(self, camera: Any) -> None:
-        # Never steps, so that it can be pickled; every thread has a camera of its own.
+        # This camera never steps, so that it can be pickled. Every thread has a camera of its own.
         self._camera = Camera(camera)
         self._local = threading.local()
 
@@ -74,7 +74,7 @@ class RegionTransform(Generic[_T]):
         Returns
         -------
         Outcome
-            With its rendered frame kept.
+            The outcome, whose rendered frame is kept.
         """
         camera = getattr(self._local, "camera", None)
         if camera is None:
@@ -91,7 +91,7 @@ class RegionTransform(Generic[_T]):
 
 
 class RegionDataset(Dataset[Any]):
-    """A data set whose images are what a receiver of the camera sees.
+    """A data set whose images are the screen of the camera's receiver.
 
     Parameters
     ----------
@@ -129,7 +129,7 @@ class RegionDataset(Dataset[Any]):
 
 
 def _grey(image: Any) -> Any:
-    """The pixels of an image as a grey array."""
+    """Return the pixels of an image as a grey array."""
     if isinstance(image, torch.Tensor):
         if image.is_floating_point():
             raise TypeError(f"the tensor has dtype {image.dtype}; a camera takes pixels of uint8, so put it before ToTensor")
@@ -145,7 +145,7 @@ def _grey(image: Any) -> Any:
 
 
 def _like(image: Any, rendered: Any) -> Any:
-    """The rendered frame in the type of an image."""
+    """Return the rendered frame in the type of an image."""
     if isinstance(image, torch.Tensor):
         tensor = torch.from_numpy(rendered)
         return tensor[None] if image.ndim == 3 else tensor

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 def main(words: list[str] | None = None) -> int:
-    """Run a study with the words of a command line; returns the exit code."""
+    """Run a study with the words of a command line. Return the exit code."""
     options = _parser().parse_args(words)
     try:
         _checked(options)
@@ -64,7 +64,7 @@ def _parser() -> argparse.ArgumentParser:
 
 
 def _checked(options: argparse.Namespace) -> None:
-    """Refuse values that no study can use."""
+    """Raise an error for values that no study can use."""
     if options.data is None:
         raise StudyError("--data is missing: give the folder of the sets, or name it in FOVEATE_DATA")
     for name in ("epochs", "batch", "validation", "jobs", "seeds", "figure_seeds", "size"):
@@ -80,7 +80,7 @@ def _checked(options: argparse.Namespace) -> None:
 
 
 def _equipped(options: argparse.Namespace) -> None:
-    """Refuse to begin without a package that is needed hours later."""
+    """Raise an error if a package is missing that is needed only hours later."""
     packages = {
         "torch": True,
         "matplotlib": True,
@@ -92,7 +92,7 @@ def _equipped(options: argparse.Namespace) -> None:
 
 
 def _run(options: argparse.Namespace) -> int:
-    # Torch takes seconds to load, and --help must not.
+    # --help must be fast, and torch takes seconds to load.
     from foveate.studies.runs import Bench, Settings
     from foveate.studies.training import check_device
 

@@ -21,9 +21,9 @@ __all__ = ["Plan", "runs_of", "study"]
 
 @dataclass(frozen=True)
 class Plan:
-    """What is run: all ``seeds`` at the chosen threshold, the first ``figure_seeds`` at every one of ``thresholds``.
+    """The runs of the study: all ``seeds`` at the chosen threshold, the first ``figure_seeds`` at each of ``thresholds``.
 
-    The largest threshold is chosen that loses at most ``margin`` of validation accuracy, 0 to 1; if none does, the one that loses least.
+    The chosen threshold is the largest that loses at most ``margin`` of validation accuracy, 0 to 1, or else the one that loses least.
     """
 
     sets: Sequence[str] = ("mnist", "fashion-mnist")
@@ -34,12 +34,12 @@ class Plan:
 
     @property
     def few(self) -> range:
-        """Seeds of the figure."""
+        """The seeds of the figure."""
         return range(min(self.figure_seeds, self.seeds))
 
 
 def study(bench: Bench, plan: Plan, *, jobs: int = 1, report: Callable[[str], None]) -> dict[str, Any]:
-    """Make all runs that are missing, and summarize them: a dict that JSON can hold."""
+    """Make all missing runs. Return a summary of all runs, a dict for JSON."""
     cameras = [Regions(threshold) for threshold in plan.thresholds]
     complete(bench, [run for name in plan.sets for run in _figure(name, cameras, plan.few)], jobs=jobs, report=report)
     chosen = {name: _choose(bench, name, cameras, plan) for name in plan.sets}
@@ -49,7 +49,7 @@ def study(bench: Bench, plan: Plan, *, jobs: int = 1, report: Callable[[str], No
 
 
 def runs_of(bench: Bench, plan: Plan, summary: dict[str, Any]) -> list[dict[str, Any]]:
-    """A row for every run that the summary is made of, without the list of its images."""
+    """Return a row for every run of the summary, without the list of its images."""
     cameras = [Regions(threshold) for threshold in plan.thresholds]
     rows = []
     for entry in summary["sets"]:
@@ -72,7 +72,7 @@ def _finalists(chosen: Regions) -> list[Regions]:
 
 
 def _against(name: str, camera: Regions, seeds: range) -> list[Run]:
-    """What a camera is judged by: trained on originals, trained on regions, and trained on originals but tested on regions."""
+    """Return the runs that judge a camera: trained on originals, trained on regions, and trained on originals but tested on regions."""
     return [Run(name, trained, tested, seed) for trained, tested in ((None, None), (camera, camera), (None, camera)) for seed in seeds]
 
 
@@ -102,13 +102,13 @@ def _summary(bench: Bench, name: str, cameras: Sequence[Regions], chosen: Region
         "set": name, "model": first["model"], "settings": first["settings"], "torch": first["torch"],
         "train_images": first["train_images"], "validation_images": first["validation_images"], "test_images": first["test_images"],
         "original": _interval(originals), "chosen": chosen.name, "margin": plan.margin, "table": table,
-        # Of the seeds of the figure, so that its lines are of pairs.
+        # Only the seeds of the figure, so that its lines compare pairs.
         "figure_original": float(np.mean(originals[:len(few)])), "figure": figure,
     }
 
 
 def _row(bench: Bench, name: str, trained: Regions | None, tested: Regions, seeds: range) -> dict[str, Any]:
-    """A way of training and testing beside the originals, seed by seed."""
+    """Compare a way of training and testing with the originals, seed by seed."""
     before = [_result(bench, Run(name, None, None, seed)) for seed in seeds]
     after = [_result(bench, Run(name, trained, tested, seed)) for seed in seeds]
     images = bootstrap(np.stack([one.correct for one in before]), np.stack([one.correct for one in after]))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The cameras that a study compares, and what a receiver sees of a whole set."""
+"""The cameras that a study compares, and the screens of their receivers for a whole set."""
 from __future__ import annotations
 
 from dataclasses import dataclass
@@ -21,7 +21,7 @@ SUMMARIZE = ACTIONS.index("summarize")
 class Regions:
     """A camera: the preset ``paper``, whose feature is ``edge``, with these choices.
 
-    Irrelevant regions send the means of ``means`` x ``means`` blocks, of 0 nothing.
+    Irrelevant regions send the means of ``means`` x ``means`` blocks; with 0 they send nothing.
     """
 
     min_score: int = 5
@@ -32,12 +32,12 @@ class Regions:
 
     @property
     def name(self) -> str:
-        """Names all choices, for files and tables; those of the preset are left out."""
+        """The name of the camera in files and tables: all choices that differ from the preset."""
         return f"n{self.size}-edge{self.min_score}" + ("-shared" if self.neighborhood == "shared" else "") + (
             "-unfiltered" if self.filter == "none" else "") + (f"-means{self.means}" if self.means else "")
 
     def camera(self) -> Camera:
-        """The camera that it names."""
+        """Return the camera with these choices."""
         periphery: dict[str, Any] = {"render": {"irrelevant": "mean"}, "periphery": {"blocks": self.means}} if self.means else {}
         try:
             return Camera("paper", region={"size": self.size, "neighborhood": self.neighborhood}, denoise={"filter": self.filter},
@@ -47,21 +47,21 @@ class Regions:
 
 
 def name_of(regions: Regions | None) -> str:
-    """The name of a camera; without one, images are the originals."""
+    """Return the name of a camera; None stands for the originals."""
     return "original" if regions is None else regions.name
 
 
 @dataclass(frozen=True)
 class Seen:
-    """What a receiver sees of a set.
+    """The screens of a receiver for a set.
 
     Attributes
     ----------
     images : array (count, height, width) of uint8
     active : float
-        The share of regions that were sent.
+        Share of the regions that were sent.
     sent : float
-        Bytes that were sent, as a share of the bytes of the originals: pixels of active regions without padding, means, and two
+        Sent bytes as a share of the bytes of the originals: pixels of active regions without padding, means, and two
         bits for every region, as in ``summary.json`` of ``foveate simulate``.
     """
 
@@ -92,6 +92,6 @@ def seen(images: NDArray[np.uint8], regions: Regions | None) -> Seen:
 
 
 def _pixels(grid: tuple[int, ...], frame: tuple[int, ...], size: int) -> NDArray[np.int64]:
-    """The pixels of each region that are not padding."""
+    """Return the number of pixels of each region that are not padding."""
     rows, columns = (np.minimum(size, side - size * np.arange(count)) for count, side in zip(grid, frame))
     return np.asarray(np.outer(rows, columns), np.int64)

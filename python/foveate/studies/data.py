@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Labelled images for studies: IDX files, torchvision's folders of them, and pictures in folders. Nothing is downloaded."""
+"""Labelled images for studies: IDX files, torchvision's folders of IDX files, and pictures in folders. Nothing is downloaded."""
 from __future__ import annotations
 
 import gzip
@@ -14,7 +14,7 @@ from foveate._foveate import luma
 
 __all__ = ["DataSet", "Split", "StudyError", "read", "SETS"]
 
-#: Sets of IDX files, and the folders that hold them: torchvision's, and plain ones.
+#: Sets of IDX files, and the names of their folders: torchvision's and plain ones.
 SETS: dict[str, tuple[str, ...]] = {
     "mnist": ("MNIST/raw", "mnist", "mnist/raw"),
     "fashion-mnist": ("FashionMNIST/raw", "fashion-mnist", "fashion-mnist/raw"),
@@ -23,7 +23,7 @@ _PICTURES = (".jpg", ".jpeg", ".png", ".bmp", ".webp")
 
 
 class StudyError(ValueError):
-    """What a study cannot do, in one line for its user."""
+    """An error of a study, in one line for its user."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Split:
 
 @dataclass(frozen=True)
 class DataSet:
-    """A set in three parts: networks learn from ``train``, thresholds are chosen on ``validation``, ``test`` is only measured."""
+    """A set in three parts: networks learn from ``train``, thresholds are chosen on ``validation``, and results are measured on ``test``."""
 
     name: str
     classes: int
@@ -53,15 +53,15 @@ def read(name: str, folder: Path, *, alone: bool, validation: int, limit: float,
     name : "mnist", "fashion-mnist" or "pictures"
         ``pictures`` is ``train/CLASS/*`` and ``test/CLASS/*`` below the folder.
     folder : Path
-        Where to look.
+        The folder with the files.
     alone : bool
-        Whether it is the only set that is looked for, so that IDX files may lie in the folder itself.
+        Whether this is the only set of the study, so that IDX files may be in the folder itself.
     validation : int
-        Images at the end of the training images that no network learns from.
+        Number of images at the end of the training images that are kept for validation.
     limit : float
-        The share of every part that is used, from its beginning.
+        Share of every part that is used, from its beginning.
     size : int, optional
-        Images are scaled to this width and height.
+        Width and height to which images are scaled.
     """
     if name == "pictures":
         train, test, classes = _pictures(folder, size)
@@ -79,7 +79,7 @@ def read(name: str, folder: Path, *, alone: bool, validation: int, limit: float,
 
 
 def read_idx(path: Path) -> NDArray[np.uint8]:
-    """Read an array of bytes in the format of MNIST, gzipped or not."""
+    """Read an array of bytes in the IDX format of MNIST, gzipped or not."""
     try:
         content = path.read_bytes()
         if content[:2] == b"\x1f\x8b":
@@ -97,7 +97,7 @@ def read_idx(path: Path) -> NDArray[np.uint8]:
 
 
 def write_idx(path: Path, array: NDArray[np.uint8]) -> None:
-    """Write an array of bytes in the format of MNIST."""
+    """Write an array of bytes in the IDX format of MNIST."""
     header = bytes((0, 0, 8, array.ndim)) + np.array(array.shape, ">u4").tobytes()
     path.write_bytes(header + np.ascontiguousarray(array).tobytes())
 
@@ -132,7 +132,7 @@ def _idx_half(home: Path, half: str) -> Split:
 
 
 def _pictures(folder: Path, size: int | None) -> tuple[Split, Split, int]:
-    """Pictures in a fixed order without pattern, so that the last ones are of all classes."""
+    """Return pictures in a fixed order without a pattern, so that the last ones are of all classes."""
     if size is None:
         raise StudyError("--size is missing: pictures need one size, such as --size 224")
     if not (folder / "train").is_dir() or not (folder / "test").is_dir():

@@ -21,10 +21,10 @@ MODELS = ("lenet5", "resnet18", "resnet50", "vgg16")
 
 
 def lenet5(classes: int) -> nn.Sequential:
-    """LeNet-5 by the names of its paper (LeCun et al. 1998), in today's variant.
+    """Make LeNet-5 with the layer names of its paper (LeCun et al. 1998), in today's variant.
 
     C1 pads, so that images of 28 x 28 take the place of 32 x 32. Sub-sampling is the maximum, activations are ReLU, C3 sees all six
-    maps, and the output is linear. ReLU stands behind the maximum, where it has a quarter of the work and the same result.
+    maps, and the output is linear. ReLU follows the maximum, where it has a quarter of the work and the same result.
     """
     return nn.Sequential(OrderedDict([
         ("c1", nn.Conv2d(1, 6, 5, padding=2)), ("s2", nn.MaxPool2d(2)), ("r2", nn.ReLU()),
@@ -34,7 +34,7 @@ def lenet5(classes: int) -> nn.Sequential:
 
 
 class Grey(nn.Module):
-    """Gives grey images to a network of colour images, with the mean and scale that torchvision's networks are trained with."""
+    """A network for grey images around one for colour images, with the mean and scale of torchvision's trained networks."""
 
     mean: Tensor
     scale: Tensor

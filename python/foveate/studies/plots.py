@@ -22,7 +22,7 @@ _TITLES = {"mnist": "MNIST", "fashion-mnist": "FashionMNIST", "pictures": "pictu
 
 
 def accuracy(summary: Mapping[str, Any], folder: Path) -> None:
-    """Accuracy and bytes against the threshold, one column for each set."""
+    """Draw accuracy and bytes against the threshold, one column for each set."""
     figure, axes = _axes(2, len(summary["sets"]), heights=(2, 1))
     for column, entry in enumerate(summary["sets"]):
         upper, lower = axes[0][column], axes[1][column]
@@ -46,7 +46,7 @@ def accuracy(summary: Mapping[str, Any], folder: Path) -> None:
 
 
 def savings(summary: Mapping[str, Any], folder: Path) -> None:
-    """Accuracy against the share of bytes and of MACs, one row for each set, one line for each kind of camera."""
+    """Draw accuracy against the share of bytes and of MACs, one row for each set, one line for each kind of camera."""
     sets = list(dict.fromkeys(row["set"] for row in summary["rows"]))
     figure, axes = _axes(len(sets), 2)
     for number, name in enumerate(sets):
@@ -71,7 +71,7 @@ def savings(summary: Mapping[str, Any], folder: Path) -> None:
 
 
 def _legend(axes: Any, *, learned: bool) -> None:
-    """Kinds by colour, and what networks learned from by how a mark is filled."""
+    """Make the legend: the colour is the kind of camera, the filling of a mark says what networks learned from."""
     if learned:
         grey = {"color": "#5a5a5a", "marker": "o", "markersize": 4, "linewidth": 1}
         axes.plot([], [], label="filled: trained on originals", **grey)
@@ -89,7 +89,7 @@ def _axes(rows: int, columns: int, heights: tuple[int, ...] | None = None) -> tu
     except ImportError:
         raise StudyError("figures need matplotlib: pip install matplotlib") from None
     matplotlib.use("Agg")
-    # Names inside the SVG follow from its content alone.
+    # Identifiers inside the SVG depend only on its content.
     matplotlib.rcParams["svg.hashsalt"] = "foveate"
     from matplotlib import pyplot
 

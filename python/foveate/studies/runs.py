@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Runs of a study, each a file that appears whole and is named by its parameters, so that a second start goes on.
+"""Runs of a study. Each is a file that appears whole and is named by its parameters, so that a restarted study continues.
 
-A run trains a network on what one camera sends and tests it on the same, or tests a trained network on what another camera sends.
+A run trains a network on the output of one camera and tests it on that, or tests a trained network on the output of another camera.
 """
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ __all__ = ["Bench", "Result", "Run", "Settings", "complete", "write_whole"]
 
 @dataclass(frozen=True)
 class Settings:
-    """What all runs of a study share. Where it is kept is no part of it."""
+    """The settings that all runs of a study share. The folder of the results is not one of them."""
 
     model: str = "lenet5"
     epochs: int = 3
@@ -49,7 +49,7 @@ class Settings:
 
 @dataclass(frozen=True)
 class Run:
-    """One network on one set. Cameras are None for the originals."""
+    """A run: one network on one set. A camera of None stands for the originals."""
 
     set: str
     trained: Regions | None
@@ -58,19 +58,19 @@ class Run:
 
     @property
     def name(self) -> str:
-        """The name of its file."""
+        """The name of the run's file."""
         return f"{name_of(self.trained)}@{name_of(self.tested)}.s{self.seed:02}"
 
 
 @dataclass(frozen=True)
 class Result:
-    """What a run came to."""
+    """The result of a run."""
 
     values: dict[str, Any]
 
     @property
     def correct(self) -> NDArray[np.bool_]:
-        """Which test images were right."""
+        """One flag per test image: the network was right."""
         bits = np.unpackbits(np.frombuffer(bytes.fromhex(self.values["correct"]), np.uint8))
         return bits[:self.values["test_images"]].astype(bool)
 
@@ -106,7 +106,7 @@ class Bench:
         return seen(split.images, regions)
 
     def _home(self, name: str) -> Path:
-        """The folder of a set's runs, which names everything that they share: settings, images, version of torch."""
+        """Return the folder of a set's runs, whose name depends on everything that they share: settings, images, version of torch."""
         parts = self.set(name)
         shared = hashlib.sha256(json.dumps([asdict(self.settings), torch.__version__], sort_keys=True).encode())
         for part in (parts.train, parts.validation, parts.test):
@@ -117,11 +117,11 @@ class Bench:
         return self.folder / "runs" / f"{name}.{self.settings.model}.{shared.hexdigest()[:8]}"
 
     def path(self, run: Run) -> Path:
-        """The file of a run."""
+        """Return the path of a run's file."""
         return self.home(run.set) / f"{run.name}.json"
 
     def result(self, run: Run) -> Result | None:
-        """What a run came to, if it was made."""
+        """Return the result of a run, or None if it was not made."""
         path = self.path(run)
         if not path.is_file():
             return None
@@ -131,7 +131,7 @@ class Bench:
             raise StudyError(f"{path}: is no result of a run ({problem}); delete it, and the run is made again") from None
 
     def network(self, name: str, trained: Regions | None, seed: int, *, fresh: bool = False) -> nn.Module:
-        """A network with its initial weights, or as a run has trained it."""
+        """Return a network with its initial weights, or as a run has trained it."""
         parts, settings = self.set(name), self.settings
         weights = None if settings.weights is None else Path(settings.weights)
         model = training.initial(lambda: make(settings.model, parts.classes, parts.train.images.shape[1], weights), seed)
@@ -140,7 +140,7 @@ class Bench:
         return model
 
     def make(self, run: Run) -> None:
-        """Make the result of a run and write it."""
+        """Make a run, and write its result."""
         settings, parts = self.settings, self.set(run.set)
         if run.trained == run.tested:
             model = self.network(run.set, run.trained, run.seed, fresh=True)
@@ -175,7 +175,7 @@ def _bench(folder: Path, source: Path, settings: Settings, alone: bool) -> Bench
 
 
 def write_whole(target: Path, write: Callable[[Path], Any]) -> None:
-    """Write a file by ``write(path)`` so that it appears whole or not at all."""
+    """Write a file with ``write(path)``, so that it appears whole or not at all."""
     target.parent.mkdir(parents=True, exist_ok=True)
     partial = target.with_name(f".{target.name}.{os.getpid()}")
     try:
@@ -186,10 +186,10 @@ def write_whole(target: Path, write: Callable[[Path], Any]) -> None:
 
 
 def complete(bench: Bench, runs: Iterable[Run], *, jobs: int = 1, report: Callable[[str], None]) -> None:
-    """Make the results that are missing. Networks are trained before they are tested on other cameras."""
+    """Make the missing results. Networks are trained before they are tested on other cameras."""
     runs = list(runs)
     for regions in dict.fromkeys(run.tested for run in runs):
-        # A camera that cannot be is refused before any network is trained.
+        # An invalid camera is refused before any network is trained.
         if regions is not None:
             regions.camera()
     missing = [run for run in dict.fromkeys(runs) if bench.result(run) is None]
@@ -224,7 +224,7 @@ _WORKER: list[Bench] = []
 def _worker(bench: Bench) -> None:
     import signal
 
-    # Ctrl-C is the business of the process that waits.
+    # The waiting process handles Ctrl-C.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     _one_thread()
     _WORKER[:] = [bench]
@@ -235,5 +235,5 @@ def _make(run: Run) -> None:
 
 
 def _one_thread() -> None:
-    """Sums of several threads may have other bits, and processes side by side are faster for small networks."""
+    """Limit torch to one thread: sums of several threads may have other bits, and parallel processes are faster for small networks."""
     torch.set_num_threads(1)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Accuracy against what is saved: bytes of the camera and MACs of the network, over thresholds, sizes of regions and windows.
+"""The study of accuracy against savings: bytes of the camera and MACs of the network, over thresholds, region sizes and windows.
 
-Every image is a first frame. Its changes are what differs from a black picture, so MACs are needed where a window holds a pixel of an
-active region; the activations of a black picture are kept for the rest.
+Every image is a first frame. The network computes its difference from a black frame, so MACs are needed where a window has a pixel of an
+active region; elsewhere the activations of a black frame are used.
 """
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ __all__ = ["Plan", "study"]
 
 @dataclass(frozen=True)
 class Plan:
-    """What is run: ``seeds`` networks that learn from originals are tested on every camera, ``learned`` learn from its regions.
+    """The runs of the study: ``seeds`` networks that learn from originals are tested on every camera, ``learned`` networks learn from its
+    regions.
 
     MACs are counted on the first ``images`` of the test images.
     """
@@ -38,7 +39,7 @@ class Plan:
     images: int = 1000
 
     def cameras(self) -> dict[str, list[Regions]]:
-        """Cameras by what they have in common. Organizations give the same bits, so they are not among them."""
+        """Return the cameras in groups with common choices. All organizations give the same results, so they are not a choice."""
         kinds = {f"N = {size}": [Regions(score, size) for score in self.thresholds] for size in self.sizes}
         kinds["N = 8, windows of neighbors"] = [Regions(score, neighborhood="shared") for score in self.thresholds]
         kinds["N = 8, no median"] = [Regions(score, filter="none") for score in self.thresholds]
@@ -48,7 +49,7 @@ class Plan:
 
 
 def study(bench: Bench, plan: Plan, *, jobs: int = 1, report: Callable[[str], None]) -> dict[str, Any]:
-    """Make all runs that are missing, count MACs, and summarize: a dict that JSON can hold."""
+    """Make all missing runs, and count MACs. Return a summary, a dict for JSON."""
     every, learned = range(plan.seeds), range(min(plan.learned, plan.seeds))
     cameras = [camera for kind in plan.cameras().values() for camera in kind]
     runs = [Run(name, None, None, seed) for name in plan.sets for seed in every]
@@ -76,7 +77,7 @@ def _row(bench: Bench, name: str, kind: str, camera: Regions, macs: float, every
 
 
 def _difference(bench: Bench, name: str, trained: Regions | None, tested: Regions, seeds: range) -> float | None:
-    """Mean accuracy less that of the originals, seed by seed."""
+    """Return the mean difference of accuracy from the originals, seed by seed."""
     if not seeds:
         return None
     return float(np.mean([_values(bench, Run(name, trained, tested, seed))["test_accuracy"]
@@ -90,7 +91,7 @@ def _values(bench: Bench, run: Run) -> dict[str, Any]:
 
 
 def _macs(bench: Bench, name: str, cameras: Sequence[Regions], images: int, report: Callable[[str], None]) -> dict[Regions, float]:
-    """The share of MACs that each camera needs. It depends on masks alone, so one network serves for all."""
+    """Return the share of MACs that each camera needs. It depends only on masks, so one network is enough."""
     test = bench.set(name).test.images[:images]
     with tempfile.TemporaryDirectory(prefix="foveate-") as temporary:
         network, pictures = Path(temporary) / "network.onnx", Path(temporary) / "test-images-idx3-ubyte"
@@ -105,12 +106,12 @@ def _macs(bench: Bench, name: str, cameras: Sequence[Regions], images: int, repo
 
 
 def export(bench: Bench, name: str, path: Path) -> None:
-    """Write the network of seed 0 that has learned from originals as ONNX."""
+    """Write the network of seed 0 that learned from originals as ONNX."""
     import torch
 
     side = bench.set(name).test.images.shape[1]
     with warnings.catch_warnings():
-        # The older exporter needs no further package, and says that it is older.
+        # The older exporter needs no other package; it warns that it is older.
         warnings.simplefilter("ignore")
         try:
             torch.onnx.export(bench.network(name, None, 0).eval(), (torch.zeros(1, 1, side, side),), str(path), opset_version=17,

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""How far a difference between two ways of training can be believed.
+"""Tests of the significance of a difference between two ways of training.
 
-Three questions are asked. Would other seeds change it: a t interval over paired seeds. Would other test images change it: a bootstrap
-over images. Could one pair of networks differ by chance: McNemar's test.
+There are three of them. A t interval over paired seeds tests whether other seeds would change the difference, a bootstrap over images
+whether other test images would, and McNemar's test whether one pair of networks could differ by chance.
 """
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ _QUANTILES = (
     12.7062, 4.3027, 3.1824, 2.7764, 2.5706, 2.4469, 2.3646, 2.3060, 2.2622, 2.2281, 2.2010, 2.1788, 2.1604, 2.1448, 2.1314,
     2.1199, 2.1098, 2.1009, 2.0930, 2.0860, 2.0796, 2.0739, 2.0687, 2.0639, 2.0595, 2.0555, 2.0518, 2.0484, 2.0452, 2.0423,
 )
-#: That of the normal distribution.
+#: The 97.5 % quantile of the normal distribution.
 _NORMAL = 1.959964
 
 
 def t_quantile(freedom: int) -> float:
-    """The 97.5 % quantile of Student's t, exact to 4 digits.
+    """Return the 97.5 % quantile of Student's t, exact to 4 digits.
 
     Above 30 degrees of freedom the first terms of its expansion at the normal distribution are enough (Abramowitz and Stegun 26.7.5).
     """
@@ -38,7 +38,7 @@ def t_quantile(freedom: int) -> float:
 
 
 def t_interval(differences: Sequence[float]) -> tuple[float, float, float]:
-    """The mean of differences of paired runs, and its 95 % interval. One difference alone has no interval: nan."""
+    """Return the mean of differences of paired runs, and the ends of its 95 % interval, which are nan for a single difference."""
     values = np.asarray(differences, float)
     mean = float(values.mean())
     if len(values) < 2:
@@ -48,17 +48,17 @@ def t_interval(differences: Sequence[float]) -> tuple[float, float, float]:
 
 
 def mcnemar(only_first: int, only_second: int) -> float:
-    """The exact two-sided p of McNemar's test.
+    """Return the exact two-sided p of McNemar's test.
 
     Parameters
     ----------
     only_first, only_second : int
-        Images that only the first network, and only the second one, gets right.
+        Number of images that only the first network, or only the second one, gets right.
 
     Returns
     -------
     float
-        The probability of a split at least as uneven, if each of these images were as likely to fall to either network.
+        Probability of a split at least as uneven, if each of these images were right in either network with equal probability.
     """
     count, few = only_first + only_second, min(only_first, only_second)
     ways = term = 1
@@ -69,12 +69,12 @@ def mcnemar(only_first: int, only_second: int) -> float:
 
 
 def bootstrap(first: NDArray[Any], second: NDArray[Any], *, rounds: int = 2000, seed: int = 0) -> tuple[float, float]:
-    """The 95 % interval of the difference of accuracy, ``second`` minus ``first``, over draws of test images with replacement.
+    """Return the 95 % interval of the difference of accuracy, ``second`` minus ``first``, over draws of test images with replacement.
 
     Parameters
     ----------
     first, second : arrays (seeds, images) of bool
-        Which images the networks get right. Networks stay; images are drawn, the same for all networks.
+        Flags of the images that each network gets right. Images are drawn, the same for all networks; networks are not.
     """
     per_image = second.mean(axis=0) - first.mean(axis=0)
     draws = np.random.default_rng(seed)

@@ -18,7 +18,7 @@ PAPER: Mapping[str, float] = {"mnist": 0.13, "fashion-mnist": 0.2}
 
 
 def write_csv(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
-    """Write rows of the same keys."""
+    """Write rows with the same keys as CSV."""
     text = io.StringIO()
     table = csv.DictWriter(text, list(rows[0]), lineterminator="\n")
     table.writeheader()
@@ -27,24 +27,24 @@ def write_csv(path: Path, rows: Sequence[Mapping[str, Any]]) -> None:
 
 
 def write_json(path: Path, values: Any) -> None:
-    """Write what JSON can hold."""
+    """Write a value as JSON."""
     write_text(path, json.dumps(values, indent=1) + "\n")
 
 
 def write_text(path: Path, text: str) -> None:
-    """Write a text so that it appears whole or not at all."""
+    """Write a text to a file, which appears whole or not at all."""
     write_whole(path, lambda partial: partial.write_text(text, encoding="utf-8"))
 
 
 def write_all(path: Path, rows: Sequence[Mapping[str, Any]], summary: Mapping[str, Any], text: str) -> None:
-    """Write the rows, the summary and the table of a study beside each other, as ``path`` with the extension of each."""
+    """Write the rows, the summary and the table of a study to files with the same ``path`` and different extensions."""
     write_csv(path.with_suffix(".csv"), rows)
     write_json(path.with_suffix(".json"), summary)
     write_text(path.with_suffix(".md"), text)
 
 
 def accuracy_markdown(summary: Mapping[str, Any]) -> str:
-    """The table beside the paper's, and what each row comes to in words."""
+    """Return the table beside the paper's, and a conclusion for each row in words."""
     lines = [
         "| set | trained on | tested on | seeds | accuracy | difference, points | over seeds | over images | McNemar | bytes | paper |",
         "| --- | --- | --- | ---: | ---: | ---: | --- | --- | --- | ---: | ---: |",
@@ -53,7 +53,7 @@ def accuracy_markdown(summary: Mapping[str, Any]) -> str:
         seeds = entry["table"][0]["seeds"]
         lines.append(f"| {entry['set']} | originals | originals | {seeds} | {100 * entry['original']['mean']:.2f} % | | | | | 100.0 % | |")
         for row in entry["table"]:
-            # The paper's camera has no other row.
+            # The paper's camera has only this row.
             paper = PAPER.get(entry["set"]) if row["trained"] != "original" and entry["model"] == "lenet5" else None
             lines.append(
                 f"| {entry['set']} | {_kind(row['trained'])} | {row['tested']} | {row['seeds']} | {100 * row['accuracy']['mean']:.2f} % "
@@ -66,7 +66,7 @@ def accuracy_markdown(summary: Mapping[str, Any]) -> str:
 
 
 def verdict(entry: Mapping[str, Any]) -> Sequence[str]:
-    """What the rows of a set come to. A difference is called one only if neither other seeds nor other images explain it."""
+    """Return the conclusions of a set. A difference is reported only if neither other seeds nor other images explain it."""
     return [f"{entry['set']}, {_kind(row['trained'])}, tested on {row['tested']}: {_judged(row)}" for row in entry["table"]]
 
 
@@ -84,7 +84,7 @@ def _judged(row: Mapping[str, Any]) -> str:
 
 
 def savings_markdown(summary: Mapping[str, Any]) -> str:
-    """A row for every camera of every set."""
+    """Return a row for every camera of every set."""
     lines = ["| set | camera | active | bytes | MACs needed | trained on originals, points | trained on regions, points |",
              "| --- | --- | ---: | ---: | ---: | ---: | ---: |"]
     for row in summary["rows"]:

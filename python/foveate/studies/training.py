@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Training with a fixed budget. Runs of one seed are paired: they start from the same weights and see images in the same order."""
+"""Training for a fixed number of epochs. Runs of one seed are paired: they have the same initial weights and the same order of images."""
 from __future__ import annotations
 
 import hashlib
@@ -20,12 +20,12 @@ except ModuleNotFoundError:
 
 __all__ = ["check_device", "digest", "initial", "order", "predict", "train"]
 
-#: Images of a forward pass without training.
+#: Number of images of a forward pass without training.
 _MANY = 250
 
 
 def initial(make: Any, seed: int) -> nn.Module:
-    """Make a network by ``make()`` whose initial weights depend on the seed alone."""
+    """Make a network with ``make()``, whose initial weights depend only on the seed."""
     with torch.random.fork_rng(devices=[]):
         torch.manual_seed(seed)
         model: nn.Module = make()
@@ -33,23 +33,23 @@ def initial(make: Any, seed: int) -> nn.Module:
 
 
 def order(count: int, epoch: int, seed: int) -> Tensor:
-    """The order of the images of an epoch, which depends on the seed alone."""
+    """Return the order of the images of an epoch, which depends only on the seed."""
     return torch.from_numpy(np.random.default_rng((seed, epoch)).permutation(count))
 
 
 def train(model: nn.Module, split: Split, *, epochs: int, batch: int, rate: float, seed: int, device: str = "cpu") -> None:
-    """Train a network by Adam, with a rate that falls to 0 over the run.
+    """Train a network with Adam, at a rate that falls to 0 over the run.
 
-    The last weights are taken. Nothing is chosen on the way, so no part of the data but ``split`` has any influence.
+    The last weights are the result. No choice is made during the run, so only ``split`` has an influence.
     """
-    # Some layers of large networks have no deterministic form on GPUs; there torch warns, and runs are paired all the same.
+    # Some layers of large networks have no deterministic form on GPUs. Torch warns then, and runs are paired all the same.
     torch.use_deterministic_algorithms(True, warn_only=device != "cpu")
     model.to(device).train()
     images = torch.from_numpy(np.array(split.images)).to(device)[:, None]
     labels = torch.from_numpy(split.labels).to(device)
     optimizer = torch.optim.Adam(model.parameters(), rate, fused=True)
     steps, done = epochs * -(-len(labels) // batch), 0
-    # For networks with dropout.
+    # Dropout needs this seed.
     torch.manual_seed(seed)
     for epoch in range(epochs):
         shuffled = order(len(labels), epoch, seed).to(device)
@@ -63,8 +63,8 @@ def train(model: nn.Module, split: Split, *, epochs: int, batch: int, rate: floa
 
 
 def check_device(device: str) -> None:
-    """Refuse a device that this machine does not have."""
-    # Products of matrices on GPUs are deterministic only with this, which is read when the device is first used.
+    """Raise an error for a device that this machine does not have."""
+    # Products of matrices on GPUs are deterministic only with this variable, which is read when the device is first used.
     os.environ.setdefault("CUBLAS_WORKSPACE_CONFIG", ":4096:8")
     try:
         torch.empty(1, device=device)
@@ -73,7 +73,7 @@ def check_device(device: str) -> None:
 
 
 def predict(model: nn.Module, images: NDArray[np.uint8], device: str = "cpu") -> NDArray[np.int64]:
-    """The class of every image."""
+    """Return the predicted class of every image."""
     model.to(device).eval()
     parts = []
     with torch.inference_mode():
@@ -84,7 +84,7 @@ def predict(model: nn.Module, images: NDArray[np.uint8], device: str = "cpu") ->
 
 
 def digest(model: nn.Module, *, length: int | None = 16) -> str:
-    """A digest of all weights, to see whether two networks are the same."""
+    """Return a digest of all weights, to compare two networks."""
     state = hashlib.sha256()
     for name, tensor in model.state_dict().items():
         state.update(name.encode())
