@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Whether a module grows with the frame that should not: memory that is kept out of block RAM, logic for every region.
+"""Finds modules that grow with the frame but should not: memory that is kept out of block RAM, logic for every region.
 
     scripts/area_growth.py            every design
     scripts/area_growth.py DESIGN...  some of them, such as 'serial parallel'
-    scripts/area_growth.py --quick    one of them, which has most of the modules
-    scripts/area_growth.py -v         also what each module takes
+    scripts/area_growth.py --quick    one design, which has most of the modules
+    scripts/area_growth.py -v         also prints the area of each module
 
-Each design is generated for a small and a large frame, and taken by Yosys as far as memory is mapped, module by module.
-What is counted is near to LUTs: bits of the outputs of logic cells, and LUTs of distributed RAM. Numbers of words and regions
-get wider with the frame, so a module may double and take a little more; one made of block RAM may take more for each.
+Each design is generated for a small and a large frame, and synthesized by Yosys up to the mapping of memories, module by module.
+The counts are close to LUTs: bits of the outputs of logic cells, and LUTs of distributed RAM. Numbers of words and regions
+get wider with the frame, so a module may grow to a little more than twice; one made of block RAM may grow with each block.
 
 FOVEATE         an executable to use instead of the debug build (scripts/foveate.sh)
 FOVEATE_YOSYS   another executable than that in PATH
-JOBS            how many at a time (default: number of processors)
+JOBS            number of parallel jobs (default: number of processors)
 """
 import argparse
 import concurrent.futures
@@ -31,12 +31,12 @@ DEEP = "hardware.pipelining='deep'"
 SENT = "temporal.reference='last-sent'"
 MEDIAN = "denoise.filter='median3x3'"
 ALL = "spatial=[{feature='edge'},{feature='corner'},{feature='mad'},{feature='variance'}]"
-# Small regions: many of them in few pixels.
+# Small regions, so that few pixels have many of them.
 RASTER_SIZES = [["region.size=4", "frame={width=128,height=96}"], ["region.size=4", "frame={width=512,height=512}"]]
-# Lanes and RPUs must stay as they are; the array of them grows with the frame.
+# Lanes and RPUs must not grow; the array of them grows with the frame.
 SERIAL_SIZES = [["frame={width=64,height=64}"], ["frame={width=256,height=256}"]]
 DESIGNS = [
-    # Name, keys, and those of the small frame and of the large one. The first one is the quick set.
+    # Name, keys, and the keys of the small frame and of the large one. The first design is the quick set.
     ("raster last-sent deep", [*RASTER, SENT, DEEP], RASTER_SIZES),
     ("raster external no forwarding", [*RASTER, MEDIAN, "hardware.store='external'", "hardware.forward=false"], RASTER_SIZES),
     ("raster last-sent raw", [*RASTER, SENT, MEDIAN, "render.payload='raw'"], RASTER_SIZES),
@@ -54,10 +54,10 @@ DESIGNS = [
     ("pipelined last-sent deep", [SENT, DEEP], SERIAL_SIZES),
 ]
 QUICK = 1
-# LUTs of a cell of distributed RAM.
+# Number of LUTs of each cell of distributed RAM.
 MEMORY_LUTS = {"RAM32M": 4, "RAM32M16": 8, "RAM64M": 4, "RAM64M8": 8, "RAM128X1D": 4, "RAM256X1D": 8, "RAM32X1D": 2, "RAM64X1D": 2}
 BLOCKS = {"RAMB18E2": 1, "RAMB36E2": 2, "URAM288": 8}
-# Cells that are no logic: wires and flip-flops.
+# Cells without logic: wires and flip-flops.
 WIRES = ("$dff", "$sdff", "$adff", "$slice", "$concat", "$_DFF", "$_SDFF", "$_NOT_", "FD")
 # A module of one instance per region, whose size is the number of regions.
 ARRAYS = {"rcm", "serial_array"}
@@ -67,17 +67,17 @@ FACTOR, MARGIN, PER_BLOCK = 2, 64, 60
 
 
 def source_of(name, module):
-    """The name of a module in the source, which parameters have changed."""
+    """Returns the name in the source of a module whose name parameters have changed."""
     return module["attributes"].get("hdlname", name).lstrip("\\").split(" ")[-1]
 
 
 def blocks_in(module):
-    """Its own 18-Kbit blocks."""
+    """Returns the number of 18-Kbit blocks of a module without its instances."""
     return sum(BLOCKS.get(cell["type"], 0) for cell in module["cells"].values())
 
 
 def weights(text):
-    """What each module of the source takes, at the most of its instances: logic, and 18-Kbit blocks."""
+    """Returns the area of each module of the source, the largest of its instances: logic, and 18-Kbit blocks."""
     boxes = ("blackbox", "whitebox")
     modules = json.loads(text)["modules"].items()
     modules = {name: module for name, module in modules if not any(box in module["attributes"] for box in boxes)}
@@ -87,7 +87,7 @@ def weights(text):
         for cell in module["cells"].values():
             kind = cell["type"]
             if kind in modules:
-                # What chooses between memories grows with them.
+                # The selection between memories grows with their number.
                 if source_of(kind, modules[kind]) == MEMORY:
                     blocks += blocks_in(modules[kind])
             elif kind in BLOCKS or kind.startswith(WIRES):
@@ -103,7 +103,7 @@ def weights(text):
 
 
 def synthesize(foveate, keys, frame):
-    """The weights of a design for a frame."""
+    """Returns the areas of the modules of a design for a frame."""
     with tempfile.TemporaryDirectory() as folder:
         command = [foveate, "generate", "--preset", "bare", "-o", "core", "--quiet"]
         command += [word for key in [*keys, *frame] for word in ("--set", key)]
@@ -117,7 +117,7 @@ def synthesize(foveate, keys, frame):
 
 
 def grown(small, large):
-    """Of each module that takes more than it should: a line."""
+    """Yields a line for each module that grows more than it should."""
     for module in sorted(large):
         if module in ARRAYS:
             continue

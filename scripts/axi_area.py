@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What cores on AXI take, part by part, by `foveate estimate`: writes docs/data/axi-area.csv and prints its rows.
+"""Measures the area of cores on AXI, part by part, with `foveate estimate`. Writes docs/data/axi-area.csv and prints its rows.
 
     scripts/axi_area.py
 
@@ -23,7 +23,7 @@ DESIGNS = {
 
 
 def rows(program, name, settings):
-    """The parts of a core, and all of it; LUTs with two shift registers in one."""
+    """Yields the areas of the parts of a core and of the whole core; a LUT may hold two shift registers."""
     made = subprocess.run([program, "estimate", "--json", "--quiet", *FRAME, *settings], check=True, capture_output=True, text=True)
     report = json.loads(made.stdout)
     bus = report["bus"]

@@ -21,7 +21,7 @@ import onnxruntime
 
 
 def infer(path, clip, size, mode, threads, options):
-    """The summary of a run."""
+    """Returns the summary of a run."""
     width, height = size
     fit = ["--set", f"frame={{width={width},height={height}}}"] if clip.startswith("scene:") else ["--resize", f"{width}x{height}"]
     with tempfile.TemporaryDirectory() as folder:
@@ -38,7 +38,7 @@ def session(path, threads):
 
 
 def dense_time(runner, shape):
-    """Seconds of a picture in onnxruntime, the best of some."""
+    """Returns the seconds of a frame in onnxruntime, the best of some runs."""
     name = runner.get_inputs()[0].name
     picture = np.random.default_rng(1).random(shape, dtype=np.float32)
     times = []
@@ -50,19 +50,19 @@ def dense_time(runner, shape):
 
 
 def shape_of(runner):
-    """The shape of the pictures; networks for any size see 640x360."""
+    """Returns the shape of the frames; networks for any size get 640x360."""
     shape = runner.get_inputs()[0].shape
     return shape if all(isinstance(length, int) for length in shape) else [1, shape[1], 360, 640]
 
 
 def tract_time(program, path, shape):
-    """Seconds of a picture in tract, the best of some."""
+    """Returns the seconds of a frame in tract, the best of some runs."""
     command = [program, path, *map(str, shape)]
     return float(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
 
 
 def row(path, clip, threads, options):
-    """Times of a network on a clip, as a row of the table."""
+    """Measures a network on a clip. Returns a row of the table."""
     runner = session(path, threads)
     shape = shape_of(runner)
     size = shape[3], shape[2]
@@ -80,7 +80,7 @@ def row(path, clip, threads, options):
     if not options.tract:
         del shown[1]
     ratios = [f"{min(theirs) / min(times):.2f}x" for times in (dense, exact)]
-    # Of the blocks of a whole frame, and how time follows them.
+    # The share of computed blocks, and the time in relation to it.
     blocks = found["macs"]["scheduled"] / found["macs"]["whole"]
     shares = [f"{100 * found['changed_share']:.1f} %", f"{100 * blocks:.0f} %", f"{100 * min(exact) / min(dense):.0f} %"]
     name = os.path.splitext(os.path.basename(path))[0]
@@ -89,7 +89,7 @@ def row(path, clip, threads, options):
 
 
 def networks(folder, names):
-    """The ONNX files of a folder: those of these names, or all."""
+    """Returns the ONNX files of a folder with these names, or all."""
     known = sorted(glob.glob(os.path.join(folder, "*.onnx")))
     if not known:
         raise ValueError(f"there is no ONNX file in `{folder}`; `scripts/networks.py {folder}` makes some")

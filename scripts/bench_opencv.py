@@ -9,7 +9,7 @@ THROUGHPUT = sys.argv[1]
 ANCHOR = os.path.join(os.environ["FOVEATE_ANCHOR"], "cv_pipeline.py")
 CLIPS = os.environ["FOVEATE_CLIPS"]
 ROUNDS = int(os.environ.get("ROUNDS", "5"))
-# Frames given at a time where several are in memory.
+# Number of frames in a batch, where several are in memory.
 BATCHES = {"1920x1080": 4, "224x224": 32}
 SIZES = {"1920x1080": ("c1080.npy", 32), "224x224": ("c224.npy", 8)}
 CASES = {"edge": "pipeline:edge", "edge,corner,mad": "pipeline:all(edge+harris+mad)"}

@@ -26,7 +26,7 @@ SECONDS = 0.8
 
 
 def seconds_per_frame(step, frames):
-    """The mean of the faster half of the frames, as cv_pipeline.py and the engine's example have it."""
+    """Returns the mean of the faster half of the frames, as cv_pipeline.py and the engine's example compute it."""
     times, began, number = [], time.perf_counter(), 0
     while time.perf_counter() - began < SECONDS or number < 5:
         frame = frames[number % len(frames)]
@@ -39,7 +39,7 @@ def seconds_per_frame(step, frames):
 
 
 def reading(camera):
-    """A step whose decisions, scores and screen are read, too."""
+    """Runs a step, and reads its decisions, scores and screen."""
 
     def step(frame):
         outcome = camera.step(frame)

@@ -12,14 +12,14 @@ import tempfile
 FOVEATE = os.environ["FOVEATE"]
 SEEDS = os.environ.get("SEEDS", "5")
 TABLE = "docs/data/boards.csv"
-# What nextpnr calls logic, flip-flops of their own, block RAM and large RAM in each family.
+# The names in nextpnr of logic, separate flip-flops, block RAM and large RAM, by family.
 LOGIC = ["ICESTORM_LC", "TRELLIS_COMB", "LUT4"]
 BLOCKS = ["ICESTORM_RAM", "DP16KD", "BSRAM"]
 LARGE = ["ICESTORM_SPRAM"]
 
 
 def boards():
-    """Names of those that need no Vivado."""
+    """Returns the names of the boards that need no Vivado."""
     listed = json.loads(subprocess.run([FOVEATE, "build", "--list", "--json"], check=True, capture_output=True).stdout)
     return [board["name"] for board in listed if not board["part"].startswith("xc")]
 
@@ -35,7 +35,7 @@ def row(name):
     with tempfile.TemporaryDirectory() as folder:
         command = [FOVEATE, "build", "--board", name, "-o", f"{folder}/out", "--seeds", SEEDS, "--json"]
         made = subprocess.run(command, stdout=subprocess.PIPE)
-        # One that is too slow is shown, too.
+        # A board that is too slow gets a row, too.
         if made.returncode not in (0, 1) or not made.stdout:
             made.check_returncode()
         built = json.loads(made.stdout)

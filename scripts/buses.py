@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Cores on AXI in Icarus, between sources, sinks and masters of cocotbext-axi (tb/cocotb).
 
-Each design is generated, played, and decoded; what a receiver sees must be what `simulate` says of the frames that came, as the
-core repairs them. scripts/buses.sh calls this with the Python that has cocotb.
+Each design is generated and simulated, and its packets are decoded. The screen of a receiver must be that of `simulate` for the
+incoming frames as the core repairs them. scripts/buses.sh calls this with the Python that has cocotb.
 
   scripts/buses.sh            all designs, and faults that the tests must find
-  scripts/buses.sh --quick    the first
+  scripts/buses.sh --quick    the first design
 """
 
 import filecmp
@@ -24,7 +24,7 @@ from cocotb_tools.runner import get_runner
 ROOT = Path(__file__).resolve().parent.parent
 FOVEATE = os.environ["FOVEATE"]
 BENCHES = ROOT / "tb/cocotb"
-# The smallest in which all that may happen does.
+# The smallest frames in which all situations occur.
 DESIGNS = {
     "edges": {"frame": "{width=64,height=40}"},
     "means": {
@@ -41,11 +41,11 @@ DESIGNS = {
         "temporal.reference": "'last-sent'",
     },
 }
-# Where regions may be dropped, what a receiver sees is not what `simulate` says: there only packets are checked.
+# If regions may be dropped, the screen of a receiver is not that of `simulate`, so only packets are checked.
 MAY_DROP = {"sink_that_stops"}
-# In these a reset or a restart comes before the frames that are compared.
+# In these tests a reset or a restart comes before the frames that are compared.
 FIRST_NUMBER = {"not_enabled": 2}
-# A test is only worth something if it fails where something is wrong: module, text, what stands there instead, and the test.
+# The faults that the tests must find: module, text, replacement, and the test.
 CONTROLS = [
     ("packet_writer", "wire step = !valid_o || ready_i;", "wire step = 1'b1;", "clean_video"),
     ("axi_video", "first_word ? COPY : FILL", "COPY", "damaged_video"),
@@ -64,7 +64,7 @@ def foveate(*arguments, check=True):
 
 
 def registers(core):
-    """Names and addresses, as REGISTERS.md has them."""
+    """Returns names and addresses of the registers in REGISTERS.md."""
     text = (core / "REGISTERS.md").read_text()
     return {name: int(address, 16) for address, name in re.findall(r"^\| (0x[0-9A-F]+) \| `(\w+)`", text, re.MULTILINE)}
 
@@ -80,14 +80,14 @@ def generate(folder, settings):
 
     about = {"width": number("width"), "height": number("height"), "bits": number("pixel_bits")}
     about |= {"lanes": number("pixels_per_clock"), "registers": registers(core)}
-    # Decisions come some lines behind the last pixel.
+    # Decisions come some lines after the last pixel.
     about["quiet"] = about["width"] * number("size") * 3 + 1000
     (folder / "core.json").write_text(json.dumps(about))
     return core
 
 
 def play(folder, core, test=None):
-    """Runs the tests, or one, in Icarus; says which passed."""
+    """Runs all tests or one in Icarus. Returns those that passed."""
     sources = [core / line for line in (core / "rcm_axi.f").read_text().split()]
     runner = get_runner("icarus")
     log = folder / "log.txt"
@@ -105,7 +105,7 @@ def play(folder, core, test=None):
 
 
 def same(folder, core):
-    """Whether what was received is what `simulate` says; else what differs."""
+    """Compares the received frames with those of `simulate`. Returns the difference, if any."""
     config = core / "design.toml"
     seen, sim = folder / "seen", folder / "sim"
     decoded = foveate("decode", folder / "packets.bin", "-c", config, "-o", seen, "-q", check=False)
@@ -113,7 +113,7 @@ def same(folder, core):
     if folder.name in MAY_DROP:
         kinds = {line.split(",")[0] for line in losses.splitlines()[1:]}
         return None if kinds <= {"dropped-region", "dropped-row"} else f"losses: {kinds}"
-    # A stream that a restart begins again has frames of which nothing came.
+    # The numbers of a stream after a restart include frames without packets.
     if decoded.returncode != 0 and folder.name not in FIRST_NUMBER:
         return decoded.stderr
     foveate("simulate", folder / "frames", "-c", config, "-o", sim, "-q")
@@ -129,7 +129,7 @@ def same(folder, core):
 
 
 def controls(settings):
-    """Plants faults; says how many were not found."""
+    """Plants faults. Returns the number of those that were not found."""
     missed = 0
     for module, before, after, test in CONTROLS:
         with tempfile.TemporaryDirectory() as temporary:

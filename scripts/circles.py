@@ -7,8 +7,8 @@
 A file that imports a second one, which imports the first, can only be read together with it. Circles are allowed between a
 module and those in its folder: parent and child are one thing. This prints every other circle, and fails if there is one.
 
-An import is a `use`, or a path from `crate`. What `pub use` passes on counts for the file that has it. Comments and what
-follows `#[cfg(test)]` are not looked at.
+An import is a `use`, or a path from `crate`. An item that `pub use` passes on counts for the file that defines it. Comments and
+the code after `#[cfg(test)]` are ignored.
 """
 
 import re
@@ -22,12 +22,12 @@ PATH = re.compile(r"\bcrate((?:::\w+)+)")
 
 
 def code(text):
-    """The text without comments and its tests."""
+    """Returns a text without its comments and tests."""
     return re.sub(r"//.*", "", text.split("#[cfg(test)]\nmod tests {")[0])
 
 
 def paths(tree, before=()):
-    """The paths of a `use`, each as a tuple: `a::{b, c::d}` are (a, b) and (a, c, d)."""
+    """Returns the paths of a `use`, each as a tuple: `a::{b, c::d}` gives (a, b) and (a, c, d)."""
     found, part, depth = [], "", 0
     for character in tree + ",":
         depth += {"{": 1, "}": -1}.get(character, 0)
@@ -45,7 +45,7 @@ def paths(tree, before=()):
 
 
 class Crate:
-    """The modules of a crate, each a tuple of names; () is its root."""
+    """Returns the modules of a crate, each a tuple of names; () is the root."""
 
     def __init__(self, texts):
         self.texts = {module: code(text) for module, text in texts.items()}
@@ -57,7 +57,7 @@ class Crate:
                         self.passed_on[(*module, path[-1])] = target
 
     def absolute(self, module, path):
-        """A path from the root of the crate; none if it leads out of the crate."""
+        """Returns a path from the root of the crate, or None if it leads out of the crate."""
         if path[0] == "crate":
             return path[1:]
         if path[0] == "self":
@@ -68,7 +68,7 @@ class Crate:
         return module + path if module + path[:1] in self.texts else None
 
     def owner(self, path, steps=8):
-        """The module that has what is at a path, behind what is passed on."""
+        """Returns the module that defines the item at a path, following `pub use`."""
         for length in range(len(path), -1, -1):
             if path[:length] not in self.texts:
                 continue
@@ -79,7 +79,7 @@ class Crate:
         return None
 
     def imports(self, module):
-        """The modules that a module imports but its parents and children."""
+        """Returns the modules that a module imports, except its parents and children."""
         text = self.texts[module]
         found = [self.absolute(module, path) for tree in USE.findall(text) for path in paths(tree)]
         found += [tuple(path.split("::")[1:]) for path in PATH.findall(text)]
@@ -87,7 +87,7 @@ class Crate:
         return {other for other in owners if not is_related(module, other)}
 
     def circles(self):
-        """The sets of modules each of which reaches all others of its set."""
+        """Returns the sets of modules in which each module reaches all others."""
         edges = {module: self.imports(module) for module in self.texts}
         reached = {module: reach(edges, module) for module in edges}
         in_circle = {module for module in edges if module in reached[module]}
@@ -96,13 +96,13 @@ class Crate:
 
 
 def is_related(one, other):
-    """Whether one is the other, or stands in its folder."""
+    """Returns whether two modules are the same, or one is in the folder of the other."""
     shorter = min(len(one), len(other))
     return bool(shorter) and one[:shorter] == other[:shorter] or not one or not other
 
 
 def reach(edges, start):
-    """What a module imports, and what these import, and so on."""
+    """Returns the modules that a module imports, directly and indirectly."""
     found, left = set(), [start]
     while left:
         for other in edges[left.pop()] - found:
@@ -112,7 +112,7 @@ def reach(edges, start):
 
 
 def crate_at(folder):
-    """The crate whose sources are in a folder."""
+    """Returns the crate whose sources are in a folder."""
     texts = {}
     for file in sorted(folder.rglob("*.rs")):
         names = file.relative_to(folder).with_suffix("").parts

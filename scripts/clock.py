@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""How far the clock that a netlist lets expect is from the one that nextpnr reaches on an ECP5. Prints the rows of docs/data/clock-ecp5.csv.
+"""Compares the clock estimated from a netlist with the one that nextpnr reaches on an ECP5. Prints the rows of docs/data/clock-ecp5.csv.
 
     scripts/clock.py [--seeds N] [DESIGN...]     by default 5 seeds and every design
 
 Each design is placed by `foveate estimate --place-and-route`, whose results are cached: a second run takes seconds.
 
 FOVEATE                an executable to use instead of the debug build (scripts/foveate.sh)
-FOVEATE_NEXTPNR_ECP5   nextpnr for the ECP5 where it is not in PATH (scripts/python_tools.sh --route)
+FOVEATE_NEXTPNR_ECP5   nextpnr for the ECP5 if it is not in PATH (scripts/python_tools.sh --route)
 """
 import argparse
 import json
@@ -27,7 +27,7 @@ SERIAL = ["hardware.fold=4", "frame={width=32,height=32}"]
 
 
 def designs():
-    """Name, preset, changed keys and level of each design."""
+    """Yields name, preset, changed keys and level of each design."""
     for feature in FEATURES:
         spatial = f"spatial=[{{feature='{feature}'}}]"
         yield f"pipelined {feature}", "bare", [spatial], "rpu"
@@ -44,7 +44,7 @@ def designs():
 
 
 def place(foveate, preset, keys, level, seeds):
-    """What the command reports of a design."""
+    """Returns the report of the command about a design."""
     command = [foveate, "estimate", "--place-and-route", DEVICE, "--seeds", str(seeds), "--level", level, "--preset", preset]
     command += [word for key in keys for word in ("--set", key)]
     run = subprocess.run([*command, "--json", "--quiet"], capture_output=True, text=True, check=False)
@@ -54,7 +54,7 @@ def place(foveate, preset, keys, level, seeds):
 
 
 def row(name, placed):
-    """A line of the table, and the error of the estimate as a part of what was reached."""
+    """Returns a line of the table, and the error of the estimate as a share of the reached clock."""
     fmax, estimate, path = placed["fmax"], placed["estimate"], placed["critical"]
     error = estimate["mhz"] / fmax["median_mhz"] - 1
     cells = [name, *(f"{placed[key]['used']:,}" for key in ("logic", "ff", "block_ram"))]

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Compares networks with onnxruntime: whether each is read, how far its outputs are from onnxruntime's, and whether parts have the bits of
-the whole.
+"""Compares networks with onnxruntime: tests whether each is read, how far its outputs are from onnxruntime's, and whether partial
+results are equal to those of whole frames, bit by bit.
 
     compare_networks.py FILE.onnx... [--size WIDTHxHEIGHT] [--highest H] [--limit L]
 
 The input is noise from 0 to H (1). The difference is the largest of any output, as a share of that output's largest value (of 0.01 at least);
-above the limit (1e-4) the script fails, as it does where a part differs from the whole. A network of 16-bit values is compared with itself cast to
-32 bits, and beside that as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network (its path
+above the limit (1e-4) the script fails, and so it does if a partial result differs from the whole. A network of 16-bit values is compared
+with its form of 32 bits, and also as it is. Times are those of one thread. Needs onnxruntime and onnx, and the example `outputs` of crates/network (its path
 in OUTPUTS, or cargo builds it).
 """
 import argparse
@@ -26,7 +26,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 
 
 def program():
-    """The example `outputs`."""
+    """Returns the path of the example `outputs`."""
     if "OUTPUTS" in os.environ:
         return os.environ["OUTPUTS"]
     subprocess.run(["cargo", "build", "--release", "--quiet", "-p", "foveate-network", "--example", "outputs"], cwd=ROOT, check=True)
@@ -34,7 +34,7 @@ def program():
 
 
 def widened(model):
-    """The same network of 32-bit values."""
+    """Returns a network with 32-bit values in place of 16-bit ones."""
     for value in [*model.graph.input, *model.graph.output, *model.graph.value_info]:
         if value.type.tensor_type.elem_type == TensorProto.FLOAT16:
             value.type.tensor_type.elem_type = TensorProto.FLOAT
@@ -49,7 +49,7 @@ def widened(model):
 
 
 def apart(theirs, ours):
-    """The largest difference, as a share of the largest value, of any output."""
+    """Returns the largest difference of any output, as a share of that output's largest value."""
     found, start = 0.0, 0
     for value in theirs:
         part = ours[start:start + value.size]
@@ -63,7 +63,7 @@ def apart(theirs, ours):
 
 
 def run(model, picture):
-    """What onnxruntime makes of a picture, and its time."""
+    """Returns the outputs of onnxruntime for a frame, and the time."""
     options = onnxruntime.SessionOptions()
     options.intra_op_num_threads = options.inter_op_num_threads = 1
     options.log_severity_level = 3
@@ -79,7 +79,7 @@ def run(model, picture):
 
 
 def row(path, size, highest, outputs):
-    """The row of a network, and whether something is wrong beside its difference."""
+    """Returns the row of a network, and whether there is an error other than the difference."""
     model = onnx.load(path)
     constants = {tensor.name for tensor in model.graph.initializer}
     given = next(value for value in model.graph.input if value.name not in constants)

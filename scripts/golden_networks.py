@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Makes the golden files of crates/network: small networks, an input of each, and what torch makes of it.
+"""Makes the golden files of crates/network: small networks, an input of each, and the outputs of torch.
 
     golden_networks.py crates/network/tests/network/golden
 
@@ -21,7 +21,7 @@ from torch.nn import functional
 
 
 class Zoo(nn.Module):
-    """Branches of one input, each an output."""
+    """Branches of one input, each of which is an output."""
 
     def __init__(self, *branches):
         super().__init__()
@@ -121,7 +121,7 @@ def moves():
 
 
 class Attention(nn.Module):
-    """Tokens that each see all others, as in vision transformers."""
+    """Attention of each token to all others, as in vision transformers."""
 
     def __init__(self):
         super().__init__()
@@ -154,7 +154,7 @@ class Head(nn.Module):
         return torch.cat([torch.cat([(low + high) / 2, high - low], 1) * 8, classes.sigmoid()], 1)
 
 
-# Name: how it is made, and its channels, rows and columns.
+# Name: the function that makes it, and its channels, rows and columns.
 NETWORKS = {
     "lenet": (lenet, 1, 20, 20),
     "residual": (residual, 3, 30, 37),
@@ -173,7 +173,7 @@ NETWORKS = {
 
 
 def vary(network):
-    """Gives batch normalization something to do."""
+    """Gives batch normalization random statistics, so that it has an effect."""
     for layer in network.modules():
         if isinstance(layer, nn.BatchNorm2d):
             for values in (layer.running_mean, layer.bias.data):
@@ -183,7 +183,7 @@ def vary(network):
 
 
 def export(network, picture, path):
-    """As PyTorch does by itself, in one file and without the names of our sources."""
+    """Exports a network with PyTorch, as one file and without the names of our sources."""
     torch.onnx.export(network, (picture,), path, input_names=["picture"], external_data=False, verbose=False)
     model = onnx.load(path)
     for node in model.graph.node:

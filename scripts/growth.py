@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""How an exploration grows with its units: planning, one unit, collecting, and Snakemake's own share. Prints the table of the guide.
+"""Measures how the time of an exploration grows with its units: planning, one unit, collecting, and Snakemake's own share. Prints the table of
+the guide.
 
     scripts/growth.py [UNITS...]     by default 10 100 1000 10000
 
@@ -22,7 +23,7 @@ import time
 SOURCES = pathlib.Path(__file__).resolve().parent.parent
 SCENES = [f"scene:{name}" for name in "street zero max checkerboard hot-pixels ramps flicker fade shake random".split()]
 READING = ["--max-frames", "2", "--no-area"]
-# Designs that see a clip together.
+# Number of designs that measure a clip together.
 TOGETHER = 16
 COLUMNS = [
     "units",
@@ -34,12 +35,12 @@ COLUMNS = [
     "Snakemake's plan, s",
     "Snakemake, 2 jobs, s",
 ]
-# Beyond this many jobs, Snakemake runs for too long to be timed here.
+# Snakemake takes too long with more jobs to be timed here.
 MOST_JOBS = 1000
 
 
 def space(units):
-    """As many designs as give so many units over all clips: levels of the feature, then counts, then levels of the change."""
+    """Returns a space of designs with this number of units over all clips: levels of the feature, then counts, then levels of the change."""
     designs = units // len(SCENES) * TOGETHER
     levels = min(designs, 160)
     counts = min(designs // levels, 50)
@@ -56,7 +57,7 @@ temporal.level = {list(range(4, 4 + changes))}
 
 
 def seconds(command, runs=3, **more):
-    """The shortest time of a command, and what it printed."""
+    """Returns the shortest time of a command, and its output."""
     best = float("inf")
     for _ in range(runs):
         start = time.perf_counter()
@@ -68,7 +69,7 @@ def seconds(command, runs=3, **more):
 
 
 def snakemake(foveate, units, folder):
-    """Planning by Snakemake with no unit done, and all units with two jobs at a time."""
+    """Times Snakemake: planning with no unit done, and all units with two parallel jobs."""
     if not shutil.which("snakemake"):
         return "-", "-"
     explore = {"space": "space.toml", "options": "--no-area"}
@@ -90,7 +91,7 @@ def measure(foveate, units, folder):
     assert len(lines) == units, f"{len(lines)} units are planned"
     last = json.loads(lines[-1])
     by_line, by_name = ([*explore, *last["inputs"], "-o", "one", *READING, "--quiet", "--only", unit] for unit in (lines[-1], last["unit"]))
-    # The first run measures, the others find everything there.
+    # The first run measures; the others find the results in the cache.
     unit_by_line, _ = seconds(by_line, cwd=folder)
     unit_by_name, _ = seconds(by_name, cwd=folder)
     whole, _ = seconds(everything, 1, cwd=folder)

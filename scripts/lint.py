@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Called by lint.sh: generates the matrix, lints it in every tool, prints what nothing excuses."""
+"""Called by lint.sh: generates the matrix, lints it in every tool, and prints the findings without a waiver."""
 import collections
 import concurrent.futures
 import os
@@ -32,7 +32,7 @@ DEPTHS = [1, 8, 10, 16]
 
 
 def matrix():
-    """Name and settings of each design. Sizes and depths have no common period with the choices."""
+    """Yields name and settings of each design. Sizes and depths have no common period with the choices."""
     for index, features in enumerate(FEATURES):
         for choice in range(8):
             size = SIZES[(index * 3 + choice) % len(SIZES)]
@@ -57,7 +57,7 @@ def matrix():
 
 
 def summaries():
-    """Regions that send the means of their blocks: of one pixel, of a side that is no power of two, a second pass."""
+    """Yields designs that send means: blocks of one pixel, sides that are no power of two, a second pass."""
     for name, size, blocks, features, more in [
         ("pixels", 4, 4, EDGE, "denoise.filter='median3x3'"),
         ("deep", 12, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant'}"),
@@ -77,7 +77,7 @@ def summaries():
 
 
 def raster_summaries():
-    """The same of the raster organization: blocks as wide as a word, a store outside, few rows of regions that wait."""
+    """Yields raster designs that send means: blocks as wide as a word, a store outside, few rows of regions that wait."""
     for name, size, word, blocks, rows, features, more in [
         ("pixels", 4, 1, 4, 3, EDGE, "denoise.filter='median3x3'"),
         ("deep", 12, 2, 2, 2, f"{EDGE},{CORNER}", "hardware={pipelining='deep',thresholds='constant',store='external'}"),
@@ -102,7 +102,7 @@ FOLDS = [1, 2, 3, 6]
 
 
 def serial_matrix():
-    """The same of the serial organization, of 3x2 regions: folds with empty slots, feeds, distributed and block RAM."""
+    """Yields serial designs of 3x2 regions: folds with empty slots, feeds, distributed and block RAM."""
     for index, features in enumerate(FEATURES):
         for choice in range(4):
             number = 4 * index + choice
@@ -129,7 +129,7 @@ def serial_matrix():
 
 
 def raster_matrix():
-    """The same of the raster organization, as narrow as it may be: words, frames that fill no region, both pipelinings."""
+    """Yields raster designs of the smallest width: words, frames that fill no region, both pipelinings."""
     for index, features in enumerate(FEATURES):
         for choice in range(4):
             number = 4 * index + choice
@@ -156,7 +156,7 @@ def raster_matrix():
 
 
 def axi_matrix():
-    """Cores on AXI: words of one pixel and more, lanes of 8 and 16 bits, parts of 16 and 32 bits, means, every store, thresholds of both kinds."""
+    """Yields cores on AXI: words of one and more pixels, lanes of 8 and 16 bits, parts of 16 and 32 bits, means, every store, thresholds of both kinds."""
     for name, size, word, width, height, depth, features, more in [
         ("edge", 8, 1, 64, 40, 8, EDGE, ["hardware.sync=true"]),
         ("means", 5, 1, 83, 33, 10, EDGE, ["render={irrelevant='mean',payload='raw'}"]),
@@ -192,7 +192,7 @@ def verilator(files, cwd, top):
 
 
 def iverilog(files, cwd, top):
-    # Into a file: Icarus makes its output executable, and run as root it would take /dev/null from everybody else.
+    # The output is a file, because Icarus makes it executable: as root it would change the mode of /dev/null.
     code, text = run(["iverilog", "-g2005", "-Wall", "-s", top, "-o", "lint.vvp", *files], cwd)
     return code, [line for line in text.splitlines() if line.strip()], text
 
@@ -228,7 +228,7 @@ TOOLS = {"verilator": verilator, "iverilog": iverilog, "yosys": yosys, "slang": 
 
 
 def waivers():
-    """(tool, pattern, reason, may be unused) of each line `tool | pattern | reason`."""
+    """Returns (tool, pattern, reason, may be unused) for each line `tool | pattern | reason`."""
     found = []
     for number, line in enumerate(open(WAIVERS), 1):
         if not line.strip() or line.startswith("#"):
@@ -242,7 +242,7 @@ def waivers():
 
 
 def check(name, settings):
-    """The findings of all tools in a design."""
+    """Returns the findings of all tools in a design."""
     folder = os.path.join(WORK, name)
     shutil.rmtree(folder, ignore_errors=True)
     command = [FOVEATE, "generate", "--preset", "bare", "--output", folder]
@@ -256,7 +256,7 @@ def check(name, settings):
 
 
 def check_top(folder, top):
-    """The findings of all tools below a top of a core."""
+    """Returns the findings of all tools below a top of a core."""
     files = open(os.path.join(folder, f"{top}.f")).read().split()
     findings = []
     for tool, lint in TOOLS.items():

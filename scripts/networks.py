@@ -22,13 +22,13 @@ def lenet():
 
 
 def denoiser(channels=32, layers=8):
-    """Like DnCNN (Zhang et al. 2017), without batch normalization: it predicts the noise."""
+    """A network like DnCNN (Zhang et al. 2017) without batch normalization. It predicts the noise."""
     inner = [layer for _ in range(layers - 2) for layer in (nn.Conv2d(channels, channels, 3, padding=1), nn.ReLU())]
     return nn.Sequential(nn.Conv2d(1, channels, 3, padding=1), nn.ReLU(), *inner, nn.Conv2d(channels, 1, 3, padding=1))
 
 
 class Detector(nn.Module):
-    """A head of the kind of YOLO: a backbone of strided convolutions with SiLU, two scales, boxes and classes of three anchors."""
+    """A detector like YOLO: a backbone of strided convolutions with SiLU, two scales, boxes and classes of three anchors."""
 
     def __init__(self, classes=20, anchors=3):
         super().__init__()
@@ -55,7 +55,7 @@ def of_torchvision(name):
     return getattr(torchvision.models, name)(weights=None)
 
 
-# Name: how it is made, its channels, and its usual width and height.
+# Name: the function that makes it, its channels, and its usual width and height.
 NETWORKS = {
     "lenet5": (lenet, 1, 28, 28),
     "denoiser": (denoiser, 1, 640, 360),
@@ -86,7 +86,7 @@ def main():
         torch.onnx.export(network, (torch.zeros(1, channels, height, width),), path, input_names=["picture"], external_data=False, verbose=False)
         print(f"{path}: {channels} x {height} x {width}, {sum(p.numel() for p in network.parameters()):,} parameters")
         if options.int8:
-            # Needed for nothing else, and it needs onnxruntime.
+            # Imported here, because only this option needs it, and it needs onnxruntime.
             from quantize import FORMATS, quantize
             for kind in FORMATS:
                 out = os.path.join(options.folder, f"{name}-{kind}.onnx")

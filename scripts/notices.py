@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Prints the licences of everything that is linked into the command, as who copies the program has to pass them on.
+"""Prints the licences of everything that is linked into the command, which must be passed on with copies of the program.
 
     scripts/notices.py [TARGET]     by default x86_64-unknown-linux-gnu
 """
@@ -11,12 +11,12 @@ import re
 import subprocess
 import sys
 
-# Of a crate's own folder; a licence of something that the crate only tests lies below.
+# Only files in the crate's own folder; licences in folders below belong to test data.
 NAMES = re.compile(r"(?i)(license|licence|copying|notice|unlicense|copyright).*")
 
 
 def linked(metadata, name):
-    """The packages that reach the program `name`: no crates of tests, nor of build scripts."""
+    """Returns the packages that are linked into the program `name`, without crates of tests and build scripts."""
     nodes = {node["id"]: node for node in metadata["resolve"]["nodes"]}
     packages = {package["id"]: package for package in metadata["packages"]}
     reached, waiting = set(), [key for key, package in packages.items() if package["name"] == name]
@@ -32,14 +32,14 @@ def linked(metadata, name):
 
 
 def texts(package):
-    """What the files of a package say of its licence."""
+    """Returns the texts of a package's licence files."""
     folder = pathlib.Path(package["manifest_path"]).parent
     files = sorted(file for file in folder.iterdir() if file.is_file() and NAMES.fullmatch(file.name))
     return [file.read_text(errors="replace").strip() for file in files]
 
 
 def notices(packages):
-    """A list of the packages, then each text once, below the packages that have it."""
+    """Returns a list of the packages, then each text once, below the packages that have it."""
     lines = ["Licences of what is linked into foveate, beside its own and the Rust standard library (MIT OR Apache-2.0).", ""]
     whose = collections.defaultdict(list)
     for package in packages:

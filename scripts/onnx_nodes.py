@@ -40,7 +40,7 @@ KNOWN = {"test_resize_downsample_scales_linear_align_corners", "test_resize_down
 
 
 def supported():
-    """The attributes of every supported operator of ONNX, over all versions."""
+    """Returns the attributes of every supported operator of ONNX, over all versions."""
     attributes = {}
     for line in SCHEMAS.read_text().splitlines():
         name, _, _, _, *own = line.split(" ")
@@ -51,13 +51,13 @@ def supported():
 
 
 def only_operator(model):
-    """The operator of a test of a single node; nothing for others."""
+    """Returns the operator of a test of a single node, or None for other tests."""
     nodes = model.graph.node
     return nodes[0].op_type if len(nodes) == 1 and nodes[0].domain in STANDARD else None
 
 
 def run(case, folder):
-    """The outcome of a test, and the reason."""
+    """Returns the outcome of a test, and the reason."""
     (folder / "model.onnx").write_bytes(case.model.SerializeToString())
     inputs, wanted = case.data_sets[0]
     words = [FOVEATE, "infer", "model.onnx"]
@@ -77,13 +77,13 @@ def run(case, folder):
 
 
 def outputs(folder):
-    """The outputs that were written, in the order of the model."""
+    """Returns the written outputs, in the order of the model."""
     listed = json.loads((folder / "out/inference.json").read_text(encoding="utf-8"))["outputs"]
     return [np.load(folder / "out" / own["file"]) for own in listed]
 
 
 def compare(case, wanted, folder):
-    """Whether all outputs are those of the test."""
+    """Returns whether all outputs are those of the test."""
     narrow = (onnx.TensorProto.FLOAT16, onnx.TensorProto.BFLOAT16)
     is_narrow = any(value.type.tensor_type.elem_type in narrow for value in case.model.graph.output)
     relative, absolute = (max(case.rtol, 1e-3), max(case.atol, 1e-6)) if is_narrow else (case.rtol, case.atol)
@@ -99,7 +99,7 @@ def compare(case, wanted, folder):
 
 
 def run_light(path, folder):
-    """The largest difference between the outputs of a light network and those beside it, as a share of the largest value."""
+    """Returns the largest difference of a light network's outputs from the expected ones, as a share of the largest value."""
     graph = onnx.load(path).graph
     constants = {constant.name for constant in graph.initializer}
     (picture,) = [value for value in graph.input if value.name not in constants]
@@ -113,7 +113,7 @@ def run_light(path, folder):
 
 
 def light_networks(folder):
-    """Compares all light networks; those that differ by more than 1e-3."""
+    """Compares all light networks. Returns those that differ by more than 1e-3."""
     failed = []
     for path in sorted((pathlib.Path(onnx.__file__).parent / "backend/test/data/light").glob("*.onnx")):
         apart = run_light(path, folder)

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Compares crates/network/src/read/schemas.txt with the schemas of the packages onnx and onnxruntime.
 
-    onnx_schemas.py             ends with 1 and the differences if the file is not what the packages say
+    onnx_schemas.py             ends with 1 and the differences if the file does not agree with the packages
     onnx_schemas.py --write     writes it
 
 A line of the file is an operator from a version on: its name, the version, how many inputs and outputs it has (`2..3`; `1..` has no end),
@@ -28,17 +28,17 @@ OLDEST = 7
 
 
 def supported():
-    """Names of the supported operators, those of other domains with their domain."""
+    """Returns the names of the supported operators, with their domain if it is not that of ONNX."""
     return re.findall(r'^    \("([A-Za-z0-9.]+)", ', OPERATORS.read_text(), flags=re.M)
 
 
 def count(least, most):
-    """The number of inputs or outputs, as the file has it."""
+    """Returns the number of inputs or outputs in the form of the file."""
     return f"{least}.." if most > 1 << 30 else f"{least}..{most}"
 
 
 def default(kind, value):
-    """A default of one number or word, as it stands in the file; nothing for others."""
+    """Returns a default of one number or word in the form of the file; an empty text for others."""
     match kind:
         case "FLOAT":
             return "=" + str(numpy.float32(value.f))
@@ -50,24 +50,24 @@ def default(kind, value):
 
 
 def attribute(name, kind, is_required, value):
-    """An attribute as the file has it; `value` is the message of its default."""
+    """Returns an attribute in the form of the file; `value` is the message of its default."""
     end = "!" if is_required else default(kind, value) if value.type != AttributeProto.UNDEFINED else ""
     return f"{name}:{kind}{end}"
 
 
 def line(name, schema, attributes):
-    """A line but for the version, which comes with it."""
+    """Returns a line without its version, and the version."""
     words = [count(schema.min_input, schema.max_input), count(schema.min_output, schema.max_output), *attributes]
     return schema.since_version, f"{name} {{}} {' '.join(words)}"
 
 
 def changes(lines):
-    """The lines that differ from the one before by more than the version."""
+    """Returns the lines that differ from the one before by more than the version."""
     return [text.format(since) for at, (since, text) in enumerate(lines) if at == 0 or lines[at - 1][1] != text]
 
 
 def standard(names):
-    """Lines of the operators of ONNX: for each the version that holds at the oldest one, and all later ones."""
+    """Returns the lines of the operators of ONNX: for each the version in force at the oldest one, and all later ones."""
     lines = []
     history = [schema for schema in defs.get_all_schemas_with_history() if schema.domain == "" and not schema.deprecated]
     for name in names:
@@ -80,7 +80,7 @@ def standard(names):
 
 
 def contributed(names, before):
-    """Lines of the operators of onnxruntime."""
+    """Returns the lines of the operators of onnxruntime."""
     try:
         from onnxruntime.capi.onnxruntime_pybind11_state import get_all_operator_schema
     except ImportError:
@@ -91,13 +91,13 @@ def contributed(names, before):
 
 
 def standard_line(name, schema):
-    """The line of a schema of onnx."""
+    """Returns the line of a schema of onnx."""
     of = sorted(schema.attributes.items())
     return line(name, schema, [attribute(key, own.type.name, own.required, own.default_value) for key, own in of])
 
 
 def runtime_line(name, schema):
-    """The line of a schema of onnxruntime, whose defaults are bytes of a message."""
+    """Returns the line of a schema of onnxruntime, whose defaults are bytes of a message."""
     attributes = []
     for key, own in sorted(schema.attributes.items()):
         value = AttributeProto()

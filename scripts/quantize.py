@@ -4,7 +4,7 @@
 
     quantize.py FILE.onnx OUT.onnx [--format qoperator|qdq] [--size WIDTHxHEIGHT] [--golden PREFIX]
 
---golden also writes a picture of bytes, PREFIX.picture, and what onnxruntime makes of it, as 32-bit floating-point values, PREFIX.output.
+--golden also writes a frame of bytes, PREFIX.picture, and the outputs of onnxruntime for it, as 32-bit floating-point values, PREFIX.output.
 
 Needs onnx and onnxruntime, whose quantization this is: static, with a scale per channel of the weights. The ranges of the tensors come from
 pictures of noise of different brightness and fineness, from a fixed seed.
@@ -24,7 +24,7 @@ PICTURES = 16
 
 
 class Pictures(quantization.CalibrationDataReader):
-    """Pictures of blocks of noise, from 0 to 1."""
+    """Yields frames of blocks of noise, from 0 to 1."""
 
     def __init__(self, name, shape):
         random = np.random.default_rng(1)
@@ -43,7 +43,7 @@ class Pictures(quantization.CalibrationDataReader):
 
 
 def quantize(path, out, kind, size=None):
-    """Writes a quantized form of a network; `size` is the width and height where the network leaves them open."""
+    """Writes a quantized form of a network; `size` is the width and height if the network leaves them open."""
     picture = onnx.load(path).graph.input[0]
     lengths = [dim.dim_value for dim in picture.type.tensor_type.shape.dim]
     width, height = size or (lengths[3], lengths[2])
@@ -57,7 +57,7 @@ def quantize(path, out, kind, size=None):
 
 
 def golden(path, prefix, size):
-    """Writes a picture of soft waves and noise, and what onnxruntime makes of it."""
+    """Writes a frame of soft waves and noise, and the outputs of onnxruntime for it."""
     rows, columns = np.mgrid[:size[1], :size[0]]
     noise = np.random.default_rng(2).normal(0, 16, rows.shape)
     picture = (128 + 70 * np.sin(columns / 5) * np.cos(rows / 4) + noise).clip(0, 255).astype(np.uint8)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The register tables of cores on AXI, read by PeakRDL's SystemRDL compiler: REGISTERS.md and the C header must agree with it.
+"""Reads the register tables of cores on AXI with PeakRDL's SystemRDL compiler. REGISTERS.md and the C header must agree with it.
 
 scripts/buses.sh calls this with the Python that has systemrdl-compiler. Differences are planted, too, and must be found.
 
@@ -23,9 +23,9 @@ DESIGNS = {
     "means, 16 bits": ["frame={width=96,height=24,pixel_bits=16}", "render={irrelevant='mean',payload='raw'}", "spatial=[{feature='variance'}]"],
     "no thresholds": ["hardware.thresholds='constant'"],
 }
-# What the compiler says of access, and what the page has.
+# The words for access of the compiler, and those of the page.
 ACCESS = {("r", None): "read", ("rw", None): "read, write", ("w", None): "write 1", ("rw", "woclr"): "read, write 1 to clear"}
-# A check is only worth something if it fails where something is wrong: file, text, and what stands there instead.
+# The differences that the check must find: file, text, and replacement.
 CONTROLS = [
     ("REGISTERS.md", "| 0x100 | `edge_level`", "| 0x104 | `edge_level`"),
     ("REGISTERS.md", "| [1:1] | `wait` | read, write |", "| [1:1] | `wait` | read |"),
@@ -39,7 +39,7 @@ CONTROLS = [
 
 
 def compiled(path):
-    """Fields as the compiler reads them: register, field, address, bits, access, value after reset."""
+    """Returns the fields that the compiler reads: register, field, address, bits, access, value after reset."""
     compiler = RDLCompiler()
     compiler.compile_file(str(path))
     fields = set()
@@ -56,7 +56,7 @@ def compiled(path):
 
 
 def page(path):
-    """The same of REGISTERS.md."""
+    """Returns the fields of REGISTERS.md in the same form."""
     fields, register, address = set(), None, None
     for line in path.read_text().splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
@@ -70,13 +70,13 @@ def page(path):
 
 
 def header(path):
-    """The macros of the C header, as numbers."""
+    """Returns the macros of the C header, as numbers."""
     macros = re.findall(r"^#define FOVEATE_(\w+) (?:0x([0-9A-F]+)u|(\d+))", path.read_text(), re.MULTILINE)
     return {name: int(hexadecimal, 16) if hexadecimal else int(decimal) for name, hexadecimal, decimal in macros}
 
 
 def macros(fields):
-    """What the C header must have, but for values: it has those of constants only."""
+    """Returns the macros that the C header must have, without values other than constants."""
     wanted = {}
     for register, field, address, high, low, _, _ in fields:
         name = register.upper() if field == "value" else f"{register}_{field}".upper()

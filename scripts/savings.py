@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What the masks of the camera save networks: tables of docs/savings.md.
+"""Measures what the masks of the camera save networks, for the tables of docs/savings.md.
 
     savings.py FOLDER [NAME...] [--clips CLIP...] [--frames N] [--tune GOAL]
     savings.py FOLDER [NAME...] [--clips CLIP...] [--frames N] --accelerators ACCELERATOR...
@@ -22,24 +22,24 @@ import tempfile
 
 import onnx
 
-# Networks for pictures of any size see this one.
+# The size of the frames for networks that take any size.
 OPEN_SIZE = (640, 360)
 MODES = (["--mode", "exact"], ["--mode", "compare"])
 
 
 def size_of(path):
-    """Width and height of the pictures that a network takes."""
+    """Returns width and height of the frames that a network takes."""
     shape = [length.dim_value for length in onnx.load(path, load_external_data=False).graph.input[0].type.tensor_type.shape.dim]
     return (shape[3], shape[2]) if shape[2] and shape[3] else OPEN_SIZE
 
 
 def label(clip):
-    """A clip in the table."""
+    """Returns the name of a clip in the table."""
     return os.path.basename(clip).rsplit(".", 1)[0]
 
 
 def infer(path, clip, size, frames, options):
-    """The summary of a run."""
+    """Returns the summary of a run."""
     width, height = size
     fit = ["--set", f"frame={{width={width},height={height}}}"] if clip.startswith("scene:") else ["--resize", f"{width}x{height}"]
     if min(size) < 64:
@@ -55,13 +55,13 @@ def infer(path, clip, size, frames, options):
 
 
 def needed(rows, frames):
-    """Share of the MACs over the counted frames of the second half, which --tune reports; its first frame is computed whole there."""
+    """Returns the share of the MACs over the counted frames of the second half, whose first frame is computed whole with --tune."""
     counted = [row for row in rows if int(row["frame"]) > frames // 2]
     return sum(float(row["macs_needed"]) for row in counted) / sum(float(row["macs_dense"]) for row in counted)
 
 
 def row(path, clip, options):
-    """A row of the table."""
+    """Returns a row of the table."""
     size = size_of(path)
     runs = [infer(path, clip, size, options.frames, mode) for mode in (*MODES, ["--tune", options.tune])]
     shares = [f"{100 * needed(rows, options.frames):.1f} %" for _, rows in runs]
@@ -74,7 +74,7 @@ def row(path, clip, options):
 
 
 def row_of_accelerator(path, clip, name, options):
-    """A row of the table of an accelerator."""
+    """Returns a row of the table of an accelerator."""
     size = size_of(path)
     found, _ = infer(path, clip, size, options.frames, ["--accelerator", name])
     whole, masked = (found["accelerator"][key] for key in ("whole", "masked"))

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""After a build of the tests and of the Python package for tests: fails if the second compiled a crate of ours again.
+"""Fails if the build of the Python package for tests compiled one of our crates again, after a build of the tests.
 
-    scripts/shared_build.py LOG    what scripts/python.sh has kept: target/wheels/build.log
+    scripts/shared_build.py LOG    the log of scripts/python.sh: target/wheels/build.log
 
-The feature `as-tested` of the package turns on in libraries what tests turn on. If a test comes to want more of one, Cargo would
-compile it and some twenty crates above it a second time, and nothing would say so.
+The feature `as-tested` of the package turns on the same features of libraries as the tests do. If a test needs another feature, Cargo
+would compile that library and some twenty crates above it a second time without a message.
 """
 import re
 import sys

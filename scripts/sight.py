@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What networks lose behind cameras: docs/data/network-sight.csv.
+"""Measures what networks lose behind cameras, for docs/data/network-sight.csv.
 
     sight.py NETWORKS CLIP... [--frames N] [--only NAME]
 
@@ -18,7 +18,7 @@ import subprocess
 import sys
 import tempfile
 
-# How each network is shown frames, and how its detections are read.
+# The framing of each network, and the format of its detections.
 NETWORKS = {
     "yolox_nano.onnx": (["--framing", "letterbox", "--scale", "1/255"], "yolox"),
     "FastestDet.onnx": (["--framing", "stretch"], "fastestdet"),
@@ -28,7 +28,7 @@ NETWORKS = {
     "deeplab_nchw.onnx": (["--framing", "stretch", "--mean", "0.5", "--scale", "0.5"], None),
     "prisma_nchw.onnx": (["--framing", "stretch"], None),
 }
-# Which objects of COCO a file of pedestrians has.
+# The classes of COCO that a file of pedestrians has.
 PEDESTRIANS = "classes=0,height=80"
 
 
@@ -36,7 +36,7 @@ def means(blocks, *more):
     return ["--preset", "fovea", "--set", f"periphery.blocks={blocks}", *more]
 
 
-# What irrelevant regions show, and thresholds.
+# The rendering of irrelevant regions, and the thresholds.
 CAMERAS = {
     "paper": ["--preset", "paper"],
     "hold": ["--preset", "steady"],
@@ -49,9 +49,9 @@ CAMERAS = {
     "fovea; level 16": means(2, "--set", "periphery.level=16"),
     "fovea; level 32": means(2, "--set", "periphery.level=32"),
 }
-# Standard deviations of the noise in grey levels.
+# The standard deviations of the noise, in grey levels.
 NOISE = [1, 2, 4]
-# Frames for MACs.
+# The number of frames over which MACs are counted.
 FIRST = 24
 COLUMNS = ["network", "clip", "camera", "frames", "every", "sent_percent", "psnr_db", "macs_percent", "agreement_percent", "agreement_low",
            "agreement_high", "found", "kept_percent", "precision_percent", "objects", "ap50_whole", "ap50_seen",
@@ -59,7 +59,7 @@ COLUMNS = ["network", "clip", "camera", "frames", "every", "sent_percent", "psnr
 
 
 def foveate(network, clip, *more):
-    """The summary of a run."""
+    """Returns the summary of a run."""
     path, (options, _) = network
     with tempfile.TemporaryDirectory() as folder:
         command = [os.environ.get("FOVEATE", "foveate"), "infer", path, clip, "-o", os.path.join(folder, "out"), "--json", "--quiet", *options, *more]
@@ -70,7 +70,7 @@ def foveate(network, clip, *more):
 
 
 def run(network, clip, camera, every, noise):
-    """The summary of a run beside whole frames."""
+    """Returns the summary of a run that is compared with whole frames."""
     detector = network[1][1]
     boxes = ["--boxes", "gt.txt"] if os.path.isdir(clip) and detector == "yolox" else []
     detect = ["--detect", f"{detector},{PEDESTRIANS}" if boxes else detector] if detector else []
@@ -78,7 +78,7 @@ def run(network, clip, camera, every, noise):
 
 
 def length(clip):
-    """Frames of a clip."""
+    """Returns the number of frames of a clip."""
     if os.path.isdir(clip):
         return sum(name.endswith((".jpg", ".png")) for name in os.listdir(clip))
     command = ["ffprobe", "-v", "error", "-select_streams", "v:0", "-count_packets"]
@@ -90,7 +90,7 @@ def length(clip):
 
 
 def row(network, clip, camera, summary, noise, macs):
-    """A row of the table."""
+    """Returns a row of the table."""
     sight = summary["sight"]
     found, truth = sight["detections"], sight["truth"]
 
@@ -128,7 +128,7 @@ def main():
         for clip in arguments.clips:
             every, noise = max(length(clip) // arguments.frames, 1), []
             for camera, settings in CAMERAS.items():
-                # Whole frames are the same for every camera, with noise, too.
+                # Whole frames, also those with noise, are the same for every camera.
                 summary = run(network, clip, settings, every, "0" if noise else ",".join(map(str, NOISE)))
                 noise = noise or summary["sight"]["noise"]
                 macs = foveate(network, clip, "--max-frames", str(FIRST), *settings)["macs"]

@@ -24,18 +24,18 @@ YOSYS, COUNTED = "Yosys 0.23", ("foveate estimate ", "foveate fit ")
 
 
 def environment(tools):
-    """The variables of a reader's shell: a terminal of 100 columns, no lines of progress, and the programs."""
+    """Returns the environment of a reader's shell: a terminal of 100 columns, no lines of progress, and the programs."""
     programs = os.pathsep.join([str(tools), str(pathlib.Path(sys.executable).parent), os.environ["PATH"]])
     return {**os.environ, "PATH": programs, "COLUMNS": "100", "FOVEATE_PROGRESS": "0"}
 
 
 def is_compared(has_yosys):
-    """Whether what a command prints is compared: figures of Yosys only where that version is installed."""
+    """Returns whether the output of a command is compared: figures of Yosys only if that version is installed."""
     return lambda command: has_yosys or not command.startswith(COUNTED)
 
 
 def run_page(page, steps, options, has_yosys):
-    """Runs a page in a copy of the folder of what is given: what was done, and the seconds."""
+    """Runs a page in a copy of the folder with the reader's files. Returns the counts and the seconds."""
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
         tools, place = pathlib.Path(folder, "tools"), pathlib.Path(folder, "reader")
@@ -49,7 +49,7 @@ def run_page(page, steps, options, has_yosys):
 
 
 def run_pages(steps_of, options):
-    """Runs the pages beside each other: what is wrong."""
+    """Runs the pages in parallel. Returns the errors."""
     version = subprocess.run(["yosys", "-V"], capture_output=True, text=True, check=True).stdout
     has_yosys = version.startswith(YOSYS)
     if not has_yosys:
@@ -66,7 +66,7 @@ def run_pages(steps_of, options):
 
 
 def stop(number, _):
-    """Ends the shells, which are not in the group of this process, and then this."""
+    """Ends the shells, which are not in the group of this process, and then this process."""
     for shell in list(RUNNING):
         shell.kill()
     os._exit(128 + number)

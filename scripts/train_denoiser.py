@@ -22,13 +22,13 @@ from torch import nn
 NOISE = 0.08
 STEPS = 1500
 PATCH, BATCH = 48, 32
-# Everything is active, so that the rendered frames are those of the scene.
+# All regions are active, so that the rendered frames are those of the scene.
 OPEN = ["--set", "render.payload='raw'", "--set", "temporal={level=1,min_count=0}",
         "--set", "spatial=[{feature='edge',level=100,min_score=0}]"]
 
 
 class Denoiser(nn.Module):
-    """Four convolutions that predict the noise."""
+    """A network of four convolutions that predicts the noise."""
 
     def __init__(self, channels=12):
         super().__init__()
@@ -41,7 +41,7 @@ class Denoiser(nn.Module):
 
 
 def frames(scene, count=40):
-    """Frames of a scene, from 0 to 1."""
+    """Returns the frames of a scene, from 0 to 1."""
     with tempfile.TemporaryDirectory() as folder:
         out = os.path.join(folder, "out")
         command = [os.environ.get("FOVEATE", "foveate"), "simulate", f"scene:{scene}", "-o", out, "--max-frames", str(count), "--quiet", *OPEN]
@@ -51,7 +51,7 @@ def frames(scene, count=40):
 
 
 def patches(clips):
-    """A batch of random patches."""
+    """Returns a batch of random patches."""
     picks = []
     for _ in range(BATCH):
         clip = clips[int(torch.randint(len(clips), ()))]
@@ -69,7 +69,7 @@ def main():
     warnings.filterwarnings("ignore")
     torch.manual_seed(1)
     clips = [frames(scene) for scene in ("street", "shake", "ramps", "one-pixel")]
-    # A scene that training has not seen.
+    # This scene is not used in training.
     test = frames("night-rain", 8)
     network = Denoiser()
     optimizer = torch.optim.Adam(network.parameters(), 2e-3)
@@ -87,7 +87,7 @@ def main():
         print(f"street: {psnr(noisy, clips[0][:8]):.1f} dB with noise, {psnr(network(noisy), clips[0][:8]):.1f} dB without")
         noisy = test + NOISE * torch.randn_like(test)
         print(f"night-rain, not seen in training: {psnr(noisy, test):.1f} dB with noise, {psnr(network(noisy), test):.1f} dB without")
-    # Lengths below the windows are not traced.
+    # Lengths below those of the windows are not traced.
     height, width = torch.export.Dim("height", min=4), torch.export.Dim("width", min=4)
     torch.onnx.export(network, (torch.zeros(1, 1, 32, 48),), sys.argv[1], input_names=["picture"], output_names=["clean"],
                       dynamic_shapes=({2: height, 3: width},), external_data=False, verbose=False)

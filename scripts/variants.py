@@ -10,9 +10,9 @@ of a design (`design.serial()`) whose None stands for all other organizations co
 any other. So does a question for what only one feature has (`feature.mean().is_some()`, `find_map(SpatialFeature::mean)`),
 a comparison of names, and a level that stands for a count of hits. A list of every variant
 (`FeatureKind::ALL`) in a file that does not ask which of them an organization takes (`takes`, `is_taken`) tries what is
-refused. This prints each of them outside of tests, and fails if there is one.
+refused. This script prints each of them outside of tests, and fails if there is one.
 
-Not looked at: folders `tests`, `benches` and `examples`, files tests.rs, what follows `#[cfg(test)]`, and comments.
+It ignores folders `tests`, `benches` and `examples`, files tests.rs, code after `#[cfg(test)]`, and comments.
 """
 
 import re
@@ -21,24 +21,24 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 TYPES = ("Organization", "Hardware", "FeatureKind", "Reference", "Irrelevant")
-# What they are asked for has variants, too: a new variant of the one may need a new one of the other.
+# The values of these methods have variants, too: a new variant of a type may need a new one of these.
 ANSWERS = ("Array", "Measure", "SummedUp", "Written")
 NAMES = rf"\b(?:{'|'.join(TYPES + ANSWERS)})::[A-Z]\w*"
 TESTS = re.compile(r"(^|/)(tests|benches|examples)/|(^|/)tests\.rs$")
 COMPARISON = re.compile(rf"[!=]=\s*(?:\w+::)*{NAMES}|{NAMES}(?:\([^)]*\))?\s*[!=]=[^>]|matches!\([^;]*?{NAMES}")
-# A design that must be of that organization says so: `.expect(..)`.
+# A design that must have that organization uses `.expect(..)`.
 VIEW = re.compile(r"\.(?:pipelined|serial|raster)\(\)(?!\s*\.\s*(?:unwrap|expect)\()")
-# What one feature has, asked in place of which feature it is.
+# Questions about a property of one feature, in place of a match on the feature.
 PART = re.compile(
     r"\.(?:mean|variance)\(\)\s*\.\s*is_(?:some|none)\b"
     r"|\bfind_map\(\s*(?:\|\w+\|\s*\w+\.|SpatialFeature::)(?:mean|variance)\b"
     r"|\b(?:kind|organization|reference|irrelevant)(?:\(\))?\s*\.\s*name\(\)\s*[!=]="
     r"|\b(?:entry|spatial|feature)\.level\.is_(?:some|none)\(\)"
 )
-# Every variant, whoever takes it.
+# Lists of every variant, whether an organization takes it or not.
 EVERY = re.compile(r"\b(?:FeatureKind|Reference|Irrelevant)::ALL\b(?!\s*\.\s*len\b)")
 ASKS = re.compile(r"\btakes(?:_\w+)?\(|\bis_taken\(")
-# Where a list of all is of what there is, not of what is tried.
+# Files in which a list of all variants is correct, because it is not a list of what is tried.
 LISTS = {
     "crates/emit/src/raster.rs": "the core has an input for the level of each feature",
     "crates/emit/src/serial.rs": "the array has an input for the level of each feature",
@@ -47,26 +47,26 @@ LISTS = {
     "crates/web/src/describe.rs": "a page is told of each feature, and of the message where its organization refuses it",
     "crates/cli/src/command/estimate/compare.rs": "what is refused is listed with the reason",
 }
-# Where code is about one variant by its purpose.
+# Files whose code is about one variant by purpose.
 OWN_PURPOSE = {"crates/studies/src/study/histogram.rs": "the study is about mad"}
-# A constant such as FeatureKind::ALL is no variant.
+# A constant such as FeatureKind::ALL is not a variant.
 CONSTANT = re.compile(r"::[A-Z][A-Z_]+\b")
 
 
 def without_comments(text):
-    """The text without comments, strings and its tests; as many lines."""
+    """Returns the text without comments, strings and tests, with the same number of lines."""
     text = text.split("#[cfg(test)]")[0]
     text = re.sub(r"//.*", "", text)
     return re.sub(r'"(?:\\.|[^"\\])*"', lambda found: '""' + "\n" * found[0].count("\n"), text)
 
 
 def code(text):
-    """That, without constants of the types."""
+    """Returns that text without constants of the types."""
     return CONSTANT.sub("", without_comments(text))
 
 
 def arms(text, start):
-    """The patterns of the arms of the `match` whose `{` is at `start`, each with its place."""
+    """Returns the patterns of the arms of the `match` whose `{` is at `start`, each with its place."""
     depth, pattern, place, found = 0, "", start + 1, []
     at = start
     while at < len(text):
@@ -90,7 +90,7 @@ def arms(text, start):
 
 
 def past_arm(text, at):
-    """Where the body of an arm ends that begins at `at`."""
+    """Returns the end of the body of an arm that begins at `at`."""
     depth = 0
     while at < len(text):
         character = text[at]
@@ -109,7 +109,7 @@ def past_arm(text, at):
 
 
 def catch_alls(text):
-    """Places of `_ =>` in a match on one of the types."""
+    """Yields the places of `_ =>` in a match on one of the types."""
     for found in re.finditer(r"\bmatch\b[^{};]*\{", text):
         patterns = arms(text, found.end() - 1)
         if any(re.search(NAMES, pattern) for pattern, _ in patterns):
@@ -117,7 +117,7 @@ def catch_alls(text):
 
 
 def every(text):
-    """Lines that try every variant in a file that does not ask who takes it."""
+    """Returns the lines that try every variant in a file that does not ask which organization takes it."""
     text = without_comments(text)
     if ASKS.search(text):
         return []
@@ -125,7 +125,7 @@ def every(text):
 
 
 def open_tests(text):
-    """Lines of what would take a new variant for another one."""
+    """Returns the lines that would take a new variant for another one."""
     text = code(text)
     found = [*COMPARISON.finditer(text), *VIEW.finditer(text), *PART.finditer(text)]
     places = [match.start() for match in found] + list(catch_alls(text))
@@ -133,7 +133,7 @@ def open_tests(text):
 
 
 def main():
-    """Prints each place; the exit code is 1 if there is one."""
+    """Prints each place. The exit code is 1 if there is one."""
     count = 0
     for file in sorted(ROOT.glob("crates/**/*.rs")) + sorted(ROOT.glob("python/src/**/*.rs")):
         path = file.relative_to(ROOT).as_posix()

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Says the version wherever something else than Cargo.toml does not, and what a published crate would lack.
+"""Checks that all files name the version of Cargo.toml, and that published crates lack nothing.
 
     scripts/versions.py                  on every commit
-    scripts/versions.py --print          prints it
-    scripts/versions.py --release [TAG]  what a release needs beside: a dated section of the changelog, that date in CITATION.cff,
+    scripts/versions.py --print          prints the version
+    scripts/versions.py --release [TAG]  also checks a release: a dated section of the changelog, that date in CITATION.cff,
                                          the repository's address, and the tag, if there is one
 """
 import datetime
@@ -19,19 +19,19 @@ LICENSES = ("LICENSE-APACHE", "LICENSE-MIT")
 
 
 def cited(text, key):
-    """The value of a key at the left margin of CITATION.cff, or None."""
+    """Returns the value of a key at the left margin of CITATION.cff, or None."""
     found = re.search(rf'^{key}: *"?([^"\n]*?)"? *$', text, re.MULTILINE)
     return found and found[1]
 
 
 def section(changelog):
-    """The newest section of the changelog: its title, its date or None, and its text."""
+    """Returns the newest section of the changelog: its title, its date or None, and its text."""
     found = re.search(r"^## \[([^\]]+)\](?: - (\S+))?\n(.*?)(?=^## \[|\Z)", changelog, re.MULTILINE | re.DOTALL)
     return found.groups() if found else (None, None, "")
 
 
 def disagreements(manifest, pyproject, citation, changelog):
-    """Each place that names another version than the manifest of the workspace."""
+    """Yields each place that names another version than the manifest of the workspace."""
     version = manifest["workspace"]["package"]["version"]
     for name, wanted in manifest["workspace"]["dependencies"].items():
         if isinstance(wanted, dict) and "path" in wanted and wanted.get("version") != f"={version}":
@@ -46,7 +46,7 @@ def disagreements(manifest, pyproject, citation, changelog):
 
 
 def missing(manifest, citation, changelog, tag=None):
-    """What keeps this from being a release."""
+    """Yields the problems that keep this commit from being a release."""
     package = manifest["workspace"]["package"]
     version = package["version"]
     title, date, text = section(changelog)
@@ -65,7 +65,7 @@ def missing(manifest, citation, changelog, tag=None):
 
 
 def unfit(folder):
-    """What a crate that is published has to have in its folder, and lacks."""
+    """Yields the files that a published crate must have in its folder, and lacks."""
     package = tomllib.loads((folder / "Cargo.toml").read_text())["package"]
     if package.get("publish") is False:
         return

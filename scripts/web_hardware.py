@@ -18,12 +18,12 @@ FRAME = (640, 480)
 SIZES = (8, 16)
 FEATURES = ("edge", "corner", "mad", "variance")
 FILTERS = ("none", "median3x3")
-# The reference, what irrelevant regions show, and the name of that in the table.
+# The reference, the rendering of irrelevant regions, and the name of the pair in the table.
 SCREENS = (("previous", "zero", "zero"), ("last-sent", "mean", "mean2"))
 
 
 def estimate(size: int, feature: str, denoise: str, reference: str, irrelevant: str) -> tuple[str, list]:
-    """The synthesizer's name, and LUT, FF, RAMB36, MHz and frames/s of a design."""
+    """Returns the synthesizer's name, and LUT, FF, RAMB36, MHz and frames/s of a design."""
     keys = [
         f"frame={{width={FRAME[0]},height={FRAME[1]}}}",
         f"region.size={size}",

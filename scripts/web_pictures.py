@@ -16,12 +16,12 @@ from PIL import Image
 from playwright.sync_api import sync_playwright
 
 IMAGES = Path(__file__).parents[1] / "docs/images"
-# A page has few colours, and greys.
+# The page has few colours, and greys.
 COLOURS = 160
 
 
 def steps(page, count):
-    """Steps so many frames."""
+    """Steps a number of frames."""
     for number in range(count):
         page.click("#step")
         while page.evaluate("foveate.sums.frames") < number + 2:
@@ -30,20 +30,20 @@ def steps(page, count):
 
 
 def save(name, data):
-    """Writes a PNG of few bytes."""
+    """Writes a small PNG."""
     picture = Image.open(io.BytesIO(data)).convert("RGB").quantize(COLOURS, method=Image.Quantize.MAXCOVERAGE, kmeans=1, dither=Image.Dither.NONE)
     picture.save(IMAGES / name, optimize=True)
     print(f"docs/images/{name}: {(IMAGES / name).stat().st_size} bytes")
 
 
 def overview(page):
-    """The three pictures and the controls."""
+    """Takes a picture of the three screens and the controls."""
     steps(page, 60)
     save("live.png", page.screenshot(clip={"x": 0, "y": 0, "width": 1280, "height": 880}))
 
 
 def slider(page):
-    """Larger regions: what becomes of the picture and of the bytes."""
+    """Takes a picture with larger regions, which change the screen and the bytes."""
     page.fill("[data-key='region.size'] input[type=number]", "32")
     page.keyboard.press("Tab")
     steps(page, 60)
@@ -52,7 +52,7 @@ def slider(page):
 
 
 def region(page):
-    """A region that is sent, explained."""
+    """Takes a picture of the explanation of a sent region."""
     steps(page, 60)
     active = page.evaluate("[...foveate.camera.regions].flatMap((byte, region) => byte === 3 ? [region] : [])")
     columns = page.evaluate("foveate.camera.facts.columns")

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What the tests share: the command line of this machine, which the package must equal."""
+"""Fixtures of the tests: the command line of this machine, whose results those of the package must equal."""
 from __future__ import annotations
 
 import os
@@ -26,7 +26,7 @@ def command():
 
 @pytest.fixture(scope="session")
 def frames():
-    """A clip of which a part changes, 12 frames of 60 x 83 pixels: no multiple of a region."""
+    """Makes a clip in which a part changes: 12 frames of 60 x 83 pixels, which is not a multiple of a region."""
     chance = np.random.default_rng(7)
     still = chance.integers(0, 256, (60, 83), np.uint8)
     clip = np.repeat(still[None], 12, axis=0)
@@ -36,7 +36,7 @@ def frames():
 
 
 def equal(one, other):
-    """Whether two outcomes are equal in everything but the frame itself."""
+    """Returns whether two outcomes are equal, except for the frame itself."""
     names = ("srs", "trs", "active", "action", "changed", "rendered")
     same = all(np.array_equal(getattr(one, name), getattr(other, name)) for name in names)
     return same and all(np.array_equal(one.scores[name], other.scores[name]) for name in one.scores)

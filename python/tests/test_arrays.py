@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Arrays of every layout are the same frame, and what is no frame is refused by name."""
+"""Arrays of every layout give the same frame, and other values are refused with a reason."""
 import contextlib
 import re
 from pathlib import Path
@@ -15,25 +15,25 @@ from conftest import equal
 
 
 def spread(pixels):
-    """The pixels with one column between them."""
+    """Returns the pixels in an array with a gap of one column between them."""
     wide = np.zeros((pixels.shape[0], 2 * pixels.shape[1]), pixels.dtype)
     wide[:, ::2] = pixels
     return wide[:, ::2]
 
 
 def framed(pixels):
-    """The pixels inside of a larger array, with other values around."""
+    """Returns the pixels inside of a larger array, with other values around."""
     return np.pad(pixels, ((3, 2), (5, 7)), constant_values=1)[3:-2, 5:-7]
 
 
 def unaligned(pixels):
-    """The pixels at an odd address."""
+    """Returns the pixels at an odd address."""
     raw = b"\0" + pixels.tobytes()
     return np.frombuffer(raw, pixels.dtype, offset=1).reshape(pixels.shape)
 
 
 def frozen(pixels):
-    """The pixels, which must not be written."""
+    """Returns the pixels in a read-only array."""
     copy = pixels.copy()
     copy.flags.writeable = False
     return copy
@@ -56,7 +56,7 @@ LAYOUTS = {
 
 
 def pixels(dtype, largest):
-    """Frames of 1 to 40 pixels a side."""
+    """Draws frames with sides of 1 to 40 pixels."""
     sides = st.integers(1, 40)
     return st.tuples(sides, sides).flatmap(lambda shape: arrays(dtype, shape, elements=st.integers(0, largest)))
 
@@ -191,7 +191,7 @@ def test_what_has_no_colours_is_refused_with_what_would_be_right(frame, error, m
 
 
 CONVERTED = [
-    # Values, bits of a pixel, and the pixels that the message leads to.
+    # Values, bits of a pixel, and the pixels after the conversion that the message names.
     (np.array([[0.0, 0.25], [0.5, 1.0]]), 8, [[0, 64], [128, 255]]),
     (np.array([[0.0, 0.25], [0.5, 1.0]], np.float32), 10, [[0, 256], [512, 1023]]),
     (np.array([[0.0, 0.25], [0.5, 1.0]], np.float16), 4, [[0, 4], [8, 15]]),
@@ -232,7 +232,7 @@ def test_the_message_says_which_values_there_are():
 
 
 class Exchanged:
-    """Has an array, and says so by DLPack alone."""
+    """An object with an array that supports only DLPack."""
 
     def __init__(self, array, device=(1, 0)):
         self._array, self._device = array, device

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What a camera is, remembers and refuses."""
+"""Tests of cameras: configuration, state, and refused values."""
 import copy
 import pickle
 import re
@@ -143,7 +143,7 @@ def test_times_of_steps(frames):
     camera = fv.Camera()
     assert [camera.step(frames[0]).time_us, camera.step(frames[1]).time_us] == [0, 33_333]
     assert camera.step(frames[2], time_us=50_000).time_us == 50_000
-    # Two frames may have the same time, and those without one go on from the last that was given.
+    # Two frames may have the same time, and frames without one continue from the last given time.
     assert camera.step(frames[3], time_us=50_000).time_us == 50_000
     assert [camera.step(frame).time_us for frame in frames[4:7]] == [83_333, 116_667, 150_000]
     with pytest.raises((OverflowError, TypeError)):
@@ -191,10 +191,10 @@ def test_hardware_of_a_camera_has_the_size_of_its_frames(frames, tmp_path):
     camera.reset()
     with pytest.raises(ValueError, match=asked):
         fv.generate(camera, tmp_path / "other")
-    # Half a size is none.
+    # A frame with only one of its two sizes is refused.
     with pytest.raises(ValueError, match=asked):
         fv.Camera(frame={"width": 64}).generate(tmp_path / "other")
-    # A design has the size of its file, or the paper's.
+    # A design has the size in its file, or that of the paper.
     fv.generate("bare", tmp_path / "other")
     assert fv.Design(tmp_path / "other" / "design.toml").width == 224
 
@@ -209,7 +209,7 @@ def test_a_camera_is_copied_before_its_first_frame_only(frames):
             how(camera)
     design = pickle.loads(pickle.dumps(camera.design))
     assert design == camera.design and copy.copy(design) == design
-    # A design that leaves the size open leaves it open after pickling, too.
+    # A design with an open size has an open size after pickling, too.
     free = pickle.loads(pickle.dumps(fv.Design("steady")))
     assert fv.Camera(free).step(frames[0]).active.shape == (8, 11)
     with pytest.raises(TypeError, match="cannot be pickled"):
@@ -249,7 +249,7 @@ def test_everything_shows_itself(frames):
     assert "6 x 4 = 24" in camera._repr_html_() and camera.design.fingerprint in camera.design._repr_html_()
     assert outcome._repr_html_().count("data:image/png;base64") == 2
     camera.step(frames[1])
-    # The rendered frame is gone; the decisions are not.
+    # The rendered frame is no longer there, but the decisions are.
     assert camera.step(frames[2])._repr_html_().count("rendered") == 2
     late = camera.step(frames[3])
     camera.step(frames[4])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The package and the command line give the same bits."""
+"""The results of the package and of the command line are equal, bit by bit."""
 import json
 import struct
 
@@ -139,7 +139,7 @@ def test_a_network_takes_arrays_as_it_takes_footage(frames, tmp_path):
         for name, output in expected.outputs.items():
             assert np.array_equal(found.outputs[name], output) and len(output) == 7, name
         assert found.summary["macs"] == expected.summary["macs"] and found.summary["inputs"] == ["array"]
-    # As images of a set, each is a first frame.
+    # Each image of a set is a first frame.
     every = fv.infer(network, frames[:3], images="set")
     assert all(np.array_equal(part[1], fv.infer(network, frames[1:2], images="set").outputs[name][0]) for name, part in every.outputs.items())
     found = fv.infer(network, frames[:2].astype(np.uint16) << 4, {"frame": {"pixel_bits": 12}})
@@ -172,7 +172,7 @@ def test_options_of_a_network_are_named_with_the_nearest():
 
 
 def idx_set(folder):
-    """A labelled set of 12 images in IDX files."""
+    """Makes a labelled set of 12 images in IDX files."""
     chance = np.random.default_rng(3)
     images, labels = chance.integers(0, 256, (12, 28, 28), np.uint8), np.arange(12, dtype=np.uint8)
     images[:, :12] = 0

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Where a package of an extra is missing, one line says what to install."""
+"""If a package of an extra is missing, one line says what to install."""
 from __future__ import annotations
 
 import subprocess
@@ -10,7 +10,7 @@ import pytest
 
 
 def without(package: str, code: str) -> subprocess.CompletedProcess[str]:
-    """Runs code in an interpreter that does not find a package."""
+    """Runs code in an interpreter that does not find some packages."""
     code = f"import sys; sys.modules[{package!r}] = None\n{code}"
     return subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
 
@@ -41,7 +41,7 @@ def test_data_sets_without_torch() -> None:
 ])
 def test_the_command_says_so_before_it_begins(package: str, name: str, words: list[str], tmp_path: Path) -> None:
     words = [*words, "-o", str(tmp_path / "out"), "--data", str(tmp_path)]
-    # Others need not be there either: nothing is imported before.
+    # Other packages may be missing, too: none is imported before the check.
     known = "import importlib.util as util, importlib.machinery as machinery\nfound = util.find_spec\nimport foveate._extras as extras\n" \
         f"extras.find_spec = lambda name: found(name) if name == {package!r} else machinery.ModuleSpec(name, None)\n"
     ended = without(package, f"{known}from foveate.studies.__main__ import main\nsys.exit(main({words!r}))")

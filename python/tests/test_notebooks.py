@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The notebooks run from an empty kernel, and hold what they print."""
+"""The notebooks run from an empty kernel, and contain the output that they print."""
 import os
 
 import nbclient
@@ -12,9 +12,9 @@ NOTEBOOKS = sorted((ROOT / "python/notebooks").glob("*.ipynb"))
 
 
 def texts(notebook):
-    """What a notebook prints, by cell; not its pictures, which differ from one matplotlib to another."""
+    """Returns the printed output of a notebook by cell, without its pictures, which depend on the version of matplotlib."""
     cells = [cell for cell in notebook.cells if cell.cell_type == "code"]
-    # What is printed at once may come in several pieces.
+    # One output may come in several pieces.
     return ["".join(output.text for output in cell.outputs if output.output_type == "stream") for cell in cells]
 
 

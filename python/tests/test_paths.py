@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A path that is no file, a folder, or not to be read raises the exception of Python, wherever a path is given."""
+"""A path to a missing file, a folder, or an unreadable file raises Python's exception, wherever a path is given."""
 from pathlib import Path
 
 import numpy as np
@@ -34,7 +34,7 @@ READERS = {
     "estimate": fv.estimate,
     "Registers": lambda path: fv.Registers(path, lambda address: 0, lambda address, value: None),
 }
-#: Those for which a folder is footage.
+#: The functions for which a folder is footage.
 FOLDERS = {"simulate", "simulate, list", "explain", "fidelity", "infer, inputs"}
 
 
@@ -58,7 +58,7 @@ def test_a_folder_in_place_of_a_file(reader, tmp_path, monkeypatch):
 
 
 def forbidden():
-    """A file that even root may not read, where there is one."""
+    """Returns a file that even root may not read, if there is one."""
     path = Path("/proc/sys/vm/drop_caches")
     try:
         path.read_bytes()

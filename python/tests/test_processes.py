@@ -26,12 +26,12 @@ def test_a_step_does_not_hold_the_interpreter():
     def work():
         for _ in range(40):
             camera.step(frame)
-            # Without skipping: regions that are as before cost nothing.
+            # Without the reset, unchanged regions would be skipped and take no time.
             camera.reset()
         ended.set()
 
     before = sys.getswitchinterval()
-    # A thread that holds the interpreter through its steps would not give it back before its end.
+    # A thread that held the interpreter during its steps would not release it before its end.
     sys.setswitchinterval(100)
     try:
         thread = threading.Thread(target=work)
@@ -174,7 +174,7 @@ def test_ctrl_c_ends_long_work_at_once(what, tmp_path):
         assert process.returncode == -signal.SIGINT and errors.rstrip().endswith("KeyboardInterrupt")
 
 
-#: Stands for Yosys: at once there is a netlist that takes seconds to be read.
+#: A replacement of Yosys, which writes at once a netlist that takes seconds to be read.
 YOSYS = """#!{python}
 import sys
 if "-V" in sys.argv:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The driver of a core on AXI: over a file of registers and a serial line that are written here from docs/axi.md, docs/packets.md,
+"""Tests of the driver of a core on AXI, over a register file and a serial line that are written here from docs/axi.md, docs/packets.md,
 docs/boards.md and a core's REGISTERS.md."""
 import re
 import struct
@@ -21,7 +21,7 @@ def design():
 
 @pytest.fixture(scope="module")
 def page(design, tmp_path_factory):
-    """What REGISTERS.md says: address, name, doc and fields of each register."""
+    """Returns address, name, doc and fields of each register in REGISTERS.md."""
     folder = tmp_path_factory.mktemp("core") / "core"
     design.generate(folder)
     found = []
@@ -37,13 +37,13 @@ def page(design, tmp_path_factory):
 
 
 class Core:
-    """Registers as docs/axi.md has them."""
+    """A register file by docs/axi.md."""
 
     def __init__(self, page):
         self.reset = {address: sum((field[4] or 0) << field[1] for field in fields) for address, _, fields in page}
         self.at = {name: address for address, name, _ in page}
         self.values = dict(self.reset)
-        #: Commands that were given, all writes, and the thresholds of each frame that began.
+        #: The commands, all writes, and the thresholds of each frame that began.
         self.restarts, self.written, self.frames = 0, [], []
 
     def read(self, address):
@@ -80,12 +80,12 @@ def test_a_design_has_the_registers_of_its_page(design, page):
     assert [(one.address, one.name) for one in table] == [(address, name) for address, name, _ in page]
     assert len(page) > 20 and sum(len(fields) for *_, fields in page) > 40
     for own, (_, _, fields) in zip(table, page, strict=True):
-        # Of a field that is all of a register the page says what the register is, too.
+        # If a field is all of a register, the page has the doc of the register, too.
         docs = [f"{own.doc}: {field.doc}" if field.name == "value" else field.doc for field in own.fields]
         seen = [(*field[:5], doc) for field, doc in zip(own.fields, docs, strict=True)]
         assert seen == fields, own.name
     assert fv.Camera(design).registers() == table
-    # A camera has the size of its frames, and so have its registers.
+    # A camera has the size of its frames, and its registers have that size, too.
     camera = fv.Camera({"hardware": {"organization": "raster", "interface": "axi"}})
     camera.step(np.zeros((40, 64), np.uint8))
     assert [field.reset for one in camera.registers() if one.name == "frame" for field in one.fields] == [64, 40]
@@ -125,7 +125,7 @@ def test_events_are_cleared_by_name(core, driver):
     before = list(core.written)
     driver.clear()
     assert driver.events() == ["region_dropped"] and core.written == before
-    # Of two events one is cleared by its field, too.
+    # A field can clear one of two events, too.
     driver["interrupt_test.sof_late"] = 1
     driver["events.sof_late"] = 1
     assert driver.events() == ["region_dropped"]
@@ -139,7 +139,7 @@ def test_several_thresholds_hold_together(core, driver):
     driver.set(edge_level=7, edge_min=3, temporal_level=1)
     assert core.frames == [(7, 3)]
     assert (core.values[0x20], driver["temporal_level"]) == (3, 1)
-    # One alone stops nothing, and a core that was stopped stays so.
+    # A single threshold does not stop the core, and a stopped core stays stopped.
     del core.written[:]
     driver.set(edge_level=9)
     assert core.written == [(0x100, 9)]
@@ -212,20 +212,20 @@ def test_a_core_may_be_that_of_a_camera(design, core):
     refused = "`frame.width` is 64, not 224"
     with pytest.raises(RuntimeError, match=refused):
         fv.Registers(camera, core.read, core.write)
-    # With its first frame it has a size.
+    # After its first frame the camera has a size.
     camera.step(np.zeros((40, 64), np.uint8))
     assert fv.Registers(camera, core.read, core.write)["frame.width"] == 64
 
 
 def register(address, value, written, frame=0):
-    """A REGISTER packet of docs/packets.md."""
+    """Makes a REGISTER packet by docs/packets.md."""
     words = 0xFA | 6 << 8 | written << 12 | 3 << 16 | address << 32, value
     body = struct.pack("<QQI", *words, frame)
     return body + struct.pack("<I", zlib.crc32(body))
 
 
 def split(packets):
-    """Whole packets of a stream without damage."""
+    """Returns the packets of a stream without damage."""
     found, at = [], 0
     while at < len(packets):
         size = 8 * struct.unpack_from("<H", packets, at + 2)[0]
@@ -235,14 +235,14 @@ def split(packets):
 
 
 class Port:
-    """A board on a serial line, as docs/boards.md has it: packets come byte by byte, and answers stand between two of them."""
+    """A board on a serial line by docs/boards.md: packets come byte by byte, and answers come between two of them."""
 
     def __init__(self, core, packets=b"", piece=7):
         self.core, self.board, self.piece = core, 0x0005_0001, piece
-        #: What has not come yet of the packet under way; what has left the core, answers among it; and what has not.
+        #: The bytes of the current packet that have not come yet; the bytes that have left the core, answers included; and those that have not.
         self.rest, self.queue, self.packets = b"", [], split(packets)
         self.commands, self.held = [], []
-        #: By the number of a command: what becomes of its answer. None: the command is not heard.
+        #: The fate of the answer by the number of its command. None: the command is not received.
         self.fate = {}
 
     def write(self, data):
@@ -262,12 +262,12 @@ class Port:
         del self.packets[:2]
 
     def hold(self, answer):
-        """A fate: the answer comes later, before the next one."""
+        """Holds an answer (a fate): it comes before the next one."""
         self.held.append(answer)
         return []
 
     def late(self, answer):
-        """A fate: what was held comes, and then the answer."""
+        """Sends held answers, and then this one (a fate)."""
         held, self.held = self.held, []
         return [*held, answer]
 
@@ -280,12 +280,12 @@ class Port:
         return found
 
     def left(self):
-        """Everything that has not come yet."""
+        """Returns all bytes that have not come yet."""
         return self.rest + b"".join([*self.queue, *self.packets])
 
 
 class PySerial(Port):
-    """With what has come, which a port of pyserial tells; it would wait for more."""
+    """A board whose port reports the number of received bytes, as pyserial does, and would wait for more."""
 
     @property
     def in_waiting(self):
@@ -297,7 +297,7 @@ class PySerial(Port):
 
 
 class Clock:
-    """A time that does not depend on how busy this machine is: it goes on when it is asked for."""
+    """A clock that does not depend on the load of this machine: it advances at each call."""
 
     def __init__(self):
         self.now = 0.0
@@ -375,7 +375,7 @@ def test_an_answer_with_a_wrong_bit_is_none(bit, design, core):
 
     port.fate[len(port.commands)] = flip
     assert driver["edge_level"] == 100
-    # It may belong to somebody.
+    # Such a packet may be part of a recording.
     assert driver.received() == flipped[0]
 
 
@@ -390,7 +390,7 @@ def test_an_answer_is_found_in_noise(design, core):
     port = Port(core)
     driver = over(design, port)
     driver.received()
-    # Beginnings of an answer, the last before a whole one; answers of another register; and one that is written, not read.
+    # Beginnings of an answer, the last of them before a whole one; answers of another register; and the answer to a write.
     head = register(0x100, 77, 0)
     noise = [b"\xfa\xfa", head[:9], head[:23], register(0x104, 3, 0), register(0x100, 3, 1), register(0x100, 3, 0, frame=1), head[:9]]
     port.fate[len(port.commands)] = lambda answer: [*noise, answer, b"\xfa\x06\x03"]
@@ -404,7 +404,7 @@ def test_an_old_answer_is_not_taken_for_a_new_one(design, core):
     port = Port(core)
     driver = over(design, port)
     number = len(port.commands)
-    # The first answer is late. The second is there; the first comes with the next command.
+    # The first answer is late. The second one comes in time; the first comes with the next command.
     port.fate = {number: port.hold, number + 2: port.late}
     assert driver["edge_level"] == 100
     core.values[0x100] = 44
@@ -414,7 +414,7 @@ def test_an_old_answer_is_not_taken_for_a_new_one(design, core):
     driver["edge_level"] = 50
     driver["edge_level"] = 50
     assert port.commands.count(register(0x100, 50, 1)) == 3
-    # Where nothing has come at all, an answer may come as well.
+    # The answer may also come after a time without any byte.
     driver = over(design, port, attempts=1)
     number = len(port.commands)
     port.fate = {number: port.hold, number + 1: port.late}
@@ -433,7 +433,7 @@ def test_a_write_is_answered_by_what_was_written(design, core):
 
 
 class Silent:
-    """A port on which nothing comes, or for ever something else."""
+    """A port on which no byte comes, or only bytes of other packets."""
 
     def __init__(self, what):
         self.what, self.commands, self.reads = what, [], 0
@@ -452,7 +452,7 @@ def test_a_board_that_does_not_answer_is_a_timeout(what, design, clock):
     with pytest.raises(TimeoutError, match="asked 3 times to read register 0x0, and had 0.3 s each time"):
         over(design, port)
     assert port.commands == 3 * [register(0, 0, 0)] and 0.9 < clock.now < 1
-    # Where nothing comes the processor rests.
+    # The processor is idle while no byte comes.
     assert what or port.reads < 1000
     port = Silent(what)
     with pytest.raises(TimeoutError, match="asked 2 times to read register 0x0, and had 2 s each time"):

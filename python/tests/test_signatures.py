@@ -10,12 +10,12 @@ import foveate as fv
 from conftest import ROOT
 from foveate import _foveate
 
-#: Its parameters are the registers of a core, whose names a design has.
+#: The parameters of this method are the registers of a core, whose names depend on the design.
 BY_NAME = {"Registers.set"}
 
 
 def public(thing):
-    """Names of the public attributes that a class has of its own."""
+    """Returns the names of the public attributes that a class itself defines."""
     bases = [base for base in type.mro(thing) if base.__module__.startswith("foveate")]
     return sorted({name for base in bases for name in vars(base) if not name.startswith("_")})
 
@@ -25,12 +25,12 @@ def classes():
 
 
 def made():
-    """The classes that users make themselves."""
+    """Returns the classes that users instantiate."""
     return {name: classes()[name] for name in ("Camera", "Design", "Registers")}
 
 
 def callables():
-    """Every public function, method and class that users call, by name."""
+    """Returns every public function, method and class that users call, by name."""
     found = {name: getattr(fv, name) for name in fv.__all__ if inspect.isroutine(getattr(fv, name))}
     found |= made()
     for name, thing in classes().items():
@@ -68,7 +68,7 @@ def test_a_docstring_has_the_parameters_of_the_signature(name):
 
 
 def stub():
-    """Parameters with the defaults of the functions, methods and classes of the compiled part, as the stub has them."""
+    """Returns the parameters with defaults of the functions, methods and classes of the compiled part in the stub."""
     tree = ast.parse((ROOT / "python/foveate/_foveate.pyi").read_text())
     found = {}
     for node in tree.body:
@@ -89,7 +89,7 @@ def test_stubs_have_the_parameters_and_defaults_of_signatures():
     compared = 0
     for name, own in stub().items():
         owner = name.split(".")[0]
-        # Others are the functions behind those of Python's files.
+        # Other functions are internal ones of the Python files.
         if name not in callables() or getattr(_foveate, owner) is not getattr(fv, owner):
             continue
         seen = {key: "" if one.default is one.empty else repr(one.default) for key, one in parameters(callables()[name]).items()}

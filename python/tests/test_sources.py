@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The source distribution has every file that is needed to build it; scripts/artefacts.sh --try builds it."""
+"""The source distribution has every file that its build needs; scripts/artefacts.sh --try builds it."""
 import os
 import re
 import subprocess
@@ -13,13 +13,13 @@ from conftest import ROOT
 
 
 def embedded():
-    """Files that a crate's code or its templates take in. Links are not followed: a package has a file in place of each."""
+    """Yields the files that a crate's code or its templates include. Links are not followed: a package has a file in place of each."""
     for crate in [*(ROOT / "crates").iterdir(), ROOT / "python"]:
         for source in (crate / "src").rglob("*.rs"):
             text = source.read_text().split("#[cfg(test)]")[0]
             for path in re.findall(r'include_(?:str|bytes)!\(\s*(?:concat!\()?"([^"]+)"', text):
                 found = Path(os.path.normpath(source.parent / path))
-                # Part of a name, which a macro completes.
+                # This is a part of a name, which a macro completes.
                 yield from found.glob("*.v") if path.endswith("/") else [found]
         settings = crate / "askama.toml"
         if settings.is_file():

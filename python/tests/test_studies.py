@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The studies, on small sets that are made here."""
+"""Tests of the studies, on small sets that are made here."""
 from __future__ import annotations
 
 import gzip
@@ -28,7 +28,7 @@ ACCURACY = [*SMALL, "--seeds", "2", "--figure-seeds", "1", "--thresholds", "1", 
 
 
 def half(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
-    """Images whose class is where a bright square is, so that one epoch learns something."""
+    """Makes images whose class is the place of a bright square, so that one epoch is enough to learn it."""
     draws = np.random.default_rng(seed)
     labels = draws.integers(0, 10, count).astype(np.uint8)
     images = draws.integers(0, 40, (count, 28, 28)).astype(np.uint8)
@@ -40,7 +40,7 @@ def half(count: int, seed: int) -> tuple[np.ndarray, np.ndarray]:
 
 @pytest.fixture(scope="module")
 def sets(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """One set as it is, one in torchvision's folders and gzipped."""
+    """Makes one plain set, and one in torchvision's folders, gzipped."""
     folder = tmp_path_factory.mktemp("sets")
     for place, count, packed in (("mnist", 1200, False), ("FashionMNIST/raw", 700, True)):
         home = folder / place
@@ -57,7 +57,7 @@ def sets(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 @pytest.fixture(scope="module")
 def done(sets: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
-    """The small study of accuracy, run once."""
+    """Runs the small study of accuracy once."""
     folder = tmp_path_factory.mktemp("accuracy") / "out"
     assert main(["accuracy", "-o", str(folder), "--data", str(sets), *ACCURACY]) == 0
     return folder
@@ -74,7 +74,7 @@ def test_a_study_writes_its_runs_tables_and_figure(done: Path) -> None:
     assert "Intervals cover seeds and images, not other training recipes" in names["accuracy.md"].decode()
     summary = json.loads(names["accuracy.json"])
     for entry in summary["sets"]:
-        # Half of what is not validated; half of the test images.
+        # Half of the images that are not used for validation, and half of the test images.
         assert entry["train_images"] == {"mnist": 550, "fashion-mnist": 300}[entry["set"]] and entry["test_images"] == 100
         assert [row["tested"] for row in entry["figure"]] == ["n8-edge1", "n8-edge1", "n8-edge12", "n8-edge12"]
         for row in entry["figure"]:
@@ -149,7 +149,7 @@ def test_ctrl_c_ends_in_one_line(sets: Path, tmp_path: Path, monkeypatch: pytest
 @pytest.mark.parametrize(("size", "means"), [(7, 0), (8, 2)])
 def test_images_are_those_of_the_command_bit_for_bit(size: int, means: int, tmp_path: Path, command: Any) -> None:
     source = tmp_path / "t10k-images-idx3-ubyte"
-    # Every image twice: the second one must not be a frame without changes.
+    # Every image comes twice: the second one must not be a frame without changes.
     write_idx(source, np.repeat(half(50, 4)[0], 2, axis=0))
     keys = ["--set", "spatial=[{feature='edge', level=100, min_score=3}]", "--set", "denoise.filter='none'", "--set", f"region.size={size}"]
     keys += ["--set", "render.irrelevant='mean'", "--set", f"periphery.blocks={means}"] if means else []
@@ -163,7 +163,7 @@ def test_images_are_those_of_the_command_bit_for_bit(size: int, means: int, tmp_
 
 
 def test_bytes_leave_out_padding() -> None:
-    """One bright corner in the last region of 28 x 28, which has 4 x 4 pixels of its own."""
+    """Makes an image of 28 x 28 with one bright corner in the last region, of which 4 x 4 pixels are in the image."""
     images = np.zeros((3, 28, 28), np.uint8)
     images[1, 25:27, 25:27] = 255
     one = seen(images, Regions(1, filter="none"))
@@ -207,13 +207,13 @@ def test_a_bootstrap_is_as_wide_as_its_standard_error() -> None:
 
 
 class Table:
-    """Stands for a bench whose results are known."""
+    """A bench with known results."""
 
     def __init__(self, validation: dict[Regions | None, float]) -> None:
         self.validation = validation
 
     def result(self, run: Run) -> Result:
-        # Test accuracy would choose otherwise.
+        # The test accuracy would lead to another choice.
         threshold = 0 if run.trained is None else run.trained.min_score
         return Result({"validation_accuracy": self.validation[run.trained], "test_accuracy": threshold / 100})
 
@@ -241,7 +241,7 @@ def test_words_need_both_intervals(difference: tuple[float, ...], images: tuple[
 
 def test_lenet_has_its_layers() -> None:
     model = lenet5(10)
-    # Kernels and biases of the paper of LeNet-5, with a C3 that sees all maps.
+    # The kernels and biases of the paper of LeNet-5, with a C3 that uses all maps.
     sizes = {"c1": 156, "c3": 2416, "c5": 48120, "f6": 10164, "output": 850}
     assert {name: sum(one.numel() for one in layer.parameters()) for name, layer in model.named_children() if list(layer.parameters())} == sizes
 

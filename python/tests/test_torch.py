@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Data sets and transforms of PyTorch."""
+"""Tests of the data sets and transforms of PyTorch."""
 import copy
 import pickle
 from concurrent.futures import ThreadPoolExecutor
@@ -83,7 +83,7 @@ def test_transforms_are_copied_pickled_and_shared_by_threads():
 
 
 def batch(pair):
-    """What a DataLoader makes of a list, defined here so that workers can be spawned."""
+    """Collates a list for a DataLoader. It is defined here so that workers can be spawned."""
     return [torch.stack(list(part)) if torch.is_tensor(part[0]) else torch.tensor(part) for part in zip(*pair, strict=True)]
 
 

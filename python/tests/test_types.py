@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The types hold, the stubs say what is there, and everything public is documented."""
+"""The types are right, the stubs agree with the compiled part, and everything public is documented."""
 import inspect
 import subprocess
 import sys
@@ -44,7 +44,7 @@ def run(*words, cwd):
 
 @pytest.fixture(scope="module")
 def mypy(tmp_path_factory):
-    """Runs it, strictly. What it has read of others' packages it reads once."""
+    """Runs mypy in strict mode, with one cache for other packages."""
     cache = tmp_path_factory.mktemp("mypy")
     return lambda *words, cwd: run("mypy", "--strict", "--cache-dir", str(cache), *words, cwd=cwd)
 
@@ -55,7 +55,7 @@ def test_the_package_is_typed(mypy):
 
 
 def test_the_stubs_are_those_of_the_compiled_part(tmp_path):
-    # `main` and the like are not for users; what PyO3 adds to classes is not in stubs.
+    # `main` and similar functions are not for users. Methods that PyO3 adds to classes are not in stubs.
     checked = run("mypy.stubtest", "foveate._foveate", "--ignore-missing-stub", cwd=tmp_path)
     assert checked.returncode == 0, checked.stdout
 

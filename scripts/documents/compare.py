@@ -1,13 +1,13 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Whether a command printed what its page shows."""
+"""Compares the output of a command with that of its page."""
 import re
 
-# The parts of a line that another run or another machine changes, each with the words around it, and what is compared in its place.
+# The parts of a line that differ between runs or machines, each with the words around it, and the text that is compared in its place.
 CHANGING = [
     # foveate cosim
     (re.compile(r"\d+\.\d s(?= (vectors|build|run)\b)"), "<time> s"),
     (re.compile(r"Verilator 5\.\d+ \d{4}-\d\d-\d\d rev \([^)]*\)"), "Verilator <version>"),
-    # foveate infer: where masks take longer than they save, it does not say when they would save.
+    # foveate infer: if masks take longer than they save, it does not say when they would save.
     (re.compile(r"\d+\.\d\d ms per frame, \d+\.\d\d ms of it for masks"), "<time> ms per frame, <time> ms of it for masks"),
     (re.compile(r"; whole \d+\.\d\d ms(; faster up to \d+\.\d % of the blocks or more)?$"), "; whole <time> ms"),
 ]
@@ -16,7 +16,7 @@ LEFT_OUT = "..."
 
 
 def settled(line):
-    """A line without what changes from run to run."""
+    """Returns a line without the parts that differ between runs."""
     line = line.rstrip()
     for pattern, place in CHANGING:
         line = pattern.sub(place, line)
@@ -24,13 +24,13 @@ def settled(line):
 
 
 def agreed(part, printed):
-    """The number of lines of a part that are printed."""
+    """Returns the number of lines of a part that are printed."""
     both = zip(part, printed, strict=False)
     return next((number for number, (one, other) in enumerate(both) if one != other), min(len(part), len(printed)))
 
 
 def difference(expected, printed):
-    """The number of the first line, from 0, that is not printed as the page shows it, and what is wrong; none if there is no difference."""
+    """Returns the number, from 0, of the first line that differs from the page, and the difference; None without a difference."""
     expected, printed = [settled(line) for line in expected], [settled(line) for line in printed]
     at, start, parts = 0, 0, []
     for number in [*(n for n, line in enumerate(expected) if line == LEFT_OUT), len(expected)]:
@@ -57,5 +57,5 @@ def difference(expected, printed):
 
 
 def is_refusal(expected):
-    """Whether a page shows that a command fails: the program by its message, a bench by its last word."""
+    """Returns whether a page shows that a command fails: the program by its message, a bench by its last word."""
     return any(line.startswith(("foveate: ", "FAIL ")) and not line.startswith("foveate: warning: ") for line in expected)

@@ -11,7 +11,7 @@ from PIL import Image
 
 
 def given(folder, foveate, seed=1):
-    """Everything that the pages take for granted: a labelled IDX set, labelled photographs, a clip of 25 s, a folder of clips, and of the sources
+    """Makes all files that the pages assume: a labelled IDX set, labelled photographs, a clip of 25 s, a folder of clips, and of the sources
     the networks and the Verilog."""
     chance = numpy.random.default_rng(seed)
     images, labels = chance.integers(0, 256, (12, 28, 28), numpy.uint8), numpy.arange(12, dtype=numpy.uint8) % 10
@@ -30,7 +30,7 @@ def given(folder, foveate, seed=1):
     (folder / "clips").mkdir()
     command = [foveate, "simulate", "scene:street", "-o", "made", "--frames", "50", "--preset", "fovea", "--rendered", "mp4", "--quiet"]
     subprocess.run(command, cwd=folder, check=True, stdout=subprocess.DEVNULL)
-    # Two frames in a second.
+    # Two frames per second.
     slower = ["ffmpeg", "-v", "error", "-itsscale", "15", "-i", "made/rendered.mp4", "-c", "copy", "street.mp4"]
     subprocess.run(slower, cwd=folder, check=True)
     for name in ["clips/one.mp4", "clips/two.mp4"]:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The steps of pages that are not run, each with its reason. A step that is neither run nor here ends with an error, and so does a line here for
-which there is no step."""
+"""The steps of pages that are not run, each with its reason. A step that is neither run nor listed here is an error, and so is an entry
+without a step."""
 from documents.run import LeftOut
 
 PAGES = {"docs/commands.md": "it is made from the help texts, whose examples crates/cli/tests/cli/help.rs runs"}
@@ -55,7 +55,7 @@ NEVER = [
     ("docs/timing.md", "edge  ", DRAWING),
     ("docs/tutorial.md", "cargo install", "it installs into the home of who runs it; scripts/artefacts.sh does it elsewhere"),
 ]
-# The times are of a busy machine of two cores.
+# The times are those of a busy machine with two cores.
 LONG = [
     ("docs/clock.md", "foveate estimate --preset bare --place-and-route", "two minutes"),
     ("docs/guides/board.md", "foveate build --board icebreaker", "four minutes"),

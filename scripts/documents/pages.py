@@ -1,17 +1,17 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A page as steps: its commands with what they print, its blocks of Python, and blocks of text that belong to no command."""
+"""A page as steps: its commands with their output, its blocks of Python, and blocks of text that belong to no command."""
 import dataclasses
 import re
 import subprocess
 
-# Blocks of commands, and blocks that are files: nothing of them is run.
+# The languages of blocks of commands, and of blocks that are files and are not run.
 SHELLS = ["sh", "bash"]
 FILES = ["c", "toml", "yaml"]
 ITEM = re.compile(r" *([*-]|\d+\.) ")
 
 
 class PageError(Exception):
-    """A page that cannot be read or does not hold; it names page and line."""
+    """An error of a page that cannot be read or is wrong. The message names page and line."""
 
     def __init__(self, page, line, message):
         super().__init__(f"{page}:{line}: {message}")
@@ -24,19 +24,19 @@ class Step:
     line: int
     kind: str
     text: str
-    # The line in the page and the lines themselves; none where the page does not show what is printed.
+    # The line number in the page and the lines themselves; None if the page shows no output.
     expected: tuple[int, list[str]] | None = None
 
 
 def is_whole(command):
-    """Whether a shell would not wait for more: of loops, quotes and lines that go on."""
+    """Returns whether a command is complete, so that a shell would not wait for the end of a loop, a quote or a line."""
     if command.rstrip("\n").endswith("\\"):
         return False
     return subprocess.run(["bash", "-n"], input=command, capture_output=True, text=True, check=False).returncode == 0
 
 
 def commands(lines):
-    """The commands of a block of (number, line), each with all its lines. The rest, which no shell takes for a whole one, fails when it is run."""
+    """Yields the commands of a block of (number, line), each with all its lines. An incomplete last command fails when it is run."""
     taken, start = "", 0
     for number, line in lines:
         start = start if taken else number
@@ -50,7 +50,7 @@ def commands(lines):
 
 
 def session(start, lines):
-    """The steps of a block of text whose lines that start with `$ ` are commands and whose others are printed."""
+    """Returns the steps of a block of text: lines that start with `$ ` are commands, other lines are their output."""
     steps, number = [], 0
     while number < len(lines):
         line, command = start + number, lines[number].removeprefix("$ ")
@@ -72,10 +72,10 @@ class Reader:
 
     def __init__(self, page):
         self.page, self.steps = page, []
-        # The block in ``` or of indented lines that is being read.
+        # The block, in ``` or of indented lines, that is read now.
         self.language, self.start, self.fenced = None, 0, []
         self.code = []
-        # Whether a list is open, whose paragraphs are indented, too; the line before; and whether a block of commands has just ended.
+        # A list, whose paragraphs are indented, is open; the line before; a block of commands has just ended.
         self.in_list, self.before, self.follows = False, "", False
 
     def read(self, text):
@@ -97,7 +97,7 @@ class Reader:
         elif line.strip():
             self.end_code()
             self.follows = False
-            # A list ends at a line that is neither one of its own nor indented.
+            # A list ends at a line that is neither an item nor indented.
             self.in_list = bool(ITEM.match(line)) or (self.in_list and line.startswith(" "))
         elif self.code:
             self.code.append((number, ""))
@@ -131,5 +131,5 @@ class Reader:
 
 
 def steps(page, text):
-    """The steps of a page in their order."""
+    """Returns the steps of a page in order."""
     return Reader(page).read(text)

@@ -23,11 +23,11 @@ READERS = {
 
 
 class ReaderError(Exception):
-    """A reader that reads something else."""
+    """The error of a reader that reads other names."""
 
 
 def read_names(foveate):
-    """Every reader reads the same names of frames from a set with difficult ones."""
+    """Checks that every reader reads the same names of frames from a set with difficult names."""
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
         given(folder, foveate)

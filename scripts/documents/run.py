@@ -8,13 +8,13 @@ from documents import compare, pages
 from documents.pages import PageError
 from documents.shell import Shell, ShellError
 
-# A command that takes longer hangs, or is to be in the table. Those that take long have an hour.
+# A command that takes longer hangs, or must be in the table. Long commands of the table have an hour.
 SECONDS, LONG_SECONDS = 300, 3600
 
 
 @dataclasses.dataclass(frozen=True)
 class LeftOut:
-    """A step of a page that is not run, by the beginning of its text; with `is_long` it is, with --whole."""
+    """An entry for a step of a page that is not run, by the beginning of its text; with `is_long` the step is run with --whole."""
 
     page: str
     text: str
@@ -24,7 +24,7 @@ class LeftOut:
 
 @dataclasses.dataclass
 class Count:
-    """The counts of a page that has run."""
+    """The counts of a page after its run."""
 
     commands: int = 0
     outputs: int = 0
@@ -37,12 +37,12 @@ class Count:
 
 
 def entry_of(page, step, table):
-    """The entry of the table for a step, if there is one."""
+    """Returns the entry of the table for a step, or None."""
     return next((entry for entry in table if entry.page == page and step.text.startswith(entry.text)), None)
 
 
 def check_table(steps_of, table, pages_left_out):
-    """Refuses entries of the table for which there is no step."""
+    """Refuses entries of the table without a step."""
     for page in pages_left_out:
         if page not in steps_of:
             raise PageError(page, 0, "there is no such page, but a reason to leave it out; remove that reason")
@@ -53,7 +53,7 @@ def check_table(steps_of, table, pages_left_out):
 
 
 class PageRun:
-    """A page that is run in a folder."""
+    """The run of a page in a folder."""
 
     def __init__(self, page, table, is_compared=lambda command: True, whole=False):
         self.page, self.table, self.is_compared, self.whole = page, table, is_compared, whole
@@ -101,7 +101,7 @@ class PageRun:
 
 
 def read_pages(folder, pages_left_out):
-    """The steps of README.md and all pages of docs, by their names."""
+    """Returns the steps of README.md and of all pages of docs, by their names."""
     folder = pathlib.Path(folder)
     names = ["README.md", *sorted(str(page.relative_to(folder)) for page in (folder / "docs").rglob("*.md"))]
     text = {name: (folder / name).read_text(encoding="utf-8") for name in names}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""One shell for a page, to which its commands are given one by one, so that variables and the folder stay."""
+"""A shell that runs the commands of a page one by one, so that variables and the folder stay."""
 import os
 import pathlib
 import select
@@ -8,12 +8,12 @@ import signal
 import subprocess
 import tempfile
 
-# Shells that run, to be ended with all that they have started.
+# The running shells, which must be ended together with all processes that they have started.
 RUNNING = set()
 
 
 class ShellError(Exception):
-    """A command that does not end, or that ends the shell."""
+    """The error of a command that does not end, or that ends the shell."""
 
 
 class Shell:
@@ -41,14 +41,14 @@ class Shell:
         self.beside.cleanup()
 
     def kill(self):
-        """Ends it with all that it has started and that still runs."""
+        """Ends the shell and all processes that it has started."""
         try:
             os.killpg(self.process.pid, signal.SIGKILL)
         except ProcessLookupError:
             pass
 
     def run(self, text, seconds):
-        """Runs a command: its exit code, and the lines that it printed, also on standard error."""
+        """Runs a command. Returns its exit code, and the lines of its standard output and standard error."""
         step, printed = pathlib.Path(self.beside.name, "step"), pathlib.Path(self.beside.name, "printed")
         step.write_text(text + "\n", encoding="utf-8")
         ask = f". {shlex.quote(str(step))} </dev/null >{shlex.quote(str(printed))} 2>&1; echo $?{self.said}"

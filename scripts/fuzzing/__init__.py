@@ -1,2 +1,2 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The parts of scripts/fuzz.py: readers and their samples, mutations, and how an answer is judged."""
+"""The parts of scripts/fuzz.py: readers and their samples, mutations, and the judgement of answers."""

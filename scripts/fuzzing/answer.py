@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Runs the program on a file and judges how it ends."""
+"""Runs the program on a file, and judges how it ends."""
 import enum
 import resource
 import subprocess
@@ -9,7 +9,7 @@ SECONDS = 30
 
 
 class Answer(enum.Enum):
-    """How the program answered a file."""
+    """The kind of the program's answer to a file."""
 
     ACCEPTED = "accepted"
     PARTIAL = "in part"
@@ -18,17 +18,17 @@ class Answer(enum.Enum):
 
     @property
     def is_failure(self):
-        """Whether no file may be answered so."""
+        """Returns whether no file may get this answer."""
         return self is Answer.FAILED
 
 
 def limit_memory():
-    """Bounds the address space of the process that calls it."""
+    """Limits the address space of the calling process."""
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
 def judge(code, said):
-    """The answer of a run by its exit code and by its lines on standard error, and the reason of a failure."""
+    """Returns the answer of a run from its exit code and its lines on standard error, and the reason of a failure."""
     errors = [line for line in said.splitlines() if line.startswith("foveate: ") and not line.startswith("foveate: warning: ")]
     if "panicked at" in said or "memory allocation of" in said:
         return Answer.FAILED, said.strip().splitlines()[0]
@@ -42,7 +42,7 @@ def judge(code, said):
 
 
 def ask(command, folder, standard_input=None):
-    """Runs a command in a folder, fed by a file or by nothing, and judges it."""
+    """Runs a command in a folder, with a file or nothing as its input, and judges its answer."""
     source = open(standard_input, "rb") if standard_input else subprocess.DEVNULL
     try:
         run = subprocess.run(command, cwd=folder, stdin=source, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,

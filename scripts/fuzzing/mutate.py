@@ -4,7 +4,7 @@ import random
 import re
 
 MOST = 4
-# Bytes that an insertion may repeat; enough to exceed buffers and limits of a line.
+# The largest number of bytes of an insertion, enough to exceed buffers and limits of a line.
 LONGEST = 1 << 21
 NUMBERS = [b"0", b"-1", b"1e308", b"-0.0", b"nan", b"inf", b"255", b"256", b"65535", b"65536", b"4294967295", b"4294967296",
            b"9223372036854775807", b"9223372036854775808", b"18446744073709551616", b"0x10", b"1_000", b"3.5", b""]
@@ -57,7 +57,7 @@ def append_noise(data, draw):
 
 
 def set_large_number(data, draw):
-    """A field of 2, 4 or 8 bytes becomes a number near the end of its range."""
+    """Sets a field of 2, 4 or 8 bytes to a number near the end of its range."""
     size = draw.choice([2, 4, 8])
     start = draw.randrange(len(data))
     number = draw.choice([1 << (8 * size - 1), (1 << (8 * size)) - 1, (1 << (8 * size - 1)) - 1, 1 << (4 * size)])
@@ -88,7 +88,7 @@ TEXT_MUTATIONS = [replace_number, replace_number, insert_word, repeat_line]
 
 
 def mutated(sample, seed, is_text):
-    """The sample after one to four mutations, which the seed alone decides."""
+    """Returns the sample after one to four mutations, which depend only on the seed."""
     draw = random.Random(seed)
     data = bytearray(sample)
     mutations = BYTE_MUTATIONS + TEXT_MUTATIONS * 3 if is_text else BYTE_MUTATIONS

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The readers of the program: a valid file for each, and the command that reads it.
 
-A reader is a format of a file that may come from a stranger. A new one is a row in READERS.
+A reader is a format of a file that may come from a stranger. A new reader is a row in READERS.
 """
 import dataclasses
 import gzip
@@ -15,7 +15,7 @@ from .answer import Answer
 
 SOURCES = pathlib.Path(__file__).resolve().parent.parent.parent
 NETWORK = SOURCES / "crates/network/tests/network/golden/lenet.onnx"
-# The folder of a finished exploration, beside the samples.
+# The folder of a finished exploration, next to the samples.
 EXPLORED = "explored"
 WIDTH, HEIGHT, FRAMES = 64, 48, 6
 CLIP = ["--frames", "3", "--set", f"frame={{width={WIDTH},height={HEIGHT}}}"]
@@ -31,14 +31,14 @@ def simulate_stream(_bench, _folder, _path):
 
 
 def simulate_set(_bench, folder, path):
-    """Images of one size, and the labels that the mutated file may be."""
+    """Makes images of one size and their labels, one of which is mutated."""
     images = folder / "images-idx3-ubyte"
     images.write_bytes(idx_images())
     return ["simulate", images, "--labels", path, "-o", "out", *NO_PICTURES]
 
 
 def boxes(_bench, folder, path):
-    """The boxes lie in frames that have the names 000001.pgm and so on."""
+    """Makes frames with the names 000001.pgm and so on, to which boxes belong."""
     frames = folder / "frames"
     frames.mkdir()
     for number in range(1, 4):
@@ -58,7 +58,7 @@ def network(_bench, _folder, path):
 
 
 def array(_bench, folder, path):
-    """The denoiser takes pictures of any size."""
+    """Returns the command for the denoiser, which takes frames of any size."""
     shutil.copy(SOURCES / "networks/denoiser.onnx", folder / "denoiser.onnx")
     return ["infer", folder / "denoiser.onnx", path, "-o", "out", "--quiet"]
 
@@ -95,7 +95,7 @@ def decode_stream(_bench, _folder, _path):
 
 
 def explored(bench, folder, path):
-    """An exploration that is continued, one of whose measurements is the mutated file."""
+    """Returns the command that continues an exploration, one of whose measurements is the mutated file."""
     shutil.copytree(bench / EXPLORED, folder / "out")
     measured = sorted((folder / "out/measured").iterdir())
     shutil.copyfile(path, measured[0])
@@ -103,7 +103,7 @@ def explored(bench, folder, path):
 
 
 def verilog(_bench, folder, path):
-    """Verilog is only parsed here: a module is missing from every folder, so nothing is simulated."""
+    """Returns the command that parses Verilog. A module is missing from every folder, so no simulation starts."""
     (folder / "rtl").mkdir()
     shutil.copyfile(path, folder / "rtl/decision.v")
     return ["cosim", "--preset", "bare", "--rtl", folder / "rtl", "--rounds", "1", "--quiet"]
@@ -142,7 +142,7 @@ def events():
 
 
 def encoded(*options, container):
-    """Frames of a scene as ffmpeg encodes them."""
+    """Makes a file with frames of a scene, encoded by ffmpeg."""
 
     def make(_program, folder):
         path = folder / f"encoded.{container}"
@@ -167,7 +167,7 @@ def packets(content):
 
 
 def measured(program, folder):
-    """A measurement of an exploration, whose folder the reader copies for every case."""
+    """Makes a measurement of an exploration, whose folder the reader copies for every case."""
     command = [program, "explore", "approximations", "scene:street", "--frames", "2", "--no-area", "-o", folder / EXPLORED, "--quiet"]
     subprocess.run(command, check=True, stdout=subprocess.DEVNULL)
     return sorted((folder / EXPLORED / "measured").iterdir())[0].read_bytes()
@@ -179,7 +179,7 @@ def just(data):
 
 @dataclasses.dataclass(frozen=True)
 class Reader:
-    """A format: its name, the name of its file, the command that reads it, and how a valid file is made."""
+    """A reader: the name of the format, the name of its file, the command that reads it, and the maker of a valid file."""
 
     name: str
     file: str
@@ -233,5 +233,5 @@ READERS = [
 
 
 def samples(program, folder, chosen):
-    """A valid file for each chosen reader; some keep more beside it, in the same folder."""
+    """Makes a valid file for each chosen reader. Some have other files in the same folder."""
     return {reader.name: reader.sample(program, folder) for reader in chosen}

@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Called by mutation.sh: mutants of the Verilog, the co-simulation vectors that must kill them, and what to do with survivors.
+"""Called by mutation.sh: makes mutants of the Verilog, which the co-simulation vectors must kill, and judges the survivors.
 
 1. Records the vectors of every design of mutation/designs.txt once, as co-simulation gives them to Icarus (design.py).
 2. Makes the mutants: one edit each, from a seed, spread over all leaves and rendered modules of an organization (mutants.py).
    The edits are those of edits.py; parameter defaults, limits, clocks and loop steps are left alone, declared ranges only become narrower.
 3. Replays the vectors of the designs that contain the module, smallest first, until a mismatch (verdicts.py). A replay that
    takes 12 times the processor time of the unmutated one, or in which Icarus aborts, counts as a mismatch, too.
-4. Where Icarus makes the same program, the mutant is not in the design. A survivor is equivalent if Yosys makes the same netlist
-   of it in every design. It is no mutant if it leaves a net without a driver or with two: every synthesis tool refuses that.
-   What is left sees longer vectors.
-5. What still survives must be proven equal in every design, from reset on (proof.py), or mutation/survivors.txt must say why.
+4. If Icarus makes the same program, the mutant is not in the design. A survivor is equivalent if Yosys makes the same netlist
+   of it in every design. It is not a mutant if it leaves a net without a driver or with two: every synthesis tool refuses that.
+   The other survivors get longer vectors.
+5. Mutants that still survive must be proven equal in every design, from reset on (proof.py), or mutation/survivors.txt must say why.
 """
 import argparse
 import collections
@@ -25,7 +25,7 @@ from verdicts import REASONS, Journal, claimed_equal, judge, judge_longer, prove
 
 
 def examine(organization, options, excuses, used):
-    """Judges the mutants of an organization and prints what became of them; returns how many survive without an excuse."""
+    """Judges the mutants of an organization, and prints the verdicts. Returns the number of survivors without a reason."""
     began = time.monotonic()
     all_of = recorded(organization, options.jobs, options.sample)
     found = pools(all_of, options.seed)
@@ -51,7 +51,7 @@ def examine(organization, options, excuses, used):
             if options.longer:
                 list(pool.map(lambda mutant: journal.ask("proof", mutant, lambda it: prove(it, all_of)), unknown))
             control_proofs(mutants, survivors, all_of, pool)
-    # Another design may show that a mutant is none: it does not elaborate there.
+    # A mutant that does not elaborate in another design is not a mutant.
     mutants, survivors = ([mutant for mutant in of if mutant.verdict != "refused"] for of in (mutants, survivors))
     open_ones = excuse(survivors, excuses, used, options.verbose)
     if options.table:
@@ -61,7 +61,7 @@ def examine(organization, options, excuses, used):
 
 
 def sampled(found, takes, sample):
-    """Every so many of the mutants of a whole run of these designs."""
+    """Returns an evenly spread sample of the mutants of a whole run of these designs."""
     whole = [mutant for place in found for mutant in found[place][:takes[place]]]
     step = len(whole) / sample
     chosen = collections.defaultdict(list)
@@ -74,7 +74,7 @@ def sampled(found, takes, sample):
 
 
 def shown_to_others(organization, unknown):
-    """A sample does without the other designs, unless something has survived that they may kill."""
+    """Replays the vectors of designs outside of the sample, only for mutants that survived and that these designs may kill."""
     for mutant in unknown:
         others = [design for design in designs(organization) if not (design.starred or mutant.design)]
         mutant.verdict = None
@@ -88,7 +88,7 @@ def shown_to_others(organization, unknown):
 
 
 def control_proofs(mutants, survivors, all_of, pool):
-    """The negative control of the proofs: a mutant of the same module that was killed must not be proven equal."""
+    """Runs the negative control of the proofs: a killed mutant of the same module must not be proven equal."""
     proven = {mutant.place(): mutant.proof for mutant in survivors if mutant.proof}
     killed = collections.defaultdict(list)
     for mutant in mutants:
@@ -100,7 +100,7 @@ def control_proofs(mutants, survivors, all_of, pool):
 
 
 def excuse(survivors, excuses, used, verbose):
-    """Prints the survivors that have no excuse, and returns how many there are."""
+    """Prints the survivors without a reason. Returns their number."""
     open_ones = 0
     for mutant in survivors:
         if mutant.verdict == "survived" and mutant.key() in excuses:
@@ -155,7 +155,7 @@ def main():
         parser.error("--modules are those of one organization")
     if not options.resume:
         shutil.rmtree(WORK, ignore_errors=True)
-    # Hundreds of builds would push the user's own out of the cache; a sample takes Verilator's run time from there.
+    # Hundreds of builds would displace the user's own in the cache. A sample uses the cached run time of Verilator.
     if not options.sample:
         os.environ["FOVEATE_CACHE"] = os.path.join(WORK, "cache")
     excuses, used = reasons(), set()

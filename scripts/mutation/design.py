@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A design with its Verilog and its vectors, and what a mutant does to it: in Icarus, in Yosys, in a proof."""
+"""A design with its Verilog and its vectors, and the effect of a mutant on it: in Icarus, in Yosys, in a proof."""
 import concurrent.futures
 import functools
 import hashlib
@@ -18,15 +18,15 @@ TARGET = os.path.abspath(os.environ.get("CARGO_TARGET_DIR", "target"))
 WORK = os.path.join(TARGET, "mutation")
 FOVEATE = os.environ.get("FOVEATE", "foveate")
 DESIGNS = "mutation/designs.txt"
-# The last is what stands around a raster array on AXI; the array inside has mutants of its own.
+# The last one is the logic around a raster array on AXI; the array inside has mutants of its own.
 BUS = "axi"
 ORGANIZATIONS = ["pipelined", "serial", "raster", BUS]
 AROUND = ("axi_", "packet_", "rcm_axi")
-# Rounds and seed of the vectors of each stage.
+# Number of rounds and seed of the vectors of each stage.
 STAGES = ((1, 1), (3, 2))
 LATER = 1
 SLOWER = 12
-# What stands between Foveate and Icarus.
+# The script that is called in place of Icarus.
 KEEPING = os.path.abspath("scripts/keeping")
 
 
@@ -34,7 +34,7 @@ class Design:
     """A design with its sources and its vectors."""
 
     def __init__(self, organization, name, options):
-        # A late design is only there for what has survived the others, one with a star is in the sample.
+        # A late design is only for mutants that have survived the others; a design with a star is in the sample.
         self.organization, self.late, self.starred, self.name = organization, name.endswith("+"), name.endswith("*"), name.rstrip("+*")
         self.options = options
         self.folder = os.path.join(WORK, "designs", organization, self.name)
@@ -42,11 +42,11 @@ class Design:
         self.vectors, self.seconds, self.digests = {}, {}, {}
 
     def record(self, stage):
-        """Keeps the sources and the vectors of a stage, and how long they take; once."""
+        """Keeps the sources, the vectors of a stage, and their run time. Does this once."""
         with self.lock:
             if stage in self.seconds:
                 return
-            # The long vectors of a late design are those that are short elsewhere.
+            # The long vectors of a late design are the short vectors of others.
             rounds, seed = STAGES[0 if self.late else stage]
             keep = os.path.join(self.folder, f"stage{stage}")
             done_at = os.path.join(keep, "seconds")
@@ -66,7 +66,7 @@ class Design:
             self.seconds[stage] = float(open(done_at).read())
 
     def simulate(self, keep, rounds, seed):
-        """Co-simulates without a mutant and keeps what is needed to do so again."""
+        """Co-simulates without a mutant, and keeps the files that are needed to repeat that."""
         env = dict(os.environ, FOVEATE_CACHE="off", KEEP=keep, FOVEATE_IVERILOG=os.path.join(KEEPING, "iverilog"),
                    FOVEATE_VVP=os.path.join(KEEPING, "vvp"))
         command = [FOVEATE, "cosim", "--simulator", "iverilog", "--preset", "bare", "--quiet", "--seed", str(seed),
@@ -76,18 +76,18 @@ class Design:
         done = subprocess.run(command, env=env, capture_output=True, text=True)
         if done.returncode != 0:
             sys.exit(f"mutation: {self.organization} {self.name} does not agree without a mutant: {done.stdout}{done.stderr}")
-        # Of processor time: the last line of `times` is that of vvp.
+        # The processor time: the last line of `times` is that of vvp.
         minutes, seconds = open(os.path.join(keep, "times")).read().split()[2].rstrip("s").split("m")
         with open(os.path.join(keep, "seconds"), "w") as out:
             out.write(str(60 * int(minutes) + float(seconds)))
 
     def clocks(self, stage):
-        """A measure of the length of the vectors."""
+        """Returns a measure of the length of the vectors."""
         return os.path.getsize(self.vectors[stage])
 
     def digest(self, phase):
-        """Changes with the sources and, where a phase replays them, with the vectors that were recorded first; with the proofs,
-        where it has any."""
+        """Returns a digest of the sources and, if a phase replays them, of the vectors that were recorded first; and of the
+        scripts of the proofs, if it has any."""
         with self.lock:
             if phase not in self.digests:
                 replayed = phase == "long" or phase == "short" and not self.late
@@ -101,12 +101,12 @@ class Design:
         return f"rtl/{module}.v" in self.files
 
     def mutable(self):
-        """The texts by name of which there are mutants."""
+        """Returns the texts that are mutated, by name."""
         return self.texts
 
     def compiled(self, module, text):
-        """The program for Icarus with another text of a module, if it elaborates, and where it is; addresses and the values of
-        parameters, which the code has as constants, are left out."""
+        """Makes the program for Icarus with another text of a module. Returns it, if it elaborates, and its path; addresses and
+        the values of parameters, which the code has as constants, are left out."""
         folder = os.path.join(WORK, "run", str(threading.get_ident()))
         os.makedirs(folder, exist_ok=True)
         files = [os.path.join(self.sources, name) for name in self.files]
@@ -128,7 +128,7 @@ class Design:
         return f"{self.top}_replay"
 
     def alike(self, module, text):
-        """Whether Icarus makes the same program with another text of a module."""
+        """Returns whether Icarus makes the same program with another text of a module."""
         self.record(LATER if self.late else 0)
         with self.lock:
             if not self.program:
@@ -136,8 +136,8 @@ class Design:
         return self.compiled(module, text)[0] == self.program
 
     def run(self, stage, module, text):
-        """`pass`, `fail`, `hang`, `abort` if Icarus itself gives up, `refused` if it does not elaborate, or `same` if it is the same
-        program, of a module with another text."""
+        """Returns the outcome with another text of a module: `pass`, `fail`, `hang`, `abort` if Icarus itself gives up, `refused` if it
+        does not elaborate, or `same` if the program is the same."""
         self.record(stage)
         with self.lock:
             if not self.program:
@@ -154,19 +154,19 @@ class Design:
         verdicts = [line.split()[0] for line in done.stdout.splitlines() if line.startswith(("PASS ", "FAIL "))]
         if verdicts:
             return {"PASS": "pass", "FAIL": "fail"}[verdicts[-1]]
-        # An assertion of Icarus, of a part-select beyond its vector: no run of such a design ends with PASS.
+        # An assertion of Icarus failed, about a part-select beyond its vector. No run of such a design ends with PASS.
         if done.returncode == -signal.SIGABRT:
             return "abort"
         raise RuntimeError(f"{self.name}: the replay says neither PASS nor FAIL: {(done.stdout + done.stderr)[-300:]}")
 
     def chparam(self):
-        """The parameters that the bench gives to the top module, for Yosys."""
+        """Returns the parameters that the bench gives to the top module, for Yosys."""
         parameters = re.search(rf"^\s*{self.top} #\((.*)\) dut \($", self.texts[self.bench], re.M)
         values = re.findall(r"\.(\w+)\((\d+)\)", parameters.group(1) if parameters else "")
         return "".join(f" -chparam {name} {value}" for name, value in values)
 
     def variants(self, module):
-        """What Yosys calls the module with the parameters that it has in this design."""
+        """Returns the names in Yosys of the module with its parameters in this design."""
         with self.lock:
             if self.modules is None:
                 paths = " ".join(os.path.join(self.sources, name) for name in self.files if name != self.bench)
@@ -178,8 +178,8 @@ class Design:
         return [name for name in self.modules if re.fullmatch(rf"(\$paramod(\$\w+)?\\)?{module}(\\.*)?", name)]
 
     def same(self, module, text, inside=None):
-        """Whether Yosys makes the same netlist with another text of a module, of the whole or of the module of that name; None if
-        the mutant is none."""
+        """Returns whether Yosys makes the same netlist with another text of a module, for the whole design or for the module of that
+        name; None if the change is not a mutant."""
         with self.lock:
             if inside not in self.netlists:
                 self.netlists[inside] = proof.netlist(self, WORK, inside=inside)
@@ -190,7 +190,7 @@ class Design:
         return cells is not None and mutant == cells
 
     def equal(self, module, text, inside=None):
-        """Whether the design with another text of a module is proven to be the design; or the module of that name alone."""
+        """Returns whether the design, or the module of that name alone, is proven equal with another text of a module."""
         return proof.equal(self, WORK, module, text, inside)
 
 
@@ -222,12 +222,12 @@ class BusDesign(Design):
         done = proof.limited(command, limit or 600)
         if done.returncode in (0, 1):
             return "fail" if done.returncode else "pass"
-        # The simulation was ended, or found that a loop never settles; or the limit struck.
+        # The simulation was ended, found a loop that never settles, or reached the time limit.
         if re.search(r"ended after \d+ of \d+ clocks", done.stderr):
             return "abort"
         if done.returncode in (-signal.SIGXCPU, -signal.SIGKILL):
             return "hang"
-        # What Icarus takes and Verilator does not.
+        # Icarus accepts this Verilog and Verilator does not.
         if "%Error" in done.stderr:
             return "refused"
         raise RuntimeError(f"{self.name}: co-simulation has no result: {done.stderr[-300:]}")
@@ -271,12 +271,12 @@ class BusDesign(Design):
 
 @functools.cache
 def executable():
-    """Tells one Foveate from another."""
+    """Returns a digest of the program."""
     return hashlib.sha256(open(FOVEATE, "rb").read()).hexdigest()
 
 
 def designs(organization):
-    """Those of mutation/designs.txt, `organization name options`."""
+    """Yields the designs of mutation/designs.txt, whose lines are `organization name options`."""
     for number, line in enumerate(open(DESIGNS), 1):
         words = line.split()
         if not words or line.startswith("#"):
@@ -295,7 +295,7 @@ def designs(organization):
 
 
 def recorded(organization, jobs, sample):
-    """The designs of an organization with their vectors, the shortest first; of a sample only those."""
+    """Returns the designs of an organization with their vectors, the shortest first; for a sample only the designs in it."""
     found = [design for design in designs(organization) if design.starred or not sample]
     with concurrent.futures.ThreadPoolExecutor(jobs) as pool:
         list(pool.map(lambda design: design.record(LATER if design.late else 0), found))

@@ -7,13 +7,13 @@ OTHER = {"+": ["-"], "-": ["+"], "*": ["+"], "&&": ["||"], "||": ["&&"], "==": [
 
 
 def edits(text, is_top, pick):
-    """(operator, start, end, replacement) of every mutation of a module."""
+    """Returns (operator, start, end, replacement) of every mutation of a module."""
     stream = tokens(text)
     other = partners(stream)
     first, depths = statements(stream, other)
     names = declared(stream, other)
     header = next((i for i, token in enumerate(stream) if token.text == ";"), 0)
-    # What is left alone: the steps of loops, limits, and defaults of parameters.
+    # The steps of loops, limits, and defaults of parameters are not mutated.
     alone = set()
     for index, token in enumerate(stream):
         if token.text == "for":
@@ -23,7 +23,7 @@ def edits(text, is_top, pick):
         elif token.text == "@" and stream[index + 1].text == "(":
             alone.update(range(index, other[index + 1] + 1))
         elif token.kind == "word" and "_must_" in token.text:
-            # A limit of a parameter, which no design is out of.
+            # A limit of a parameter, which no design exceeds.
             start = max(i for i in range(index) if stream[i].text == "if")
             alone.update(range(start, next(i for i in range(index, len(stream)) if stream[i].text == ";") + 1))
     assigned_at, ranges = {}, {}
@@ -50,7 +50,7 @@ def edits(text, is_top, pick):
     for index, token in enumerate(stream):
         start, end = token.start, token.end
         if index in ranges:
-            # Narrower: one bit, or one word, less.
+            # A narrower range: one bit or one word less.
             if ranges[index] == index and not (is_top and index < header):
                 colon = next(i for i in range(index, other[index]) if stream[i].text == ":")
                 upwards = stream[index + 1].text == "0" and colon == index + 2
@@ -65,7 +65,7 @@ def edits(text, is_top, pick):
         operand = before.kind in ("word", "number", "based") and before.text not in KEYWORDS or before.text in CLOSES
         if token.kind == "op" and token.text in OTHER:
             if token.text == "<=" and index == assigned:
-                # A dropped assignment keeps the value.
+                # Without an assignment the value stays.
                 close = next(i for i in range(index, len(stream)) if stream[i].text == ";" and depths[i] == 0)
                 target = text[stream[statement].start:start].strip()
                 edit("drop", stream[index + 1].start, stream[close].start, target)
@@ -96,7 +96,7 @@ def edits(text, is_top, pick):
             for replacement in literals(token):
                 edit("constant", start, end, replacement)
         elif token.text == "[" and before.kind == "word" and before.text in names:
-            # An index one further, if it is no constant.
+            # The next index, if the index is not a constant.
             inner = stream[index + 1:other[index]]
             if any(t.kind == "word" for t in inner) and not any(t.text == ":" for t in inner):
                 at = next((i for i in range(index, other[index]) if stream[i].text in ("+:", "-:")), other[index])

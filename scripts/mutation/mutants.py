@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Mutants: one edit of one module each, and which of them are drawn."""
+"""Mutants: one edit of one module each, and the choice of those that are drawn."""
 import collections
 import fnmatch
 import random
@@ -12,7 +12,7 @@ LEAVES = "crates/emit/src/leaf.rs"
 
 
 class Mutant:
-    """One edit of one module; `design` where the module is rendered for that design."""
+    """A mutant: one edit of one module; `design` is set if the module is rendered for that design."""
 
     def __init__(self, module, design, text, operator, start, end, replacement):
         self.module, self.design, self.operator = module, design, operator
@@ -22,11 +22,11 @@ class Mutant:
         self.was = one_line(text[low:high])
         self.now = one_line(text[low:start] + replacement + text[end:high])
         self.verdict = self.by = self.proof = None
-        # Designs in which the code that is changed is not elaborated.
+        # The designs in which the changed code is not elaborated.
         self.apart = set()
 
     def pointless(self):
-        """Whether it only touches a wire that tells lint what is not used, or gives a wire to itself."""
+        """Returns whether the edit only changes a wire that marks unused signals for lint, or assigns a wire to itself."""
         own = re.match(r"(?:wire|assign)\b.*?(\w+)(?:\[[^=]*\])? = (.*)", self.now)
         return "unused_" in self.was or bool(self.operator == "name" and own and re.search(rf"\b{own[1]}\b", own[2]))
 
@@ -45,7 +45,7 @@ def one_line(text):
 
 
 def pools(all_of, seed):
-    """All mutants of each module, in the order in which they are drawn: the operators take turns."""
+    """Returns all mutants of each module, in the order in which they are drawn: the operators take turns."""
     leaves = re.findall(r'^    "(\w+)" => \[', open(LEAVES).read(), re.M)
     texts, pools = {}, {}
     for design in all_of:
@@ -54,7 +54,7 @@ def pools(all_of, seed):
             if not module:
                 continue
             module = module.group(1)
-            # A leaf is the same text everywhere; a rendered module is the design's own.
+            # A leaf has the same text in every design; a rendered module has a text for each design.
             if module in leaves:
                 texts[module] = (module, None, text)
             else:
@@ -79,7 +79,7 @@ def pools(all_of, seed):
 
 
 def wanted(pools, count):
-    """How many mutants of each module: as the root of how many there are, and at least four."""
+    """Returns the number of mutants of each module: in proportion to the square root of all of its mutants, and at least four."""
     takes = {place: min(4, len(pool)) for place, pool in pools.items()}
     while sum(takes.values()) < count:
         open_places = [place for place in pools if takes[place] < len(pools[place])]
@@ -90,7 +90,7 @@ def wanted(pools, count):
 
 
 def only(pools, patterns):
-    """The modules that a run names: a leaf, a rendered module with or without its design, or a pattern as of file names."""
+    """Returns the modules that a run names: a leaf, a rendered module with or without its design, or a pattern as for file names."""
     named = {pattern: [place for place in pools if fnmatch.filter((place, place.partition("@")[0]), pattern)] for pattern in patterns}
     nothing = [pattern for pattern in named if not named[pattern]]
     if nothing:
@@ -99,7 +99,7 @@ def only(pools, patterns):
 
 
 def drawn(pools, takes, pool, check):
-    """The mutants that elaborate and have a point, as many of each module as wanted."""
+    """Returns the mutants that elaborate and can have an effect, the wanted number of each module."""
     at, kept = collections.Counter(), collections.defaultdict(list)
     while True:
         batch = []

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Used by design.py: proofs that a design with a mutant is the design.
+"""Used by design.py: proofs that a design with a mutant is equal to the design.
 
-`same`   Yosys makes the same netlist of both, down to the last cell: nothing in it comes from what has been changed.
-`equal`  ABC proves that no sequence of inputs tells the two netlists apart: registers that are always equal are found by
-         induction, what is left by PDR. Registers and memories are 0 at the start; resets may come at any clock.
+`same`   Yosys makes the same netlist of both, down to the last cell: the change has no effect on it.
+`equal`  ABC proves that no sequence of inputs distinguishes the two netlists: registers that are always equal are found by
+         induction, the rest is proven by PDR. Registers and memories are 0 at the start; resets may come at any clock.
          First the memories are cut out: both sides read the same words, whatever these are, and every address, word and enable
          that goes to a memory must be the same, too. So the contents are the same at every clock, and no memory is too large.
-         Where that finds a difference, which may be in a word that is not used, small memories become registers.
+         If that finds a difference, which may be in a word that is not used, small memories become registers.
 """
 import os
 import re
@@ -16,23 +16,23 @@ import subprocess
 import threading
 
 YOSYS = os.environ.get("FOVEATE_YOSYS", "yosys")
-# Memories stay as they are where netlists are only compared.
+# Memories stay as they are if netlists are only compared.
 READ = ["proc", "setattr -mod -unset keep_hierarchy *", "flatten", "memory -nomap"]
 SMALL = ["opt -full", "wreduce", "opt -full", "wreduce -memx", "opt -full", "opt_clean -purge"]
-# Memories with a name; those without one are constants, and stay inside.
+# Memories with a name. Those without a name are constants and stay inside.
 CUT = ["expose -evert t:$mem_v2"]
-# Before anything is simplified: of a register that is never loaded Yosys makes an unknown value, and whatever is compared with
-# that is equal.
+# This runs before any simplification: Yosys makes an unknown value of a register that is never loaded, and every comparison with
+# that is true.
 ZERO = ["setundef -undriven -zero", "zinit -all"]
 BITS = ["memory_map", *ZERO, "opt -full", "splitnets -ports", "opt_clean -purge"]
 MITER = ["miter -equiv -flatten gold gate miter", "hierarchy -top miter", "opt -full", "techmap", "opt -full", "dffunmap",
          "setundef -undriven -zero", "setundef -init -zero", "zinit -all", "opt -full", "dffunmap", "abc -g AND", "opt_clean"]
-# Random inputs from reset, for a few seconds: most of what is not equal ends here.
+# Random inputs from reset, for a few seconds, find most differences.
 REFUTE = "strash; sim3 -F 2000 -W 4 -T 5"
 PROVE = "strash; scorr; scorr -F 2; dc2; scorr; dprove; pdr"
-# Seconds of processor time, so that a busy machine finds the same.
+# Seconds of processor time, so that a busy machine has the same results.
 READING, PROVING = 60, 90
-# Bits of memory that become registers.
+# The largest number of bits of memories that become registers.
 REGISTERS = 2048
 
 
@@ -43,7 +43,7 @@ def folder(work):
 
 
 def sources(design, work, module=None, text=None):
-    """The files of a design, one of them with another text."""
+    """Writes the files of a design, one of them with another text."""
     names = [name for name in design.files if name != design.bench]
     paths = [os.path.join(design.sources, name) for name in names]
     if module:
@@ -59,7 +59,7 @@ def load(design, paths, inside):
 
 
 def limited(command, seconds, **options):
-    """Runs it for at most so many seconds of processor time; it then ends by a signal."""
+    """Runs a command for a limited processor time in seconds, after which a signal ends it."""
     def limit():
         resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
 
@@ -67,13 +67,13 @@ def limited(command, seconds, **options):
 
 
 def run(command, seconds=READING, **options):
-    """What it says, if it ends well and in time."""
+    """Returns the output of a command, if it succeeds in time."""
     done = limited(command, seconds, **options)
     return done.stdout if done.returncode == 0 else None
 
 
 def netlist(design, work, module=None, text=None, inside=None):
-    """The netlist, whatever the order in which Yosys made its parts, and how many nets have no driver or more than one."""
+    """Returns the netlist, independent of the order in which Yosys made its parts, and the number of nets without one single driver."""
     out = os.path.join(folder(work), "netlist.il")
     script = load(design, sources(design, work, module, text), inside)
     script += READ[:1] + ["tee -q -o " + out + ".check check"] + READ[1:] + SMALL
@@ -86,14 +86,14 @@ def netlist(design, work, module=None, text=None, inside=None):
 
 
 def in_order(text):
-    """The text of a netlist whose parts have names that tell where they are, not when they were made: the parts sorted, each with
+    """Returns the text of a netlist in which names depend on places and not on the order of making: the parts are sorted, each with
     the initial value of its wire."""
     part = re.compile(r"^(?:  attribute .*\n)*  (?:wire|memory|cell|connect) .*\n(?:    .*\n|  end\n)*", re.M)
     return part.sub("", text) + "".join(sorted(part.findall(text)))
 
 
 def equal(design, work, module, text, inside=None):
-    """Whether no sequence of inputs tells the design, or the module of that name, from the one with another text."""
+    """Returns whether no sequence of inputs distinguishes the design, or the module of that name, from the one with another text."""
     sides = {"gold": sources(design, work), "gate": sources(design, work, module, text)}
     if proven(design, work, sides, inside, cut=True):
         return True
@@ -102,7 +102,7 @@ def equal(design, work, module, text, inside=None):
 
 
 def proven(design, work, sides, inside, cut):
-    """Whether ABC finds the two sides equal, their memories cut out or as registers."""
+    """Returns whether ABC finds the two sides equal, with their memories cut out or as registers."""
     out = os.path.join(folder(work), "miter.aig")
     script = []
     for side, paths in sides.items():
@@ -111,10 +111,10 @@ def proven(design, work, sides, inside, cut):
     script += [f"design -copy-from {side} -as {side} {side}" for side in sides] + MITER + [f"write_aiger -zinit {out}"]
     if run([YOSYS, "-q", "-p", "; ".join(script)]) is None:
         return False
-    # Only memories of one shape have the same words if their ports have.
+    # Only memories of the same shape have the same words if their ports are equal.
     if cut and memories(work, "gold") != memories(work, "gate"):
         return False
-    # ABC leaves files where it stands.
+    # ABC leaves files in its working folder.
     def ask(commands):
         return run([abc(), "-c", f"read {out}; {commands}"], PROVING, cwd=folder(work)) or ""
 
@@ -125,7 +125,7 @@ def proven(design, work, sides, inside, cut):
 
 
 def memories(work, side):
-    """Words, bits of a word and all other parameters of each memory with a name, as `proven` saw it last."""
+    """Returns words, bits of a word and all other parameters of each memory with a name, as of the last `proven`."""
     path = os.path.join(folder(work), f"miter.aig.{side}")
     found = {}
     for cell in re.split(r"^  cell ", open(path).read(), flags=re.M)[1:] if os.path.exists(path) else ():
@@ -137,6 +137,6 @@ def memories(work, side):
 
 
 def abc():
-    """The one that belongs to Yosys."""
+    """Returns the ABC that belongs to Yosys."""
     beside = os.path.join(os.path.dirname(shutil.which(YOSYS) or YOSYS), os.path.basename(YOSYS) + "-abc")
     return beside if os.path.exists(beside) else "yosys-abc"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What becomes of a mutant: killed by vectors, proven equivalent, waived with a reason, or a survivor."""
+"""The verdicts of mutants: killed by vectors, proven equivalent, waived with a reason, or survivor."""
 import hashlib
 import json
 import os
@@ -10,12 +10,12 @@ import threading
 from design import LATER, WORK
 
 REASONS = "mutation/survivors.txt"
-# After so many of the smallest designs it is asked whether the mutant makes another netlist at all.
+# After this number of the smallest designs, the mutant is tested for any effect on the netlist.
 QUICK = 3
 
 
 def reasons():
-    """The reviewed survivors: a paragraph each, `place`, `- line`, `+ line`, `reason`."""
+    """Reads the reviewed survivors. Each is a paragraph: `place`, `- line`, `+ line`, `reason`."""
     found = {}
     for paragraph in re.split(r"\n\s*\n", open(REASONS).read()):
         lines = [line.strip() for line in paragraph.splitlines() if line.strip() and not line.startswith("#")]
@@ -28,7 +28,7 @@ def reasons():
 
 
 class Journal:
-    """What has been found of each mutant, so that an interrupted run can go on."""
+    """The known verdicts of mutants, so that an interrupted run can continue."""
 
     def __init__(self, all_of):
         self.all_of, self.lock, self.path, self.found = all_of, threading.Lock(), os.path.join(WORK, "journal"), {}
@@ -41,7 +41,7 @@ class Journal:
         return hashlib.sha256(json.dumps([sorted(of), mutant.place(), mutant.text, phase]).encode()).hexdigest()
 
     def ask(self, phase, mutant, find):
-        """Sets the verdict: what is known, or what `find` says."""
+        """Sets the verdict of a mutant: the known one, or that of `find`."""
         key = self.key(mutant, phase)
         if key not in self.found:
             find(mutant)
@@ -52,7 +52,7 @@ class Journal:
 
 
 def replay(mutant, designs, stage):
-    """Whether the vectors of a design decide; the verdict then is `refused` or `killed`."""
+    """Replays the vectors of designs. Returns whether they decide; the verdict is then `refused` or `killed`."""
     for design in designs:
         if design.name in mutant.apart:
             continue
@@ -82,7 +82,7 @@ def judge(mutant, all_of, prove):
         return
     if replay(mutant, contain[QUICK:], 0):
         return
-    # A leaf is small beside the designs around it and the longer vectors of all of them.
+    # A proof of a leaf is cheap in comparison with the longer vectors of all designs around it.
     if prove and not mutant.design and everywhere(mutant, all_of, "equal", around=False):
         mutant.verdict, mutant.proof = "equivalent", "equal"
         return
@@ -90,7 +90,7 @@ def judge(mutant, all_of, prove):
 
 
 def judge_longer(mutant, all_of):
-    """The same of the longer vectors."""
+    """Sets the verdict of the longer vectors: `refused`, `killed` or `survived`."""
     mutant.verdict = None
     if not replay(mutant, containing(mutant, all_of), LATER):
         mutant.verdict = "survived"
@@ -101,8 +101,8 @@ def containing(mutant, all_of):
 
 
 def everywhere(mutant, all_of, proof, around=True):
-    """Whether the proof holds for the module with the parameters of every design, or else the design around it, if that is to be
-    tried; None if the proof says so."""
+    """Returns whether the proof holds in every design: for the module with the design's parameters, or else for the design around it,
+    with `around`. Returns None if the proof does."""
     known = {}
     for design in containing(mutant, all_of):
         if design.name in mutant.apart:
@@ -129,9 +129,9 @@ def prove(mutant, all_of):
 
 
 def claimed_equal(killed, all_of, proof):
-    """The last of these mutants that is a circuit, if the proof holds for it."""
+    """Returns the last of these mutants that is a circuit, if the proof holds for it."""
     for mutant in reversed(killed):
-        # Simulation kills a net with two drivers, or none; synthesis chooses a value for it, and a proof says nothing.
+        # Simulation kills a net without a single driver. Synthesis chooses a value for it, so that a proof has no meaning.
         if everywhere(mutant, all_of, "same") is not None:
             return mutant if everywhere(mutant, all_of, proof) else None
     return None

@@ -27,7 +27,7 @@ def tokens(text):
 
 
 def partners(stream):
-    """Index of the other bracket of each bracket."""
+    """Returns for each bracket the index of its partner."""
     stack, other = [], {}
     for index, token in enumerate(stream):
         if token.text in OPENS and token.kind == "op":
@@ -39,7 +39,7 @@ def partners(stream):
 
 
 def statements(stream, other):
-    """For each token the index of the first token of its statement, and its depth in brackets."""
+    """Returns for each token the index of the first token of its statement, and its depth in brackets."""
     first, start, depth, depths = [], 0, 0, []
     for index, token in enumerate(stream):
         closes = token.kind == "op" and token.text in CLOSES
@@ -60,7 +60,7 @@ def statements(stream, other):
 
 
 def literals(token):
-    """Other values of a literal: one more, one less."""
+    """Returns other values of a literal: one more, one less."""
     if token.kind == "number":
         value = int(token.text)
         return [str(other) for other in (value + 1, value - 1) if other >= 0]
@@ -76,7 +76,7 @@ def literals(token):
 
 
 def declared(stream, other):
-    """Names and the text of their range, by which they can stand for each other."""
+    """Returns names and the texts of their ranges; names with the same range can replace each other."""
     found, index = {}, 0
     while index < len(stream):
         token = stream[index]
@@ -91,7 +91,7 @@ def declared(stream, other):
             while at < len(stream) and stream[at].kind == "word" and stream[at].text not in KEYWORDS:
                 memory = stream[at + 1].text == "["
                 found[stream[at].text] = ("memory" if memory else kind, size)
-                # Further names of a list without initial values.
+                # Other names of a list without initial values.
                 at += 1
                 if stream[at].text == "," and stream[at + 1].text not in DECLARES:
                     at += 1

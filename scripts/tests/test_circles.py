@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Which imports of source files are a circle."""
+"""Tests that scripts/circles.py finds imports in a circle, and no others."""
 import os
 import sys
 import unittest

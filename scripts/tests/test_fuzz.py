@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""That scripts/fuzz.py notices each way in which a program may fail, and that its cases can be repeated."""
+"""Tests that scripts/fuzz.py notices each way in which a program may fail, and that its cases can be repeated."""
 import pathlib
 import sys
 import tempfile

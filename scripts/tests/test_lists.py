@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""That scripts and pages which list organizations, features or references list all that the configuration knows."""
+"""Tests that scripts and pages which list organizations, features or references list all those of the configuration."""
 import pathlib
 import re
 import unittest
@@ -9,7 +9,7 @@ CAMERA, DESIGN = "crates/camera/src/choice.rs", "crates/design/src/choice.rs"
 
 
 def names(choice, file):
-    """The values of a key, as they are written in a configuration."""
+    """Returns the values of a key, as they are written in a configuration."""
     text = (ROOT / file).read_text(encoding="utf-8")
     body = re.search(rf"\n    {choice} \{{(.*?)\n    \}}", text, re.DOTALL)[1]
     return re.findall(r'^        \w+ = "([\w-]+)"', body, re.MULTILINE)
@@ -26,7 +26,7 @@ class Lists(unittest.TestCase):
 
     def test_organizations(self):
         self.check("Organization", DESIGN, ["scripts/mutation/design.py", "docs/organizations.md", "docs/configuration.md"])
-        # The default is not named.
+        # The default need not be named.
         listing = ["scripts/area_growth.py", "scripts/lint.py", "scripts/coverage.sh", "scripts/clock.py"]
         self.check("Organization", DESIGN, listing, "pipelined")
 

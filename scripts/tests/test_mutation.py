@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The parts of mutation.sh: what is read of Verilog, which edits it gives, which mutants are drawn, which reasons count."""
+"""Tests of the parts of mutation.sh: the reading of Verilog, its edits, the drawing of mutants, and the reasons that count."""
 import os
 import sys
 import tempfile
@@ -28,7 +28,7 @@ def first(_):
 
 
 def made(text):
-    """(operator, what is there, what comes instead) of every edit."""
+    """Returns (operator, text, replacement) of every edit."""
     return {(operator, text[start:end], replacement) for operator, start, end, replacement in edits(text, False, first)}
 
 
@@ -145,7 +145,7 @@ class Netlists(unittest.TestCase):
 
 
 class Proofs(unittest.TestCase):
-    """With Yosys and ABC."""
+    """Tests with Yosys and ABC."""
     DELAY = """\
 module delay (input wire clk_i, input wire we_i, input wire [1:0] at_i, input wire bit_i, output wire bit_o, output wire word_o);
     reg bit_q, more_q, read_q;
@@ -211,7 +211,7 @@ class Reasons(unittest.TestCase):
 
 class ControlOfProofs(unittest.TestCase):
     def claimed(self, *mutants):
-        """The claim about mutants of these answers to the proofs `same` and `equal`."""
+        """Returns the claim about mutants with these answers to the proofs `same` and `equal`."""
         design = SimpleNamespace(name="d", late=False, top="top", has=lambda module: True, variants=lambda module: ["leaf"],
                                  same=lambda module, text, inside=None: text[0], equal=lambda module, text, inside=None: text[1])
         killed = [SimpleNamespace(module="leaf", design=None, apart=set(), text=answers) for answers in mutants]

@@ -10,7 +10,7 @@ ALLOWED = ["--workspace", "--locked", "--", "--include-ignored"]
 
 
 def chosen(text):
-    """Words in calls of `cargo test` with FOVEATE_WHOLE that choose some of the tests; none if there is no such call."""
+    """Returns the words in calls of `cargo test` with FOVEATE_WHOLE that choose tests; None without such a call."""
     calls = re.findall(r"(?m)^[^#\n]*FOVEATE_WHOLE=1 cargo test(.*)$", text)
     words = [[word for word in shlex.split(call) if word not in ALLOWED] for call in calls]
     return words if calls else None

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What variants.py takes for code that would take a new variant for one that it knows."""
+"""Tests that variants.py finds the code that would take a new variant for a known one."""
 import os
 import sys
 import unittest

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""scripts/versions.py finds each place that disagrees, and each thing that a release lacks."""
+"""Tests that scripts/versions.py finds each place with another version, and everything that a release lacks."""
 import pathlib
 import sys
 import tempfile
@@ -40,7 +40,7 @@ class Versions(unittest.TestCase):
             ({"given": older}, 'foveate-frame is of version 1.2.3; it has to be "=1.2.3"'),
             ({"project": pyproject(dynamic=[])}, "pyproject.toml"),
             ({"citation": CITATION.replace("1.2.3", "1.2.4")}, "CITATION.cff: version is 1.2.4"),
-            # Not the version of the format.
+            # This is not the version of the format.
             ({"citation": "cff-version: 1.2.3\n"}, "CITATION.cff: version is None"),
             ({"changelog": CHANGELOG.replace("1.2.3", "1.3.0")}, "the newest section is [1.3.0]"),
         ]:

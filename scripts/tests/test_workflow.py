@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The parts of workflow/ that need no Snakemake: names of clips, plans, and tables of many folders."""
+"""Tests of the parts of workflow/ that need no Snakemake: names of clips, plans, and tables of many folders."""
 import json
 import os
 import sys
