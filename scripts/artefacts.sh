@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Makes what a release publishes, in target/artefacts, and publishes nothing: a .crate of each crate, an archive of the command
-# for `cargo binstall`, a wheel and the source distribution of the Python package, and the sums of all. Programs are linked by
-# Zig against glibc 2.17, so that they run wherever glibc is that old or newer (wheels: manylinux2014). What scripts/release.sh
-# measures is the same sources, built for this machine.
+# Makes the files that a release publishes, in target/artefacts, and publishes nothing: a .crate of each crate, an archive of
+# the command for `cargo binstall`, a wheel and the source distribution of the Python package, and the checksums of all. Zig links
+# the programs against glibc 2.17, so that they run with that or a newer glibc (wheels: manylinux2014). scripts/release.sh
+# measures the same sources, built for this machine.
 #
 #   scripts/artefacts.sh                   all parts: crates archive python
 #   scripts/artefacts.sh PART...           some of them
-#   scripts/artefacts.sh --try [PART...]   and installs each from an empty folder, with nothing else of these sources
-#   scripts/artefacts.sh --only-try [PART...]   of what was made before
+#   scripts/artefacts.sh --try [PART...]   also installs each part from an empty folder, without any other file of these sources
+#   scripts/artefacts.sh --only-try [PART...]   installs parts that were made before
 set -euo pipefail
 cd "$(dirname "$0")/.."
 target=x86_64-unknown-linux-gnu
@@ -19,7 +19,7 @@ named=foveate-$version-$target
 built=$(realpath -m "${CARGO_TARGET_DIR:-target}")
 out=$built/artefacts
 
-# The newest glibc that a program asks for.
+# Prints the newest glibc that a program needs.
 asks_for() { objdump -T "$1" | grep -o 'GLIBC_[0-9.]*' | sort -Vu | tail -1; }
 asks_for_no_newer() {
     local newest
@@ -29,16 +29,16 @@ asks_for_no_newer() {
         { echo "artefacts: ${1##*/} asks for $newest; it has to run with glibc $glibc" >&2 && return 1; }
 }
 
-# ---- the parts: how each is made, and how it is tried
+# ---- The parts: the making and the trial of each
 make_crates() {
-    # Cargo builds each of them from its .crate alone, and those below it from theirs.
+    # Cargo builds each crate from its .crate alone, and the crates below it from theirs.
     CARGO_PROFILE_DEV_DEBUG=0 cargo package --workspace --exclude foveate-python --locked --quiet
     rm -rf "$out/crates"
     mkdir "$out/crates"
     cp "$built"/package/*-"$version".crate "$out/crates"
     echo "$(find "$out/crates" -name '*.crate' | wc -l) crates, $(du -ch "$out"/crates/*.crate | tail -1 | cut -f 1)"
 }
-# As from crates.io: a folder that stands for it holds the .crate files and what Cargo.lock names of others.
+# Installs as from crates.io: a folder in its place holds the .crate files and the other crates of Cargo.lock.
 try_crates() {
     cargo vendor --locked --versioned-dirs --quiet "$clean/crates.io" >/dev/null
     local file folder
@@ -69,13 +69,13 @@ make_archive() {
     "$root/bin/foveate" completions fish >"$root/share/fish/vendor_completions.d/foveate.fish"
     scripts/notices.py "$target" >"$root/THIRD-PARTY.txt"
     cp LICENSE-APACHE LICENSE-MIT README.md CHANGELOG.md CITATION.cff "$root"
-    # The same bytes from the same files.
+    # The same sources give the same bytes.
     tar --create --directory "$out" --sort=name --owner=0 --group=0 --numeric-owner --mtime="@$(git log -1 --format=%ct)" "$named" |
         gzip --no-name --best >"$out/$named.tar.gz"
     rm -r "$root"
     du -h "$out/$named.tar.gz" | cut -f 1
 }
-# The manifest says what `cargo binstall` asks for.
+# The manifest names the file that `cargo binstall` requests.
 try_archive() {
     local asked
     asked=$(python3 -c '
@@ -101,7 +101,7 @@ make_python() {
     "$tools/maturin" build --release --locked --zig --target "$target" --compatibility "manylinux_${glibc/./_}" --quiet --out "$out"
     "$tools/maturin" sdist --out "$out" 2>&1 | tail -1
     "$tools/twine" check --strict "$out"/*.whl "$out/foveate-$version.tar.gz"
-    # What the name of the wheel promises, judged by its symbols.
+    # The tag in the name of the wheel is checked against its symbols.
     local judged
     judged=$("$tools/auditwheel" show "$out"/*.whl)
     grep -q "is consistent with the following platform tag: \"manylinux_${glibc/./_}_x86_64\"" <<<"${judged//$'\n'/ }" ||
@@ -111,7 +111,7 @@ try_python() {
     try_package wheel "$out"/*.whl
     try_package sources "$out/foveate-$version.tar.gz"
 }
-# The sources are built without optimization: the question is whether all are there.
+# The sources are built without optimization, because the test is only that all of them are there.
 try_package() {
     local environment=$clean/$1
     python3 -m venv "$environment"
@@ -126,8 +126,8 @@ print(outcome, len(outcome._repr_html_()))
     try_command "$environment/bin/foveate"
 }
 
-# A command by its path, in an empty folder and without this environment. What it writes from files that it embeds, and of a
-# simulation, is the same from every build.
+# Runs a command by its path, in an empty folder and without this environment. The files that it writes from embedded files, and
+# those of a simulation, are equal for every build.
 try_command() {
     local folder said
     folder=$(mktemp -d "$clean/run.XXXXXX")
@@ -144,7 +144,7 @@ try_command() {
     cp "$clean/written" "$written"
 }
 
-# ---- what was asked for
+# ---- The requested parts
 making=true trying=false
 case ${1:-} in
 -h | --help) sed -n '3,11s/^# \{0,1\}//p' "$0" && exit 0 ;;
@@ -160,7 +160,7 @@ if $making; then
     [ -z "$(git status --porcelain)" ] || { echo "artefacts: commit first; what is published belongs to a commit" >&2; exit 2; }
     scripts/versions.py
     tools=$(scripts/python_tools.sh --artefacts)
-    # Zig is one of them.
+    # Zig is one of these tools.
     PATH=$tools:$PATH
     [ $# -gt 0 ] || rm -rf "$out"
     mkdir -p "$out"
@@ -168,7 +168,7 @@ if $making; then
         echo "== $part"
         "make_$part"
     done
-    # Of what is downloaded as a file; Cargo makes the crates again when it publishes them.
+    # Checksums of the files that are downloaded; Cargo makes the crates again when it publishes them.
     (cd "$out" && find . -maxdepth 1 \( -name '*.tar.gz' -o -name '*.whl' \) -printf '%P\0' | sort -z | xargs -0r sha256sum >SHA256SUMS)
 fi
 if $trying; then

@@ -3,9 +3,9 @@
 # Measures the engine against a numpy + OpenCV pipeline on the same clips, in turn, and prints the ratios.
 #
 # FOVEATE_ANCHOR  folder with cv_pipeline.py and make_clip.py (required)
-# FOVEATE_CLIPS   where clips are made and kept (default: target/clips)
+# FOVEATE_CLIPS   folder where clips are made and kept (default: target/clips)
 # FOVEATE_VIDEOS  videos, separated by spaces, on which skipping is measured (default: none)
-# ROUNDS          rounds; the best of each figure is taken, on both sides (default: 5)
+# ROUNDS          number of rounds; the best of each figure counts, on both sides (default: 5)
 set -eu
 cd "$(dirname "$0")/.."
 

@@ -4,7 +4,7 @@
 # Installs what is missing.
 #
 #   scripts/board_parts.sh            every bench
-#   scripts/board_parts.sh --faults   and then each fault of the list below, which a bench must find
+#    scripts/board_parts.sh --faults   also each fault of the list below, which a bench must find
 #   scripts/board_parts.sh NAME...    the benches of these leaves
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -22,7 +22,7 @@ scripts/install_tools.sh
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Leaf, bench, and the parameters of each run. The first run of a bench looks for faults.
+# Leaf, bench, and the parameters of each run. The first run of a bench is used for the faults.
 runs() {
     cat <<'END'
 clock_crossing   crossing_bench
@@ -180,12 +180,12 @@ array_snapshot   s/there_q ? word_q : 32'd0/word_q/
 END
 }
 
-# simulate LEAVES BENCH PARAMETERS...: prints what the bench says; true if it passes.
+# simulate LEAVES BENCH PARAMETERS...: prints the output of the bench; true if it passes.
 simulate() {
     local rtl=$1 bench=$2 parameters=() parameter
     shift 2
     for parameter in "$@"; do parameters+=("-P$bench.$parameter"); done
-    # What a leaf is built of, and what stands behind it in its bench.
+    # The modules that a leaf instantiates, and those behind it in its bench.
     local -A with=([dvp_bench]='dvp_capture clock_crossing axi_video raster_memory' [crossing_bench]=clock_crossing [i2c_bench]=i2c_setup
         [uart_bench]='uart_sender uart_receiver' [bytes_bench]=packet_bytes [registers_bench]='uart_registers packet_crc'
         [signature_bench]=packet_signature [pattern_bench]=pattern_source
@@ -233,7 +233,7 @@ while read -r leaf change; do
         bad=$((bad + 1))
         continue
     fi
-    # A fault counts as found if the bench says so, not if it cannot be built.
+    # A fault counts as found if the bench reports it, not if the bench cannot be built.
     seen=0
     while read -r of bench parameters && [ $seen -eq 0 ]; do
         [ "$of" = "$leaf" ] || continue

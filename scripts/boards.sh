@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Makes the bitstream of every board that open tools know, from nothing, and writes what it takes and reaches as a table:
-# docs/data/boards.csv. Takes about an hour on two processors. Installs what is missing from PyPI.
+# Makes the bitstream of every board that open tools support, without caches, and writes area and clocks as a table:
+# docs/data/boards.csv. Takes about an hour on two processors. Installs missing tools from PyPI.
 #
 #   scripts/boards.sh            all of them
-#   scripts/boards.sh NAME...    these; prints their rows
+#    scripts/boards.sh NAME...    these boards; prints their rows
 #
 # FOVEATE   the program (default: built here)
-# SEEDS     how often each is placed (default: 5)
+# SEEDS     number of placements of each board (default: 5)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 

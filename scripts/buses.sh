@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Cores on AXI between parts that we did not write: their register tables before the compiler of PeakRDL (scripts/registers.py),
-# and themselves in Icarus, between sources, sinks and masters of cocotbext-axi (scripts/buses.py). Installs what it needs, but
-# for Icarus and Rust.
+# Tests cores on AXI with tools that are not ours: their register tables with the compiler of PeakRDL (scripts/registers.py), and
+# the cores in Icarus, between sources, sinks and masters of cocotbext-axi (scripts/buses.py). Installs missing tools, except
+# Icarus and Rust.
 #
 #   scripts/buses.sh            all designs, and faults that the tests must find
-#   scripts/buses.sh --quick    the registers, and the first design
+#    scripts/buses.sh --quick    the registers, and the first design
 #
 # FOVEATE   the program (default: built here)
 set -euo pipefail

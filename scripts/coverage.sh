@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Line and toggle coverage of the Verilog under the vectors of `foveate cosim`, per module, over a few designs, and what the
-# vectors never reach. The vectors are those that co-simulation gives to Icarus; they are replayed in Verilator. A serial
-# design is an array of 3x2 regions, a raster core has 4x3 or more. Cores on AXI are run as `foveate cosim --level axi` runs them.
-# What docs/verification.md explains is listed in scripts/coverage_holes.txt; any other hole is an error. Installs what is missing.
+# Measures line and toggle coverage of the Verilog under the vectors of `foveate cosim`, per module, over a few designs, and lists
+# the points that the vectors never reach. The vectors are those that co-simulation gives to Icarus, replayed in Verilator. A serial
+# design is an array of 3x2 regions, a raster core has 4x3 or more. Cores on AXI run as in `foveate cosim --level axi`.
+# scripts/coverage_holes.txt lists the holes that docs/verification.md explains; any other hole is an error. Installs missing tools.
 #
 #   scripts/coverage.sh            all designs
 #   scripts/coverage.sh --quick    two of them
-#   scripts/coverage.sh NAME...    some of them; what only others need is no error then
+#    scripts/coverage.sh NAME...    some of them; unused explanations are not an error then
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in
@@ -107,7 +107,7 @@ for index in "${chosen[@]}"; do
     mkdir -p "$KEEP"
     echo "$name: foveate cosim --preset ${words[*]}"
     if [[ $name == axi* ]]; then
-        # The program around the model is compiled with it, and each scene is a run of its own.
+        # The program around the model is compiled into it, and each scene is a run of its own.
         FOVEATE_CACHE=off FOVEATE_VERILATOR=$PWD/scripts/keeping/verilator FOVEATE_CXX=$PWD/scripts/keeping/cxx \
             "$foveate" cosim --preset "${words[@]}" --replay "$work/replay" --quiet
         continue
@@ -122,7 +122,7 @@ for index in "${chosen[@]}"; do
         verilator --cc --exe --build --timing --top-module "$top" --prefix Vreplay --Mdir build --coverage-line --coverage-toggle \
             -MAKEFLAGS OPT_FAST=-O0 -Wno-fatal -Wno-lint -Wno-style --x-assign unique --x-initial unique "${files[@]}" "$work/main.cpp" >build.log 2>&1 ||
             { tail -5 build.log >&2 && exit 3; }
-        # From 0, because a constant that starts at random may count as one that moves.
+        # Registers start at 0, because a constant with a random initial value may count as one that toggles.
         build/Vreplay +vectors=vectors.hex +verilator+rand+reset+0 >run.log
         grep -q '^PASS' run.log || { echo "coverage: the replay of $name does not pass, see $KEEP/run.log" >&2 && exit 1; }
     )

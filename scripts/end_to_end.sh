@@ -1,14 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# How much of the time from a video file to results is ours: ffmpeg decoding a clip to the same luma
-# by itself, and `foveate simulate`, in turn, several times.
+# Measures the share of our own time from a video file to results: ffmpeg alone decodes a clip to the same luma, and
+# `foveate simulate` runs on it, in turn, several times.
 #
 #   scripts/end_to_end.sh CLIP...        RUNS=7 and FOVEATE=path/to/foveate may be set
 #
-# (a) ffmpeg into a pipe that `cat` empties, (n) ffmpeg into nothing, (b) simulate with its default
-# outputs, (c) simulate --no-rendered. Medians in seconds; the share of the wall time that is ours is
-# 1 - a/b and 1 - a/c, negative where simulate is quicker than ffmpeg with `cat`. CPU seconds are
-# user + system: of foveate itself, and of the ffmpeg below it.
+# (a) ffmpeg into a pipe that `cat` empties, (n) ffmpeg into no output, (b) simulate with its default outputs,
+# (c) simulate --no-rendered. Medians in seconds; our share of the wall time is 1 - a/b and 1 - a/c, negative if simulate is
+# faster than ffmpeg with `cat`. CPU seconds are user + system: of foveate itself, and of the ffmpeg that it started.
 set -euo pipefail
 
 if [ $# -eq 0 ]; then
@@ -50,7 +49,7 @@ def simulate(clip, folder, *options):
     def run():
         command = [FOVEATE, "simulate", clip, "-o", f"{folder}/out", "--quiet", *options]
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
-        # Ended and not yet waited for, its own time is still there to be read, without its children's.
+        # A process that has ended but was not waited for still reports its own time, without that of its children.
         os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
         with open(f"/proc/{process.pid}/stat") as stat:
             fields = stat.read().rpartition(")")[2].split()

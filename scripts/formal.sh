@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Proves the properties in formal/ of the Verilog, with SymbiYosys, and that faults injected into the Verilog make the same
-# proofs fail. Installs what is missing.
+# Proves the properties in formal/ of the Verilog with SymbiYosys, and checks that the same proofs fail for faults injected into the
+# Verilog. Installs missing tools.
 #
 #   scripts/formal.sh             everything
-#   scripts/formal.sh --quick     a small set, for every change; with the Yosys in PATH instead of that from PyPI
+#    scripts/formal.sh --quick     a small set, for every change, with the Yosys in PATH instead of that from PyPI
 #   scripts/formal.sh NAME...     some of formal/NAME.sby
-#   scripts/formal.sh --list      what there is
+#    scripts/formal.sh --list      lists the proofs
 #
 # FOVEATE   an executable to use instead of the debug build
-# JOBS      how many at a time (default: number of processors)
+# JOBS      number of parallel jobs (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 set=()

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Prints the path of the executable that the scripts of verification use: FOVEATE, if that is set, or the debug build, made if
-# need be. After a build of all tests FOVEATE should be set: for the executable alone Cargo chooses other features of some
-# libraries, and would build nearly everything above these again.
+# Prints the path of the executable that the scripts of verification use: FOVEATE, if it is set, or the debug build, which is made if
+# it is missing. After a build of all tests set FOVEATE: for the executable alone Cargo chooses other features of some libraries, and
+# would compile nearly all crates above these again.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 if [ -n "${FOVEATE:-}" ]; then

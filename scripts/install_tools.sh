@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Installs what is missing of the external tools, on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, icepack, iverilog, a C++
-# compiler (with that for 32 bits), make, ffmpeg, shellcheck, Tcl, Python.
-# With --browser, Chromium alone, for scripts/web.sh --test.
-# Debian 12, Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. Elsewhere it says what to install.
+# Installs missing external tools on Debian or Ubuntu: verilator, yosys, nextpnr-ice40, icepack, iverilog, a C++ compiler (also for
+# 32 bits), make, ffmpeg, shellcheck, Tcl, Python. With --browser, installs only Chromium, for scripts/web.sh --test.
+# It supports Debian 12 and Ubuntu 24.04 or later: Verilator 5 is needed, and Ubuntu 22.04 has 4. On other systems it prints what to
+# install.
 set -euo pipefail
 
-# The scripts use bash 4 and GNU tools, and measure by /proc.
+# The scripts use bash 4 and GNU tools, and measure with /proc.
 [ "$(uname -s)" = Linux ] || { echo "these scripts need Linux; on $(uname -s) run them in a container of Debian 12" >&2; exit 3; }
 # shellcheck source=/dev/null
 if [ "$(. /etc/os-release 2>/dev/null && echo "${ID:-}${VERSION_ID:-}")" = ubuntu22.04 ]; then
@@ -24,16 +24,16 @@ else
     command -v icepack >/dev/null || missing+=(fpga-icestorm)
     command -v iverilog >/dev/null || missing+=(iverilog)
     command -v g++ >/dev/null || missing+=(g++)
-    # Verilator's own makefile, which the benches of a core use.
+    # Verilator's own makefile needs make; the benches of a core use it.
     command -v make >/dev/null || missing+=(make)
     { command -v ffmpeg && command -v ffprobe; } >/dev/null || missing+=(ffmpeg)
     command -v shellcheck >/dev/null || missing+=(shellcheck)
-    # FST waves of a Verilator model need zlib's header.
+    # FST waves of a Verilator model need the header of zlib.
     [ -e /usr/include/zlib.h ] || missing+=(zlib1g-dev)
     command -v tclsh >/dev/null || missing+=(tcl)
-    # The C driver of cores is tried on processors of 32 bits, too.
+    # The C driver of cores is also tested on processors of 32 bits.
     [ "$(uname -m)" != x86_64 ] || dpkg -s gcc-multilib >/dev/null 2>&1 || missing+=(gcc-multilib)
-    # For what comes from PyPI, scripts/python_tools.sh.
+    # scripts/python_tools.sh needs these for tools from PyPI.
     python3 -c 'import ensurepip, venv' 2>/dev/null || missing+=(python3-venv)
 fi
 [ ${#missing[@]} -eq 0 ] && exit 0

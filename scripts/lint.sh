@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # Lints generated Verilog in four tools over a matrix of designs: verilator -Wall, iverilog -Wall, yosys check, slang -Weverything.
-# What lint/waivers.txt does not waive is an error, and so is a waiver that nothing needs. Installs what is missing.
+# A finding without a waiver in lint/waivers.txt is an error, and so is an unused waiver. Installs missing tools.
 #
 #   scripts/lint.sh             every design of the matrix
-#   scripts/lint.sh --quick     every seventh
+#    scripts/lint.sh --quick     every seventh design
 #
 # FOVEATE                            an executable to use instead of the debug build
 # FOVEATE_VERILATOR, FOVEATE_YOSYS   other executables than those in PATH
-# JOBS                               how many at a time (default: number of processors)
+# JOBS                               number of parallel jobs (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 case ${1:-} in

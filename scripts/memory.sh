@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Shows that memory does not grow with the length of a clip: peak memory of `foveate simulate` over a short clip and over
-# one thirty times as long. Fails when the long one takes over a fifth more. Needs ffmpeg and Linux.
+# Checks that memory does not grow with the length of a clip: compares the peak memory of `foveate simulate` over a short clip and over
+# one thirty times as long. Fails if the long clip takes over a fifth more. Needs ffmpeg and Linux.
 #
 #   scripts/memory.sh
 set -euo pipefail
@@ -12,7 +12,7 @@ foveate=${CARGO_TARGET_DIR:-target}/release/foveate
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Peak resident memory in KiB, as the kernel counts it, read while the run is going on.
+# Reads the peak resident memory in KiB, as the kernel counts it, during the run.
 peak() {
     "$foveate" simulate "$1" --output "$work/out" --force --no-rendered --quiet >/dev/null &
     local pid=$! seen=0 now

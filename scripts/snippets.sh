@@ -1,20 +1,20 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs the documents: README.md and every page of docs/, each as a reader pastes it into one shell, in a new folder that holds what a
-# reader has (documents/given.py). Commands, and blocks of Python, must end well and print what the page shows of them; parts that change
-# from run to run are in documents/compare.py. What is not run is in documents/left_out.py, with its reason; a command that is
-# neither run nor there is an error. Then it reads tables with difficult names with every reader that people use. The blocks have
-# the Python package and what its tests have, see python.sh.
+# Runs the documents: README.md and every page of docs/, each as a reader pastes it into one shell, in a new folder with a reader's
+# files (documents/given.py). Commands and blocks of Python must succeed and print the output of the page; documents/compare.py
+# lists the parts that differ between runs. documents/left_out.py lists the steps that are not run, with reasons; a command that is
+# neither run nor listed is an error. Then tables with difficult names are read with the common readers. The blocks have the Python
+# package and the packages of its tests, see python.sh.
 #
 #   scripts/snippets.sh             all pages
 #   scripts/snippets.sh PAGE...     some of them, such as docs/tutorial.md
-#   scripts/snippets.sh --whole     also the commands that take long, by which scripts/test.sh would take too long
-#   scripts/snippets.sh --list      what is not run
+#   scripts/snippets.sh --whole     also the commands that take too long for scripts/test.sh
+#   scripts/snippets.sh --list      lists the steps that are not run
 #
 # FOVEATE            an executable to use instead of the debug build
-# FOVEATE_PACKAGE    where python.sh has installed the package, instead of building it
+# FOVEATE_PACKAGE    the folder where python.sh has installed the package, instead of building it
 # FOVEATE_NEXTPNR_ECP5   nextpnr for the ECP5, instead of that of python_tools.sh --route
-# JOBS               how many pages at a time (default: number of processors)
+# JOBS               number of parallel pages (default: number of processors)
 set -euo pipefail
 cd "$(dirname "$0")/.."
 tools=$(scripts/python.sh)

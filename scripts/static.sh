@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Checks what is not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), hosted workflows (their schema),
-# the container file (hadolint), CITATION.cff (its schema), that all places name one version, dependencies (cargo-deny: licences,
-# bans, sources; skipped where it is not installed), that no large file is tracked, and that examples
-# in documentation are run. Installs what is missing but cargo-deny.
+# Checks files that are not compiled: shell scripts (shellcheck), Python (ruff, and the tests of the scripts), hosted workflows (their
+# schema), the container file (hadolint), CITATION.cff (its schema), the version in all places, dependencies (cargo-deny: licences,
+# bans, sources; skipped if it is not installed), that no large file is tracked, and that examples in documentation are run. Installs
+# missing tools except cargo-deny.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_tools.sh
 tools=$(scripts/python_tools.sh --static)
-# Templates are no shell yet; what is made of them is in rtl/generated.
+# Templates are not shell scripts yet; rtl/generated has scripts made of them.
 mapfile -t shell < <(git ls-files '*.sh' .ci/run scripts/keeping ':!tb' ':!crates/*/templates/*')
 shellcheck "${shell[@]}"
 mapfile -t python < <(git ls-files '*.py')
@@ -18,10 +18,10 @@ python3 -W error::SyntaxWarning -m unittest discover --quiet --start-directory s
 "$tools/hadolint" Containerfile
 "$tools/check-jsonschema" --builtin-schema vendor.citation-file-format CITATION.cff
 scripts/versions.py
-# Nothing here has to be as large but the engine of the live page, whose page has a limit of its own; what is came by mistake.
+# No file here must be large, except the engine of the live page, whose page has a limit of its own. A large file is there by mistake.
 large=$(git ls-files -z | xargs -0 -I{} find {} -maxdepth 0 -size +1000k ! -path web/foveate.wasm)
 [ -z "$large" ] || { echo "static: tracked files of more than 1 MB: $large" >&2 && exit 1; }
-# Of a crate without examples in its documentation, rustdoc would read everything to find none.
+# rustdoc is not run on a crate without examples, because it would compile the crate to find none.
 examples=$(find crates/*/src -name '*.rs' -exec awk 'FNR == 1 { inside = 0 }
     /^ *\/\/[\/!] *```/ { if (!inside && !/```text/) print FILENAME; inside = !inside }' {} +)
 for example in $examples; do

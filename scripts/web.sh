@@ -1,28 +1,28 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Builds the engine of the live page: web/foveate.wasm from crates/web, and web/sources.sha256, which says from what. Both are
-# committed, so that `cargo install` needs no target for WebAssembly; a test of crates/web fails where the sources are others.
+# Builds the engine of the live page: web/foveate.wasm from crates/web, and web/sources.sha256, which lists its sources. Both are
+# committed, so that `cargo install` needs no target for WebAssembly. A test of crates/web fails if the sources have changed.
 #
 #   scripts/web.sh           builds
-#   scripts/web.sh --test    compares what is committed with the native program, frame by frame, in Chromium
+#   scripts/web.sh --test    compares the committed file with the native program, frame by frame, in Chromium
 #
-# The toolchain in use has the target (`rustup target add wasm32-unknown-unknown`), or Debian's rustc-web is unpacked beside it and
-# compiles the standard library, too. wasm-opt, of Binaryen, makes the file smaller.
+# The toolchain in use must have the target (`rustup target add wasm32-unknown-unknown`), or Debian's rustc-web is unpacked beside it
+# and compiles the standard library as well. wasm-opt, of Binaryen, makes the file smaller.
 #
-# FOVEATE_WASM_TOOLS   where packages of Debian are unpacked (default: foveate-wasm-... in XDG_CACHE_HOME or ~/.cache)
+# FOVEATE_WASM_TOOLS   folder where packages of Debian are unpacked (default: foveate-wasm-... in XDG_CACHE_HOME or ~/.cache)
 # FOVEATE              with --test, an executable to use instead of the debug build
 set -euo pipefail
 cd "$(dirname "$0")/.."
 target=wasm32-unknown-unknown
 cache=${FOVEATE_WASM_TOOLS:-${XDG_CACHE_HOME:-$HOME/.cache}/foveate-wasm}
 
-# Prints the crates of the page, with their paths.
+# Prints the crates of the engine, with their paths.
 crates() {
     cargo tree --locked --package foveate-web --edges normal --prefix none --format '{p}' |
         sed -n 's/^foveate-[a-z]* v[^ ]* (\([^)]*\)).*/\1/p' | sort -u
 }
 
-# Prints what the page is made of, as sha256sum does.
+# Prints the checksums of the engine's sources in the format of sha256sum.
 sources() {
     local root folder
     root=$PWD
@@ -33,7 +33,7 @@ sources() {
     done | LC_ALL=C sort | xargs sha256sum
 }
 
-# Prints a folder that packages of Debian are unpacked in, after unpacking them where that is not done yet. Its name, then packages.
+# Prints a folder with unpacked packages of Debian, after unpacking them if needed. The arguments are its name, then packages.
 unpacked() {
     local folder=$cache-$1 new version
     shift
@@ -48,7 +48,7 @@ unpacked() {
             rm "$package"
         done
         rm -r "${new:?}/usr/share"
-        # Programs find their libraries beside them.
+        # Programs find their libraries in the folder next to them.
         cat >"$new/run" <<'RUN'
 #!/bin/sh
 here=$(dirname "$(readlink -f "$0")")
@@ -71,11 +71,11 @@ compiler() {
     local folder more
     command -v apt-get >/dev/null ||
         { echo "the toolchain has no target $target; add it with: rustup target add $target" >&2; exit 3; }
-    # The library's package has the version in its name, and with it the LLVM that it is linked with.
+    # The package of the library has the version in its name, and thus the version of LLVM that it is linked with.
     mapfile -t more < <(apt-cache depends --recurse --no-recommends --no-suggests --no-conflicts --no-breaks --no-replaces --no-enhances rustc-web |
         grep -E '^(libstd-rust-web-[0-9.]+|libllvm[0-9]+)$' | sort -u)
     folder=$(unpacked rust rustc-web libstd-rust-web-dev rust-web-src "${more[@]}")
-    # Where cargo looks for the source there is a link, to more than is needed.
+    # A link is in the place where cargo looks for the source. It leads to more than is needed.
     if [ -L "$folder/usr/lib/rustlib/src/rust" ]; then
         rm "$folder/usr/lib/rustlib/src/rust"
         mkdir "$folder/usr/lib/rustlib/src/rust"
@@ -93,7 +93,7 @@ shrink() {
     "$program" -Oz "${features[@]/#/--enable-}" "$1" -o "$2"
 }
 
-# Prints the linker for WebAssembly: that of the toolchain in use, or of the system.
+# Prints the linker for WebAssembly: that of the toolchain in use, or that of the system.
 linker() {
     local host own
     host=$(rustc -vV | sed -n 's/^host: //p')
@@ -108,9 +108,9 @@ linker() {
 
 build() {
     local flags=(-C target-feature=+simd128) std=() folder rust
-    # Before: a file that changes meanwhile is found.
+    # The checksums are taken before the build, so that a file that changes meanwhile is found.
     sources >web/sources.sha256
-    # Nobody's folders in the messages of the program.
+    # Paths of this machine are kept out of the messages of the program.
     flags+=("--remap-path-prefix=$PWD=.")
     for folder in "${CARGO_HOME:-$HOME/.cargo}"/registry/src/*; do
         flags+=("--remap-path-prefix=$folder=crates")
@@ -120,7 +120,7 @@ build() {
         flags+=("--remap-path-prefix=$rust/usr=rust")
         CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$(linker)
         export RUSTC=$rust/rustc RUSTC_BOOTSTRAP=1 CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER
-        # A fault traps without a message: nobody could read it, and what writes it is a fourth of the program.
+        # A fault traps without a message: nobody could read it, and the code for it is a fourth of the program.
         flags+=(-Z unstable-options -C panic=immediate-abort)
         std=(-Z "build-std=std,panic_abort" -Z build-std-features=)
     fi

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# Runs workflow/ on this machine with two jobs at a time, kills the process of a unit and then Snakemake itself, and goes on.
-# The tables must have the bytes of one machine, and nothing that was finished is done again. scripts/slurm.sh does it on Slurm.
+# Runs workflow/ on this machine with two parallel jobs, kills the process of a unit and then Snakemake itself, and continues. The
+# tables must be equal to those of one machine, byte by byte, and no finished unit is done again. scripts/slurm.sh does it on Slurm.
 #
 # FOVEATE    an executable to use instead of the debug build
 set -euo pipefail
@@ -17,7 +17,7 @@ trap '[ -z "${snakemake:-}" ] || kill -KILL -- "-$snakemake" 2>/dev/null; rm -rf
 cd "$work"
 prepare 60
 
-# In a process group of its own, to be killed with all that it started.
+# Snakemake is in a process group of its own, so that it can be killed with all its processes.
 setsid bash -c ". '$sources/scripts/workflow_checks.sh'; sources='$sources'; run local --cores 2 --config output=out" >snakemake.log 2>&1 &
 snakemake=$!
 kill_unit
@@ -33,7 +33,7 @@ cmp alone/size/size.csv out/size.csv || fail "size.csv has other bytes than one 
 kept out before "Snakemake was killed"
 [ "$(wc -l <out/infer.csv)" -eq 4 ] || fail "infer.csv does not have a row for each clip"
 
-# Of a larger space only the units with other designs are done: the last of each clip.
+# In a larger space only the units with new designs are run: the last of each clip.
 finished out >before
 sed -i 's/99\]/99, 100, 101]/' space.toml
 run local --cores 2 >snakemake.log 2>&1
@@ -41,6 +41,6 @@ kept out before "the space was made larger"
 [ "$(grep -cE '^(local)?rule unit:' snakemake.log)" -eq 3 ] || fail "units are done again though their designs are the same"
 [ "$(finished out | wc -l)" -eq $((42 * 3)) ] || fail "a larger space was not measured whole"
 
-# The folder's name is one word of the commands, whatever it is.
+# The name of the folder is one word of the commands, whatever characters it has.
 run local --cores 1 --config 'output=my out; x' --dry-run --printshellcmds >snakemake.log 2>&1
 grep -qF -- "-o 'my out; x'/explore" snakemake.log || { tail -40 snakemake.log && fail "the name of the output is no word of a shell"; }

@@ -1,13 +1,13 @@
 # shellcheck shell=bash
 # SPDX-License-Identifier: MIT OR Apache-2.0
-# For workflow.sh and slurm.sh, which source it: the same work on one machine and through Snakemake, and what must be equal.
-# They set `sources`, `FOVEATE` and PATH, and change into an empty folder; `snakemake` is a process that they start.
+# For workflow.sh and slurm.sh, which source it: runs the same work on one machine and through Snakemake, and checks that the results
+# are equal. They set `sources`, `FOVEATE` and PATH, and change into an empty folder; `snakemake` is a process that they start.
 # shellcheck disable=SC2154
 
 step() { printf '\n== %s\n' "$*"; }
 fail() { echo "${0##*/}: $*" >&2 && exit 1; }
 
-# Two scenes and a folder of pictures, so many frames of each, on one machine: what workflows are compared with.
+# Runs two scenes and a folder of pictures, with a number of frames of each, on one machine. Workflows are compared with it.
 prepare() {
     local frames=$1 levels clips=(scene:street scene:shake made/rendered)
     levels=$(seq --separator=', ' 60 99)
@@ -30,17 +30,17 @@ run() {
     snakemake --snakefile "$sources/workflow/Snakefile" --profile "$sources/workflow/profiles/$1" --configfile config.yaml "${@:2}"
 }
 
-# The tables and the page of a folder are those of one machine.
+# Checks that the tables and the page of a folder are those of one machine.
 same() {
     for name in points.csv points.parquet pareto.csv clips.csv report.html exploration.json; do
         cmp "alone/explore/$name" "$1/explore/$name" || fail "$1/explore/$name has other bytes than one machine writes"
     done
 }
 
-# Every finished result with the time and the number of its file, which change if it is written again.
+# Lists every finished result with the time and the inode number of its file, which change if it is written again.
 finished() { find "$1/explore/measured" -name '*.json' -printf '%f %T@ %i\n' | sort; }
 
-# What a list of finished results has is as it was.
+# Checks that the results of a list are unchanged.
 kept() {
     [ -s "$2" ] || fail "nothing was finished when $3"
     lost=$(comm -23 "$2" <(finished "$1") | wc -l)
@@ -56,7 +56,7 @@ until_there() {
     done
 }
 units_done() { [ "$(find out/explore/units -name '*.json' 2>/dev/null | wc -l)" -ge "$1" ]; }
-# The processes that do units here.
+# Lists the processes that run units here.
 at_work() {
     local pid found=1
     for pid in $(pgrep -f -- "^$FOVEATE explore .* -o out/explore .* --only"); do
@@ -65,7 +65,7 @@ at_work() {
     return $found
 }
 
-# Kills the process of a unit, as a lack of memory does. One that ends just before is followed by another.
+# Kills the process of a unit, as a lack of memory does. If it ends just before, another one is killed.
 kill_unit() {
     local victims
     until_there kill_one
