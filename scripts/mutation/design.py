@@ -195,7 +195,7 @@ class Design:
 
 
 class BusDesign(Design):
-    """A core on AXI. Its packets are compared as co-simulation compares them, in Verilator: when they leave is in no contract."""
+    """A design on AXI. Its packets are compared as co-simulation does, but in Verilog; no contract defines when they leave."""
 
     def record(self, stage):
         with self.lock:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-//! Seconds of a picture in tract, the best of some: `tract-dense MODEL.onnx 1 CHANNELS HEIGHT WIDTH`, for scripts/bench_networks.py.
+//! Prints the seconds of a frame in tract, the best of some runs: `tract-dense MODEL.onnx 1 CHANNELS HEIGHT WIDTH`, for scripts/bench_networks.py.
 
 use std::time::Instant;
 use tract_onnx::prelude::*;
