@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The sum modulo 2^WIDTH, for every width that a design has.
+// The sum modulo 2^WIDTH, for every width in a design.
 module adder_properties #(parameter WIDTH = 8) (input wire [WIDTH-1:0] a, b);
     wire [WIDTH-1:0] sum;
     adder #(.WIDTH(WIDTH)) dut (.plain_i(a), .other_i(b), .sum_o(sum));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// docs/axi.md and REGISTERS.md: AXI4-Lite with a source that keeps to its rules, and what each register is and does. What a
-// design has of its own, its constants and thresholds, comes from its REGISTERS.md, in registers.vh.
+// The rules of docs/axi.md and REGISTERS.md: AXI4-Lite with a source that obeys its rules, and the value and effect of each
+// register. The constants and thresholds of a design come from its REGISTERS.md, in registers.vh.
 module properties (
     input wire clk_i, rst_i, awvalid, wvalid, bready, arvalid, rready, begins, busy, restarting, input wire [11:0] awaddr, araddr,
     input wire [31:0] wdata, tick_rate, frames, input wire [3:0] wstrb, input wire [7:0] happens,
@@ -43,12 +43,12 @@ module properties (
         assume(!ar_held || (arvalid && araddr == ar_was));
     end
 
-    // Requests that were taken and have no answer.
+    // Requests that were taken and have no answer yet.
     reg [1:0] addresses, words, asked;
-    // What is on the port of an answer and was not taken.
+    // Answers that are on the port and were not taken.
     reg b_held, r_held;
     reg [31:0] r_was;
-    // Clocks for which one side waits while the other one does nothing to hold it up.
+    // Clocks for which one side waits although the other side does not delay it.
     reg [2:0] write_waits, read_waits;
     wire write_stands = (awvalid && wvalid && !awready) || ((addresses != 0 && words != 0) && !bvalid);
     wire read_stands = (arvalid && !arready) || (asked != 0 && !rvalid);
@@ -64,7 +64,7 @@ module properties (
         if (rst_i) {addresses, words, asked, write_waits, read_waits} <= 0;
     end
 
-    // A write is done once both of its halves are taken.
+    // A write is executed once both of its halves are taken.
     reg [9:0] address_q;
     reg [35:0] word_q;
     wire address_comes = awvalid && awready;
@@ -79,7 +79,7 @@ module properties (
         if (word_comes) word_q <= {wstrb, wdata};
     end
 
-    // The registers. A command acts at the clock behind its write.
+    // The registers. A command takes effect at the clock after its write.
     reg own_enable, own_wait, own_restart;
     reg [7:0] events, enabled, test;
     wire [31:0] ones = writes ? word & strobed : 0;
@@ -95,7 +95,7 @@ module properties (
         end
     end
 
-    // Thresholds: as written, and as taken over.
+    // Thresholds: the written values, and the values taken over.
     `undef PORT
     `undef THRESHOLD
     `define PORT(name, bits)
@@ -111,7 +111,7 @@ module properties (
     `undef CONSTANT
     `undef THRESHOLD
 
-    // What is at an address. A register that is not there reads as 0.
+    // The value at an address. An address without a register reads as 0.
     reg [31:0] found;
     `define CONSTANT(where, high, low, value) if (araddr[11:2] == where) found[high:low] = value;
     `define THRESHOLD(name, port, where, high, value) if (araddr[11:2] == where) found = name;
@@ -141,7 +141,7 @@ module properties (
         if (b_held) assert(bvalid);
         if (r_held) assert(rvalid && rdata == r_was);
         assert(write_waits <= 2 && read_waits <= 2);
-        // What registers do.
+        // The effects of registers.
         assert(enable == own_enable && waits == own_wait && restart == own_restart);
         assert(interrupt == ((events & enabled) != 0));
     end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// docs/axi.md as a machine of its own, over the words that have been taken: frames of 3 lines of 3 words, pixels of a bit.
+// A model of docs/axi.md over the words that have been taken: frames of 3 lines of 3 words, pixels of one bit.
 module properties #(parameter LANES = 1) (
     input wire clk_i, rst_i, valid, sof, eol, admit, late, ready, input wire [LANES-1:0] pixels
 );
@@ -13,7 +13,7 @@ module properties #(parameter LANES = 1) (
         .repair_o(repair), .sof_early_o(sof_early), .sof_late_o(sof_late), .eol_early_o(eol_early), .eol_late_o(eol_late)
     );
 
-    // The word that has come and is not done with.
+    // The word that has come and still has to be processed.
     reg has, has_sof, has_eol;
     reg [LANES-1:0] has_pixels;
     always @(posedge clk_i) begin
@@ -21,11 +21,11 @@ module properties #(parameter LANES = 1) (
         else if (taken) {has, has_sof, has_eol, has_pixels} <= {valid, sof, eol, pixels};
     end
 
-    // Where the frame under way is, and what is made up of it: the rest of a line, the rest of the frame.
+    // The place in the current frame, and the parts of it that are filled in: the rest of a line, or the rest of the frame.
     reg inside, made_line, made_frame, over, behind, damaged;
     reg [1:0] column, line;
     reg last;                    // the last pixel that passed
-    reg [LANES-1:0] before[0:2]; // the line before
+    reg [LANES-1:0] before[0:2]; // the last line
     wire at_start = column == 0 && line == 0;
     wire ends_line = column == WORDS - 1;
     wire ends_frame = ends_line && line == LINES - 1;
@@ -37,7 +37,7 @@ module properties #(parameter LANES = 1) (
             {inside, made_line, made_frame, over, behind, damaged} <= 0;
             {column, line} <= 0;
         end else begin
-            // Words that are left out: behind a line that was too long, up to its end or the next start.
+            // Words that are left out: after a line that was too long, up to its end or the next start.
             if (over && has && (has_eol || has_sof)) over <= 0;
             if (begins) {inside, behind, damaged} <= 3'b100;
             if (!inside && !over && has && !has_sof) behind <= 0;
@@ -60,7 +60,7 @@ module properties #(parameter LANES = 1) (
         end
     end
 
-    // Events come a clock later.
+    // Events come one clock later.
     reg was_cut, was_short, was_long, was_behind, was_repair, was_held;
     reg [LANES:0] was_word;
     always @(posedge clk_i) begin
@@ -73,7 +73,7 @@ module properties #(parameter LANES = 1) (
         was_word   <= {first, out};
     end
 
-    // No frame is kept waiting for ever: with an open array what is made up passes a word at every clock.
+    // No frame waits for ever: while the array takes words, a filled-in word passes at every clock.
     always @* if (started) begin
         assert(column < WORDS && line < LINES);
         assert(begins == (!inside && !over && has && has_sof && admit));
@@ -87,7 +87,7 @@ module properties #(parameter LANES = 1) (
         if (word && made_line) assert(out == {LANES{last}});
         if (word && !made_line && made_frame) assert(out == before[column]);
         if (was_held) assert(word && {first, out} == was_word);
-        // A word is done with when it passes, or is left out.
+        // A word is processed when it passes or is left out.
         if (has && inside && !over) assert(taken == takes_word);
         if (has && over) assert(taken == !has_sof);
         if (has && !inside && !over) assert(taken == (!has_sof || skips));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The sum with carry, modulo 2^WIDTH, for every width up to 64.
+// The sum with carry modulo 2^WIDTH, for every width up to 64.
 module carry_properties #(parameter WIDTH = 8) (input wire [WIDTH-1:0] a, b, input wire carry);
     wire [WIDTH-1:0] sum;
     carry_adder #(.WIDTH(WIDTH)) dut (.plain_i(a), .other_i(b), .carry_i(carry), .sum_o(sum));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Both clocks rise whenever they like, also at one time. Four places, words of two bits.
+// Both clocks may rise at any time, also at the same time. The queue has four places, words have two bits.
 module properties #(parameter RESET = 0) (input wire write_clk, read_clk, rst, write, take, input wire [1:0] data);
     wire full, valid;
     wire [1:0] found;
@@ -10,7 +10,7 @@ module properties #(parameter RESET = 0) (input wire write_clk, read_clk, rst, w
 
     generate
         if (RESET == 0) begin : g_order
-            // Words that found room, and those that were taken; a word is kept by its number.
+            // Counts words that found room and words that were taken. A followed word is kept by its number.
             reg [2:0] in = 0, out = 0;
             reg [7:0] kept;
             wire [2:0] count = in - out;
@@ -26,8 +26,8 @@ module properties #(parameter RESET = 0) (input wire write_clk, read_clk, rst, w
                 if (count == 4) assert(full);
             end
         end else begin : g_reset
-            // Words say whether they were written behind the first reset. Of those before it none comes, if they were written three
-            // edges of the read clock or more ahead. What is nearer may come, as there is no order between two clocks.
+            // Words say whether they were written after the first reset. An earlier word never comes if it was written at least three
+            // edges of the read clock before. A later one may come, as two clocks have no order.
             reg [1:0] quiet = 3;  // edges of the read clock without a word
             reg [2:0] in = 0, in_before = 0;
             reg was_reset = 0;

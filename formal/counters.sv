@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Counters against numbers that are wide enough, for regions of several sizes: position_counter,
-// hit_counter, frame_progress, score_hold, forward_gate.
+// Compares counters with numbers that are wide enough, for regions of several sizes: position_counter, hit_counter,
+// frame_progress, score_hold, forward_gate.
 module counter_properties #(parameter SIDE = 2) (
     input wire clk_i, rst_i, step, hit, forward, input wire [7:0] pixel
 );
@@ -14,7 +14,7 @@ module counter_properties #(parameter SIDE = 2) (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .last_o(last), .done_o(done), .place_o(place), .seen_o(seen)
     );
 
-    // Addresses are the positions, so that nothing is written outside the region.
+    // Addresses are equal to positions, so no word outside the region is written.
     wire [ADDRESS_BITS-1:0] address;
     wire address_last;
     position_counter #(.PIXELS(PIXELS), .ADDRESS_BITS(ADDRESS_BITS)) u_position (
@@ -41,7 +41,7 @@ module counter_properties #(parameter SIDE = 2) (
         assert(count <= PIXELS);
     end
 
-    // Frames since reset: none, one, more.
+    // The number of frames since reset: none, one, or more.
     wire progress_done, stored, second;
     frame_progress u_progress (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .last_i(last),
@@ -70,7 +70,7 @@ module counter_properties #(parameter SIDE = 2) (
     end
     always @* if (started) assert(held == of_last_frame);
 
-    // A pixel leaves at every step of an active frame, and nothing else ever does.
+    // A pixel leaves at every step of an active frame, and at no other time.
     wire leaves;
     wire [7:0] leaving;
     forward_gate #(.WIDTH(8)) u_gate (

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The paper's Table I from scores and minimums: vote, candidate_count and decision; then what forward
-// remembers of it.
+// Table I of the paper from scores and minimums: vote, candidate_count and decision; then the value that forward keeps
+// of it.
 module decision_properties #(parameter FEATURES = 1, parameter ALL = 0) (
     input wire clk_i, rst_i, valid,
     input wire [6:0] minimum, trs_minimum, previous_count, sent_count,
@@ -27,7 +27,7 @@ module decision_properties #(parameter FEATURES = 1, parameter ALL = 0) (
         .srs_o(srs), .trs_o(trs), .active_o(active), .forward_o(forward)
     );
 
-    // By the contract.
+    // The values by the contract.
     reg any, every;
     integer k;
     always @* begin
@@ -47,10 +47,10 @@ module decision_properties #(parameter FEATURES = 1, parameter ALL = 0) (
             2'b11: assert(active == valid);
             default: assert(!active);
         endcase
-        // Without any reference everything has changed, unless the minimum is out of reach.
+        // Without a valid reference all pixels count as changed, unless the minimum is out of reach.
         if (valid && !previous_sent && !referenced && trs_minimum <= 64) assert(trs);
     end
-    reg last = 1'b0;  // of the last decision since reset
+    reg last = 1'b0;  // the last decision since reset
     always @(posedge clk_i) last <= !rst_i && (valid ? relevant && changed : last);
     always @* if (started) assert(forward == (valid ? relevant && changed : last));
 endmodule

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The reference is the region as it was last active, valid from then on until a blanking SRS = 0. It is read with a
-// pixel and asked for a clock later, when the pixel is counted: by then the decision of the frame before is known.
+// The reference is the region as it was last active, and is valid from then on until a blanking SRS = 0. It is read with a
+// pixel and used one clock later, when the pixel is counted; the decision of the frame before is known then.
 module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
     input wire clk_i, rst_i, step, srs, trs, pixel
 );
@@ -19,7 +19,7 @@ module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
     frames #(.PIXELS(PIXELS)) u_counted (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(count), .last_o(last), .done_o(done), .place_o(place), .seen_o(seen)
     );
-    // The decision of the frame before, as leaf `decision` holds it.
+    // The decision of the frame before, as module `decision` holds it.
     reg active_q;
     wire forward = done ? srs && trs : active_q;
     always @(posedge clk_i) begin
@@ -34,7 +34,7 @@ module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
     );
     reg reference;
     always @(posedge clk_i) reference <= read;
-    // By the contract.
+    // The values by the contract.
     reg sent, known, usable;
     wire usable_now = done && srs && trs ? 1'b1 : done && !srs && BLANKS != 0 ? 1'b0 : usable;
     always @(posedge clk_i) begin

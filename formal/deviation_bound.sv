@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The sum of the deviations from the mean of the very pixels fits into the bits that a design gives it,
-// whatever the pixels.
+// The sum of the deviations from the mean of the same pixels fits into the width that a design gives it, for all pixels.
 module properties (input wire [`P*`N*`N-1:0] region);
     localparam PIXELS = `N * `N;
     localparam WIDE = 32;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The second pass adds up |2^f * x - mu| of every pixel, modulo its width; deviation_bound shows that the
-// width is enough.
+// The second pass adds up |2^f * x - mu| of every pixel, modulo its width. deviation_bound proves that the width is
+// enough.
 module properties (
     input wire clk_i, rst_i, step, enable,
     input wire [`P-1:0] pixel, input wire [`U_DEVIATION_MEAN_BITS-1:0] mean
@@ -17,7 +17,7 @@ module properties (
         .clk_i(clk_i), .rst_i(rst_i), .enable_i(enable), .restart_i(done), .step_i(step),
         .pixel_i(pixel), .mean_i(mean), .sum_o(sum)
     );
-    always @* assume(mean <= TOP);  // proven of region_mean
+    always @* assume(mean <= TOP);  // proven in region_mean
     wire [63:0] scaled = pixel << `U_DEVIATION_FRACTION;
     wire [63:0] deviation = scaled > mean ? scaled - mean : mean - scaled;
     reg [63:0] exact;

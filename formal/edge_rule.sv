@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Why edge_detector may compare halves. PART 0: for every window its sums s and d are such that Gx = s - d and
+// The reason why edge_detector may compare halves. PART 0: for every window its sums s and d satisfy Gx = s - d and
 // Gy = s + d. PART 1: for all s and d, |s - d| + |s + d| > level if and only if |s| or |d| > floor(level / 2).
 module properties #(parameter WIDTH = 8, parameter PART = 0) (
     // The window, row by row, without its center. The sums hold for any words, not only for pixels.

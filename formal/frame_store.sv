@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What is read is what was written last at that place, whatever is written at others, in one bank or many.
+// A read gives the word that was written last at that place, whatever is written at other places, with one bank or many.
 module properties #(parameter PIXELS = 64, parameter ADDRESS_BITS = $clog2(PIXELS)) (
     input wire clk_i, rst_i, write, input wire [ADDRESS_BITS-1:0] address, input wire data
 );
     (* anyconst *) wire [ADDRESS_BITS-1:0] place;
     always @* begin
-        assume(address < PIXELS);  // proven of every counter that gives addresses
+        assume(address < PIXELS);  // proven of every counter that makes addresses
         assume(place < PIXELS);
     end
     wire read;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What docs/sync.md says of the four states, and what follows from it: the core gets whole frames and nothing between
-// them, a marked beat from outside begins a frame or is an error, and a frame that is completed ends.
+// The four states of docs/sync.md, and consequences: the core gets only whole frames, a marked beat from outside begins a
+// frame or is an error, and a frame that is completed ends.
 module properties #(parameter BEATS = 5) (input wire clk_i, rst_i, valid, sof, open);
     `include "reset.vh"
     localparam SEEK = 2'd0, START = 2'd1, INSIDE = 2'd2, FILL = 2'd3;
@@ -10,7 +10,7 @@ module properties #(parameter BEATS = 5) (input wire clk_i, rst_i, valid, sof, o
         .error_o(error)
     );
 
-    // The page, with a count of the beats that the frame under way has had.
+    // A model of the page, with a count of the beats of the current frame.
     reg [1:0] state;
     reg [9:0] had;
     reg expected_error;
@@ -49,14 +49,14 @@ module properties #(parameter BEATS = 5) (input wire clk_i, rst_i, valid, sof, o
         end
     end
 
-    // What the core sees: beats of a frame, counted by themselves.
+    // The view of the core: the beats of a frame, counted separately.
     reg [9:0] seen;
     always @(posedge clk_i) begin
         if (rst_i) seen <= 0;
         else if (open && beat) seen <= seen == BEATS - 1 ? 0 : seen + 1;
     end
 
-    // In a frame that is completed a beat is taken at every edge at which the core is open: after as many it is over.
+    // While a frame is completed, the core takes a beat at every edge at which it is open, so the frame ends after that many.
     reg [9:0] filled;
     always @(posedge clk_i) begin
         if (rst_i || state != FILL) filled <= 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Frames as leaves behind a window see them: steps with gaps anywhere, `last_o` with the last of PIXELS.
+// Makes frames for modules behind a window: steps with gaps anywhere, and `last_o` with the last of PIXELS steps.
 module frames #(
     parameter PIXELS = 4
 ) (
@@ -7,9 +7,9 @@ module frames #(
     input  wire        rst_i,
     input  wire        step_i,
     output wire        last_o,
-    output reg         done_o,   // the clock after the last step
-    output reg  [15:0] place_o,  // of the next step in its frame
-    output reg  [15:0] seen_o    // steps of the frame; PIXELS while done_o
+    output reg         done_o,   // one clock after the last step
+    output reg  [15:0] place_o,  // place of the next step in its frame
+    output reg  [15:0] seen_o    // number of steps of the frame; PIXELS while done_o
 );
     `include "reset.vh"
     assign last_o = place_o == PIXELS - 1;

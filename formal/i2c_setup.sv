@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A sensor that acknowledges or not, as it likes, and two steps of any kind. What the module drives is followed as a bus.
+// A sensor that acknowledges at random, and two steps of any kind. The outputs are followed as a bus.
 module properties #(parameter ADDRESS_BYTES = 1) (
     input wire clk_i, rst_i, answer, input wire [8*ADDRESS_BYTES+8:0] word
 );
@@ -15,7 +15,7 @@ module properties #(parameter ADDRESS_BYTES = 1) (
     );
     wire scl = !scl_low, sda = !sda_low;
 
-    // The memory of steps shows a step from the second clock after it was asked for.
+    // The memory of steps shows a step from the second clock after its number on.
     reg step_before, same_before;
     reg [8*ADDRESS_BYTES+8:0] word_before;
     always @(posedge clk_i) begin
@@ -25,16 +25,16 @@ module properties #(parameter ADDRESS_BYTES = 1) (
     end
     always @* if (started && same_before && step == step_before) assume(word == word_before);
 
-    // The bus a clock ago, and how long each line has been as it is.
+    // The bus one clock ago, and the number of clocks since each line changed.
     reg scl_before, sda_before, was_reset;
     reg [3:0] scl_for, sda_for;
     wire scl_moves = scl != scl_before;
     wire sda_moves = sda != sda_before;
     reg talks;         // between start and stop
-    reg [5:0] rises;   // of scl since the start
-    reg [3:0] bits;    // of the byte
+    reg [5:0] rises;   // rising edges of scl since the start
+    reg [3:0] bits;    // number of bits of the byte
     reg [2:0] bytes;
-    reg [2:0] starts;  // of the step
+    reg [2:0] starts;  // number of starts of the step
     wire start = sda_moves && !sda && scl;
     wire stop = sda_moves && sda && scl;
     reg step_of_start;
@@ -54,7 +54,7 @@ module properties #(parameter ADDRESS_BYTES = 1) (
             bits <= bits == 8 ? 0 : bits + 1;
             if (bits == 8) bytes <= bytes + 1;
         end
-        // A reset lets both lines go.
+        // A reset releases both lines.
         if (rst_i) begin
             {talks, bits, bytes, starts} <= 0;
             {scl_before, sda_before} <= 2'b11;
@@ -75,7 +75,7 @@ module properties #(parameter ADDRESS_BYTES = 1) (
         if (scl_moves) assert(scl_for >= 2 * QUARTER);
         if (scl_moves && scl) assert(sda_for >= QUARTER);
         if (scl_moves && !scl && bits == 0 && bytes == 0) assert(sda_for >= 2 * QUARTER);
-        // Bits, the highest of a byte first, and a released line for the acknowledgement. Behind the bytes a stop.
+        // Bits are sent with the highest of a byte first, and the line is released for the acknowledgement. A stop follows the bytes.
         if (scl_moves && scl && bytes < BYTES && bits < 8 && !(bits == 0 && bytes != 0 && !sda))
             assert(sda == all[at]);
         if (scl_moves && scl && bits == 8) assert(sda);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The reference is the region as it was last active, valid from then on until a blanking SRS = 0.
+// The reference is the region as it was last active, and is valid from then on until a blanking SRS = 0.
 module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
     input wire clk_i, rst_i, step, srs, trs, pixel
 );
@@ -13,7 +13,7 @@ module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
     frames #(.PIXELS(PIXELS)) u_frames (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .last_o(last), .done_o(done), .place_o(place), .seen_o(seen)
     );
-    // The decision of the frame before, as leaf `decision` holds it.
+    // The decision of the frame before, as module `decision` holds it.
     reg active_q;
     wire forward = done ? srs && trs : active_q;
     always @(posedge clk_i) active_q <= !rst_i && forward;
@@ -22,7 +22,7 @@ module properties #(parameter BLANKS = 1, parameter SIDE = 2) (
         .clk_i(clk_i), .rst_i(rst_i), .step_i(step), .address_i(place[ADDRESS_BITS-1:0]), .decided_i(done),
         .srs_i(srs), .forward_i(forward), .pixel_i(pixel), .reference_o(reference), .valid_o(valid)
     );
-    // By the contract.
+    // The values by the contract.
     reg sent, known, usable;
     wire usable_now = done && srs && trs ? 1'b1 : done && !srs && BLANKS != 0 ? 1'b0 : usable;
     always @(posedge clk_i) begin

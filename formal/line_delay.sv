@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A word that goes in comes out after DEPTH advances; a column shows the pixels of three rows. One word, any
-// of all, is followed on its way.
+// A word comes out DEPTH advances after it went in, and a column shows the pixels of three rows. An arbitrary word is followed
+// on its way.
 module properties #(parameter SIDE = 8) (
     input wire clk_i, rst_i, advance, top, bottom, follow, input wire pixel
 );
@@ -13,7 +13,7 @@ module properties #(parameter SIDE = 8) (
         .clk_i(clk_i), .advance_i(advance), .top_i(top), .bottom_i(bottom), .pixel_i(pixel),
         .upper_o(upper), .middle_o(middle), .lower_o(lower), .center_o(center)
     );
-    reg [7:0] age = 8'd0;  // advances since the followed word went in, its own included; 0 before
+    reg [7:0] age = 8'd0;  // advances since the followed word went in, its own included; 0 before that
     reg word;
     always @(posedge clk_i) begin
         if (advance && age == 8'd0 && follow) begin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// |value| > level, the value being signed, for every width that a design has.
+// |value| > level for a signed value, for every width in a design.
 module magnitude_properties #(parameter WIDTH = 9) (input wire [WIDTH-1:0] value, input wire [WIDTH-2:0] level);
     wire above, borrow;
     magnitude_above #(.WIDTH(WIDTH)) dut (.value_i(value), .level_i(level), .above_o(above));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What has left says whose byte is next: within a packet that of its word, within an answer its own, between two that of an answer if
-// one waits. Bytes of a packet have their highest bit clear, those of an answer set.
+// The bytes that have left determine the next one: within a packet the next byte of its word, within an answer the next byte of
+// the answer, between two of them a byte of an answer if one waits. Bytes of a packet have their highest bit clear, bytes of an
+// answer have it set.
 module properties (input wire clk_i, rst_i, valid, last, answer_valid, answer_last, ready, input wire [63:0] data, input wire [7:0] answer);
     `include "reset.vh"
     wire word_taken, answer_taken, byte_valid;
@@ -11,7 +12,7 @@ module properties (input wire clk_i, rst_i, valid, last, answer_valid, answer_la
     );
     always @* assume((data & 64'h8080808080808080) == 0 && answer[7]);
 
-    // Sources hold what they offer.
+    // Sources hold a word or byte until it is taken.
     reg was_word, was_answer;
     reg [64:0] word_before;
     reg [8:0] answer_before;
@@ -26,7 +27,7 @@ module properties (input wire clk_i, rst_i, valid, last, answer_valid, answer_la
         if (was_answer) assume(answer_valid && {answer_last, answer} == answer_before);
     end
 
-    // The machine of the page, over the bytes that leave.
+    // A model of the page, over the bytes that leave.
     reg in_packet, in_answer, was_held, was_idle, answer_waited, something_waited;
     reg [2:0] place;
     reg [7:0] held;
@@ -55,7 +56,7 @@ module properties (input wire clk_i, rst_i, valid, last, answer_valid, answer_la
         if (in_packet && valid) assert(byte_valid);
         if (in_answer && answer_valid) assert(byte_valid);
         if (was_held) assert(byte_valid && value == held);
-        // Between two, what waits for a clock is next, an answer first.
+        // Between two of them, a packet or answer that has waited for a clock is next, an answer first.
         if (was_idle && something_waited) assert(byte_valid);
         if (was_idle && byte_valid) assert(value[7] == answer_waited);
     end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The definition: a bit goes in, from the lowest on, and where the lowest bit of the sum differs from it, the polynomial is added.
+// The definition: bits go in from the lowest on, and the polynomial is added if a bit differs from the lowest bit of the sum.
 module properties #(parameter BITS = 16) (input wire [31:0] crc, input wire [BITS-1:0] data);
     wire [31:0] next;
     packet_crc #(.BITS(BITS)) dut (.crc_i(crc), .data_i(data), .crc_o(next));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// docs/axi.md and docs/packets.md on frames: one whose packets leave, and one that is taken behind it. What the parts around do,
-// they do of a frame that is under way: a region leaves or is lost once, after it was decided.
+// Frames by docs/axi.md and docs/packets.md: one whose packets leave, and one that is taken after it. The modules around act only
+// on frames that are under way: a region leaves or is lost once, after it was decided.
 module properties #(parameter PENDING_BITS = 2, REGION_BITS = 2, ROW_BITS = 1) (
     input wire clk_i, rst_i, forget, begins, skips, sends, decided_last, row_dropped, whole, whole_frame, lost, lost_frame, opened, ended,
     input wire [63:0] now
@@ -12,17 +12,17 @@ module properties #(parameter PENDING_BITS = 2, REGION_BITS = 2, ROW_BITS = 1) (
     wire [REGION_BITS:0] dropped;
     wire [ROW_BITS:0] dropped_rows;
 
-    // The frame that leaves and the one behind it, as many as there are.
+    // The frame that leaves and the one after it; `under` is their number.
     reg [1:0] under;
-    reg [1:0] is_open, is_decided;  // its FRAME has left; all its regions are decided
-    reg parity;                     // of the number of the older one, since reset
-    reg is_first;                   // no FRAME has left since then
+    reg [1:0] is_open, is_decided;  // the FRAME packet has left; all regions are decided
+    reg parity;                     // lowest bit of the number since reset of the older frame
+    reg is_first;                   // no FRAME packet has left since then
     reg [31:0] count, number_0, number_1;
     reg [63:0] time_0, time_1;
     reg [PENDING_BITS:0] pending_0, pending_1;
     reg [REGION_BITS:0] dropped_0, dropped_1;
     reg [ROW_BITS:0] rows_0, rows_1;
-    reg front;                      // the older one was the older one at the clock before, too
+    reg front;                      // the older frame was also the older one at the clock before
     wire newest = under == 2;
     wire deciding = under != 0 && !is_decided[newest];
 
@@ -34,7 +34,7 @@ module properties #(parameter PENDING_BITS = 2, REGION_BITS = 2, ROW_BITS = 1) (
         .number_o(number), .frames_o(frames), .frame_o(frame), .closed_o(closed), .dropped_o(dropped), .dropped_rows_o(dropped_rows)
     );
 
-    // Of which of the two a region is.
+    // The frame of a region: 1 for the newer one.
     wire whole_1 = whole_frame != parity, lost_1 = lost_frame != parity;
     wire [1:0] leave_0 = (whole && !whole_1) + (lost && !lost_1);
     wire [1:0] leave_1 = (whole && whole_1) + (lost && lost_1);
@@ -54,7 +54,7 @@ module properties #(parameter PENDING_BITS = 2, REGION_BITS = 2, ROW_BITS = 1) (
         assume(!row_dropped || (newest ? rows_1 : rows_0) < (1 << ROW_BITS));
     end
 
-    // What each of them is behind this edge, before the older one goes.
+    // The state of each frame after this edge, before the older one ends.
     wire [1:0] now_open = {is_open[1], is_open[0] || opened};
     wire [1:0] now_decided = is_decided | (decided_last ? (newest ? 2'b10 : 2'b01) : 2'b00);
     wire [PENDING_BITS:0] now_pending_0 = pending_0 + (sends && !newest) - leave_0;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Row and column of the number given last, once the module says that it is done; and when it is.
+// Row and column belong to the last number once the module says that it is done, and it is done in time.
 module properties #(parameter COLUMNS = 5) (input wire clk_i, rst_i, start, input wire [4:0] region);
     `include "reset.vh"
     localparam COLUMN_BITS = $clog2(COLUMNS);
     localparam STEPS = 5 - COLUMN_BITS + 1;
-    localparam [4:0] DIVISOR = COLUMNS;  // no wider than the number, as a divider of 32 bits takes Yosys seconds
+    localparam [4:0] DIVISOR = COLUMNS;  // no wider than the number, because a divider of 32 bits takes Yosys seconds
     wire busy;
     wire [5-COLUMN_BITS:0] row;
     wire [COLUMN_BITS-1:0] column;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Regions in a queue: one that comes whole waits with its pixels or means in lanes, as docs/packets.md has them, and one that is lost
-// on the way never shows. One region, any, is followed through the queue, with one of its values, any.
+// A queue of regions: a whole region waits with its pixels or means in lanes, as in docs/packets.md, and a region that is lost
+// on the way never appears. An arbitrary region and an arbitrary one of its values are followed through the queue.
 module properties #(parameter WIDTH = 1, LANES = 1, PIXELS = 4, MEANS = 0, COLUMNS = 2, REGION_BITS = 3, BITS = 16, PART_BITS = 2, PLACE_BITS = 2) (
     input wire clk_i, rst_i, valid, last, abort, frame, summary, read, take, follow, input wire [REGION_BITS-1:0] region,
     input wire [LANES*WIDTH-1:0] given, input wire [PART_BITS-1:0] part
@@ -8,15 +8,15 @@ module properties #(parameter WIDTH = 1, LANES = 1, PIXELS = 4, MEANS = 0, COLUM
     `include "reset.vh"
     localparam COLUMN_BITS = $clog2(COLUMNS);
     localparam LANE = WIDTH > 8 ? 16 : 8;
-    localparam SENT = (PIXELS * LANE + 63) / 64 * 64 / LANE;  // lanes of the packet
+    localparam SENT = (PIXELS * LANE + 63) / 64 * 64 / LANE;  // number of lanes of the packet
     localparam IN_PART = BITS / LANE;
-    localparam LATE = REGION_BITS - COLUMN_BITS + 2;          // clocks in which a place is found
+    localparam LATE = REGION_BITS - COLUMN_BITS + 2;          // number of clocks in which row and column are found
     wire ready, whole, whole_frame, waits, waits_frame, waits_summary;
     wire [REGION_BITS-COLUMN_BITS:0] row;
     wire [COLUMN_BITS-1:0] column;
     wire [BITS-1:0] found;
 
-    // What comes: so many words of a region, or fewer and a loss.
+    // The input: a number of words of a region, or fewer and a loss.
     reg inside, own_summary;
     reg [7:0] words;
     wire [7:0] all_words = summary ? MEANS : PIXELS / LANES;
@@ -36,7 +36,7 @@ module properties #(parameter WIDTH = 1, LANES = 1, PIXELS = 4, MEANS = 0, COLUM
         assume(MEANS != 0 || !summary);
         assume(!valid || !inside || summary == own_summary);
         assume(!valid || last == (abort || words + 1 == all_words));
-        // A mean stands on every pixel of its word.
+        // A mean is on every pixel of its word.
         assume(!summary || given == {LANES{given[WIDTH-1:0]}});
     end
     always @(posedge clk_i) begin
@@ -48,7 +48,7 @@ module properties #(parameter WIDTH = 1, LANES = 1, PIXELS = 4, MEANS = 0, COLUM
         if (rst_i) {inside, words} <= 0;
     end
 
-    // Regions that wait; one that has come, but is not yet known to be whole, and for how many clocks.
+    // The waiting regions; and a region that has come but is not yet known to be whole, with the clocks since then.
     reg [PLACE_BITS:0] waiting;
     reg late;
     reg [3:0] late_clocks;
@@ -62,7 +62,7 @@ module properties #(parameter WIDTH = 1, LANES = 1, PIXELS = 4, MEANS = 0, COLUM
         if (rst_i) {waiting, late, late_clocks} <= 0;
     end
 
-    // The one that is followed: it comes, or has come and waits behind so many others.
+    // The followed region: it comes, or it has come and `ahead` others are in front of it.
     (* anyconst *) reg [7:0] value;
     always @* assume(value < SENT);
     reg follows, has_come, its_summary;
@@ -89,7 +89,7 @@ module properties #(parameter WIDTH = 1, LANES = 1, PIXELS = 4, MEANS = 0, COLUM
         if (rst_i) {follows, has_come} <= 0;
     end
 
-    // What was read last, a clock ago or earlier, of the region that is followed.
+    // The part of the followed region that was read last, one clock ago or earlier.
     reg was_read;
     reg [WIDTH-1:0] wanted;
     wire [7:0] its_count = its_summary ? MEANS : PIXELS;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A queue of two rows: what was decided of the regions of each. Frames have two rows. Parts of 16 bits are read in any order.
+// A queue of two rows of decisions. Frames have two rows. Parts of 16 bits are read in any order.
 module properties #(parameter COLUMNS = 3, DECISION_BITS = 2) (
     input wire clk_i, rst_i, decision, srs, trs, summary, read, take, input wire [1:0] part
 );
@@ -14,7 +14,7 @@ module properties #(parameter COLUMNS = 3, DECISION_BITS = 2) (
         .dropped_o(dropped), .valid_o(valid), .valid_frame_o(valid_frame), .row_o(row), .read_i(read), .part_i(part), .part_o(found),
         .take_i(take)
     );
-    // Only what waits is taken.
+    // Only a waiting row is taken.
     always @* assume(!take || valid);
 
     // The region that is decided next, the row that is collected, and the rows that wait.
@@ -22,7 +22,7 @@ module properties #(parameter COLUMNS = 3, DECISION_BITS = 2) (
     reg own_row, own_frame, drops;
     reg [63:0] row_bits, oldest, second;
     reg [1:0] count;
-    reg [1:0] oldest_of, second_of;  // frame and row
+    reg [1:0] oldest_of, second_of;  // frame and row of the waiting rows
     wire [63:0] code = {srs, 1'b0} >> 1 | {trs, 1'b0} | (DECISION_BITS == 4 && summary ? 64'd4 : 64'd0);
     wire [63:0] now = (column == 0 ? 64'd0 : row_bits) | code << column * DECISION_BITS;
     wire drop_now = column == 0 ? count == 2 : drops;
@@ -45,7 +45,7 @@ module properties #(parameter COLUMNS = 3, DECISION_BITS = 2) (
         if (rst_i) {column, own_row, own_frame, count} <= 0;
     end
 
-    // What was read a clock ago, of the row that waited then.
+    // The part that was read one clock ago, of the row that waited then.
     reg was_read;
     reg [15:0] wanted;
     always @(posedge clk_i) begin

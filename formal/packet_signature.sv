@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Any stream at all; the rest is in formal/inside/packet_signature.sv.
+// The stream is arbitrary; the properties are in formal/inside/packet_signature.sv.
 module properties (input wire clk_i, rst_i, valid, last, ready, input wire [63:0] data);
     `include "reset.vh"
     wire [31:0] found, frames;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// docs/packets.md and the rules of AXI4-Stream on the port of packets. What waits stays until it is taken, as packet_frames, packet_rows
-// and packet_regions say (their proofs); what it is, is free. CHECK: 0 the rules of the port, lengths, order and times; 1 what is in
-// packets, of which one bit of one word is followed, any of them, into a sink that takes a word at every clock.
+// The packets by docs/packets.md, and the rules of AXI4-Stream on their port. Waiting items stay until they are taken, as proven of
+// packet_frames, packet_rows and packet_regions; their content is free. CHECK: 0 the rules of the port, lengths, order and times;
+// 1 the content of packets, of which an arbitrary bit of an arbitrary word is followed, with a sink that takes a word at every clock.
 module properties #(
     parameter BITS = 16, PART_BITS = 5, ROW_WORDS = 1, PIXEL_WORDS = 2, MEAN_WORDS = 1, RAW = 1, CHECK = 0
 ) (
@@ -18,20 +18,20 @@ module properties #(
     wire [PART_BITS-1:0] part;
     wire [63:0] data;
 
-    // The word and the bit in it that are followed. The head is word 0, so the parts behind it are counted from word 1 on.
+    // The word and its bit that are followed. The head is word 0, so the parts after it are counted from word 1 on.
     (* anyconst *) reg [2:0] place;
     (* anyconst *) reg [5:0] bit_place;
     wire [2:0] body_place = place - 1;
     wire [5:0] followed = BITS == 16 ? {body_place, bit_place[5:4]} : {body_place, bit_place[5]};
     wire [BITS-1:0] bit_mask = 1 << (BITS == 16 ? bit_place[3:0] : bit_place[4:0]);
 
-    // What waits. The frame:
+    // The waiting frame.
     reg announced, open, front, first, frame, closed;
     reg [63:0] time_q;
     reg [31:0] number, rate_q;
     reg [3:0] dropped, sent;
     reg [2:0] dropped_rows;
-    // a row, and a region, whose parts are read:
+    // The waiting row and the waiting region, whose parts are read.
     reg row_valid, row_frame, region_valid, region_frame, summary;
     reg [1:0] row, region_row, column;
     reg row_value, region_value;
@@ -54,7 +54,7 @@ module properties #(
 
     always @* begin
         assume(!begins || !announced);
-        // Of a frame that is closed nothing comes any more.
+        // No more items of a closed frame come.
         assume(!closed || row_fits || !any_row_valid || any_row_frame != frame || ended);
         assume(!closed || region_fits || !any_region_valid || any_region_frame != frame || ended);
         assume(!region_take || sent < 8);
@@ -84,7 +84,7 @@ module properties #(
         if (rst_i) {announced, open, front, frame, closed, row_valid, region_valid, sent} <= 0;
     end
 
-    // The packet that the writer has done with, until its last word has left: how long it is, and what its followed part must be.
+    // The packet that the writer has finished, until its last word has left: its length, and the value of its followed part.
     wire done = opened || ended || row_take || region_take;
     wire [2:0] type = opened ? FRAME : ended ? END : row_take ? ROW : REGION;
     wire means = region_take && summary;
@@ -123,7 +123,7 @@ module properties #(
         if (rst_i) waits <= 0;
     end
 
-    // What leaves.
+    // The words that leave.
     reg [2:0] words;
     reg seen;
     wire now_seen = words == place ? data[bit_place] : seen;
@@ -139,12 +139,12 @@ module properties #(
         if (rst_i) words <= 0;
     end
 
-    // Clocks without a word on the port, though something waits or is under way; a source does not wait for `ready`.
+    // Clocks without a word on the port although an item waits or is under way. A source does not wait for `ready`.
     wire offers = open ? row_fits || region_fits || closed : announced;
     reg [4:0] quiet, offered;
     always @(posedge clk_i) begin
         quiet   <= (offers || !idle) && !valid ? quiet + 1 : 0;
-        // For so many clocks, the last ones in which the sink held up nothing, there was something to send.
+        // In the last clocks of this number, an item was there to be sent and the sink did not delay it.
         offered <= !offers ? 0 : offered == 31 || (valid && !ready) ? offered : offered + 1;
         if (rst_i) {quiet, offered} <= 0;
     end
@@ -152,18 +152,18 @@ module properties #(
     generate
         if (CHECK == 0) begin : g_rules
             always @* if (started) begin
-                // AXI4-Stream, and packets that are whole.
+                // The rules of AXI4-Stream, and whole packets.
                 if (held) assert(valid && last == held_last && data == held_data);
                 assert(words < LONGEST);
                 if (valid && last) assert(waits && words + 1 == expected_words);
-                // One at a time, of what waits, and in the order of docs/packets.md.
+                // One packet at a time, of the waiting items, and in the order of docs/packets.md.
                 if (done) assert(!waits || (leaves && last));
                 assert(opened + ended + row_take + region_take <= 1);
                 if (opened) assert(announced && !open);
                 if (ended) assert(open && closed && !row_fits && !region_fits);
                 if (row_take) assert(open && row_fits);
                 if (region_take) assert(open && region_fits);
-                // In time: a word in so many clocks as it has parts, one more before a packet, three from what waits to the port.
+                // The time: a word takes a clock per part, one more before a packet, and three from a waiting item to the port.
                 assert(quiet <= PARTS + 3);
                 if (offered >= 2 * PARTS + 4) assert(quiet <= PARTS);
                 if (words != 0) assert(quiet <= PARTS - 1);

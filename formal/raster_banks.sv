@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What is read is what was written last at that place, GROUPS + 6 clocks after its address. The word that is followed is
+// A read gives the word that was written last at that place, GROUPS + 6 clocks after its address. The followed word is
 // written at least as many clocks before it is read.
 module properties #(
     parameter WORDS = 13, parameter ADDRESS_BITS = $clog2(WORDS), parameter GROUPS = 4
@@ -22,8 +22,8 @@ module properties #(
         .read_address_i(read_address), .data_o(found)
     );
     reg last;
-    reg [4:0] age = 5'd0;  // clocks since it was written, up to 31; 0 before
-    reg [LATENCY-1:0] asked = 0;  // it was asked for so many clocks ago, and had been written long before
+    reg [4:0] age = 5'd0;  // clocks since the word was written, up to 31; 0 before that
+    reg [LATENCY-1:0] asked = 0;  // one bit per clock: the word was requested then, and had been written long before
     reg [LATENCY-1:0] word;
     always @(posedge clk_i) begin
         if (write && write_address == place) begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Words of frames of ROWS x COLUMNS regions come row by row, with gaps and resets. raster_blocks says of each where it is in its
-// block, which block of which region that is, and in which row of regions, counted through all frames.
+// Words of frames of ROWS x COLUMNS regions come row by row, with gaps and resets. For each of them raster_blocks gives the place
+// in its block, the block, the region, and the row of regions, counted through all frames.
 module properties #(
     parameter LANES = 1, parameter SIDE = 4, parameter BLOCKS = 2, parameter COLUMNS = 3, parameter ROWS = 2,
     parameter REGION_BITS = $clog2(COLUMNS * ROWS)
@@ -9,9 +9,9 @@ module properties #(
 );
     `include "reset.vh"
     localparam SEGMENT = SIDE / LANES, ROW_WORDS = COLUMNS * SEGMENT, BLOCK = SIDE / BLOCKS, WORDS = BLOCK / LANES;
-    reg [3:0] word = 0;   // in its row
-    reg [3:0] row = 0;    // in the frame
-    reg [1:0] count = 0;  // rows of regions
+    reg [3:0] word = 0;   // number of the word in its row
+    reg [3:0] row = 0;    // number of the row in the frame
+    reg [1:0] count = 0;  // number of rows of regions so far
     wire row_end = word == ROW_WORDS - 1;
     wire frame_end = row_end && row == ROWS * SIDE - 1;
     wire start, ends, upper, lower, over;

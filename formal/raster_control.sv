@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The advances of a frame, counted as docs/raster.md counts them: which of them takes a word, when the core is ready, and
-// the flags that travel with each. With gaps of any length, frames without end, and a busy core for any time between them.
+// The advances of a frame by docs/raster.md: which of them takes a word, when the core is ready, and the flags of each. Gaps of
+// any length, frames without end, and a core that is busy for any time between frames.
 module properties #(
     parameter WINDOWS = 2, parameter ISOLATED = 0, parameter TAKEN_WORDS = 3, parameter TAKEN_ROWS = 3
 ) (
@@ -22,11 +22,11 @@ module properties #(
         .region_bottom_o(region_bottom), .frame_over_o(over)
     );
 
-    // The number of the next advance, and after the last one how many clocks have passed.
+    // The number of the next advance; after the last one, the number of clocks since then.
     reg [4:0] advance = 5'd0;
     reg settles = 1'b0;
     reg [2:0] settled;
-    wire is_word, is_tail;  // it brings a word of the frame, one to the tail
+    wire is_word, is_tail;  // the advance brings a word of the frame; the advance brings a word to the tail
     wire [1:0] column, row, tail_column, tail_row;
     place #(.LAG(0)) here (.advance(advance), .is_word(is_word), .column(column), .row(row));
     place #(.LAG(WINDOWS * LAG)) in_tail (.advance(advance), .is_word(is_tail), .column(tail_column), .row(tail_row));
@@ -66,8 +66,8 @@ module properties #(
         end
     end
 
-    // A window has its center a row and a word before the word that enters it, and beside the center the column of the
-    // next word. A border is that of the region or of the frame.
+    // The center of a window is one row and one word before the word that enters it, and the column of the next word is beside the
+    // center. A border is that of the region or of the frame.
     genvar window;
     generate
         for (window = 0; window < WINDOWS; window = window + 1) begin : g_window
@@ -93,7 +93,7 @@ module properties #(
     endgenerate
 endmodule
 
-// The word that came so many advances before: whether it is one of the frame, and where.
+// Returns whether the word of a number of advances before is one of the frame, and its place.
 module place #(parameter LAG = 0) (
     input wire [4:0] advance, output wire is_word, output wire [1:0] column, row
 );

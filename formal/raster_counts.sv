@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Every region is counted once, when its last row is in, and its count is that of all its hits. Frames are 4 regions wide
-// and follow one another; words come with gaps of any length, and a reset at any clock.
+// Every region is counted once, after its last row, and its count has all its hits. Frames are 4 regions wide and follow one
+// another; words come with gaps of any length, and a reset at any clock.
 module properties #(
     parameter LANES = 1, parameter SIDE = 2, parameter DEEP = 0,
     parameter COUNT_BITS = $clog2(SIDE * SIDE + 1)
@@ -8,7 +8,7 @@ module properties #(
     input wire clk_i, rst_i, step, input wire [LANES-1:0] hits
 );
     `include "reset.vh"
-    localparam WORDS = SIDE / LANES;  // of a row of a region
+    localparam WORDS = SIDE / LANES;  // words of a row of a region
     reg [1:0] word = 2'd0, column = 2'd0, row = 2'd0;
     wire segment_end = word == WORDS - 1;
     wire row_end = segment_end && column == 2'd3;
@@ -31,7 +31,7 @@ module properties #(
         .region_top_i(row == 2'd0), .region_bottom_i(bottom), .done_o(done), .counts_o(count)
     );
 
-    // The region of one column, whichever.
+    // The region of an arbitrary column.
     (* anyconst *) wire [1:0] place;
     reg [COUNT_BITS-1:0] total = 0;
     reg [COUNT_BITS-1:0] now;
@@ -40,7 +40,7 @@ module properties #(
         now = row == 2'd0 && word == 2'd0 ? 0 : total;
         for (lane = 0; lane < LANES; lane = lane + 1) now = now + hits[lane];
     end
-    // What must be on the ports, and for which column.
+    // The expected ports, and the column that they belong to.
     reg [1+DEEP:0] due = 0, ours = 0;
     reg [(2+DEEP)*COUNT_BITS-1:0] counts = 0;
     always @(posedge clk_i) begin

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Table I for every region in its turn: votes, SRS, TRS, active, and the count that stands for changes where the region has
-// no reference (LAST_SENT); with SUMMARIES which of them are sent. No region is lost here. A region is judged two clocks after a reset at the earliest: it takes
-// rows of pixels.
+// Table I for every region in turn: votes, SRS, TRS, active, and the temporal count of a region without a valid reference
+// (LAST_SENT); with SUMMARIES also the summaries that are sent. No region is lost here. A region is judged two clocks after a reset
+// or later, because its pixels take longer.
 module properties #(
     parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 0, parameter DEEP = 0, parameter SUMMARIES = 0
 ) (
@@ -10,7 +10,7 @@ module properties #(
 );
     `include "reset.vh"
     localparam REGIONS = 8, PIXELS = 4;
-    localparam WIDTH = 14 + 4;  // of what is on the ports with a decision
+    localparam WIDTH = 14 + 4;  // bits of the ports of a decision
     wire decided, will_be_active, mark, decision_valid, last_region, srs, trs, active, summary, will_be_sent, will_be_shown;
     wire [2:0] region, decided_region, edges, corners, changes;
     wire [1:0] sum;
@@ -25,7 +25,7 @@ module properties #(
         .last_region_o(last_region), .srs_o(srs), .trs_o(trs), .active_o(active), .scores_o({sum, corners, edges, changes})
     );
 
-    // By the contract. Above the changed pixels are two counts and a sum of two bits.
+    // The values by the contract. Above the temporal count are two counts and a sum of two bits.
     reg [2:0] turn = 3'd0;
     wire edge_vote = scores[5:3] >= edge_min;
     wire corner_vote = scores[8:6] >= corner_min;
@@ -66,7 +66,7 @@ module properties #(
             assert({summary, srs, trs, active, region, sum, corners, edges, changes} == expected[DEEP*WIDTH+:WIDTH]);
         if (decision_valid) assert(last_region == (region == REGIONS - 1));
         else assert(!srs && !trs && !active && !summary);
-        // A clock before: what the screen shows from then on.
+        // One clock before: whether the screen shows a summary from then on.
         if (SUMMARIES && decided) assert(will_be_shown == (DEEP ? shows_due[0] : shows));
     end
 endmodule

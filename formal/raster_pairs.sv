@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The word that is asked for is the one that was stored at its place in the frame before. Words are stored in the order in
-// which they are asked for, 1 + DEEP clocks later, with gaps of any length; between two frames there are a few clocks.
+// The requested word is the one that was stored at its place in the frame before. Words are stored in the order of requests,
+// 1 + DEEP clocks later, with gaps of any length; between two frames there are a few clocks.
 module properties #(
     parameter WORDS = 7, parameter DEEP = 0
 ) (
@@ -8,7 +8,7 @@ module properties #(
 );
     `include "reset.vh"
     localparam PAUSE = 6;
-    reg [3:0] asked = 4'd0;  // the number of the word that is asked for
+    reg [3:0] asked = 4'd0;  // number of the requested word
     reg [2:0] pause = 3'd0;  // clocks until the next frame may begin
     reg frames = 1'b0;       // a frame has been stored since reset
     wire ask = step && pause == 3'd0;
@@ -25,8 +25,8 @@ module properties #(
 
     (* anyconst *) wire [3:0] place;
     always @* assume(place < WORDS);
-    reg [3:0] stored = 4'd0;  // the number of the word that is stored
-    reg last, kept;  // what was stored at the place, in this frame or the one before, and in the one before
+    reg [3:0] stored = 4'd0;  // number of the stored word
+    reg last, kept;  // the word stored at the place, in this frame or the one before; the word of the frame before
     always @(posedge clk_i) begin
         if (ask) begin
             asked <= asked == WORDS - 1 ? 4'd0 : asked + 4'd1;
@@ -49,7 +49,7 @@ module properties #(
         end
     end
 
-    // 1 + DEEP clocks after the word was asked for.
+    // 1 + DEEP clocks after the request.
     reg [DEEP:0] shown = 0;
     always @(posedge clk_i) shown <= rst_i ? 0 : {shown, ask && asked == place && frames};
     always @* if (shown[DEEP]) assert(reference == kept);

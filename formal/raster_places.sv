@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// raster_start gives the places of regions in their order, in the buffer and in the frame, and raster_walk those of the words
-// of a region, row by row, or with BLOCKS the means of its blocks. A walk begins at any clock, and ends with the last word at the latest.
+// raster_start gives the places of regions in order, in the buffer and in the frame, and raster_walk those of the words of a
+// region, row by row, or with BLOCKS the means of its blocks. A walk begins at any clock, and ends with the last word or earlier.
 module properties #(
     parameter LANES = 1, parameter SIDE = 2, parameter COLUMNS = 4, parameter ROWS = 3, parameter BANKS = 2,
     parameter SEGMENT = SIDE / LANES, parameter ROW_WORDS = COLUMNS * SEGMENT,
@@ -32,9 +32,9 @@ module properties #(
         .first_o(first), .segment_end_o(segment_end), .last_o(last)
     );
 
-    // The region: its column, its row in the frame, in the buffer, and of all rows, modulo 8.
+    // The region: its column, its row in the frame and in the buffer, and its row counted through all frames, modulo 8.
     reg [2:0] column = 0, row = 0, bank = 0, count = 0;
-    // The word of the region, and where the walk began.
+    // The word of the region, and the place where the walk began.
     reg walks = 1'b0;
     reg [4:0] number = 0;
     reg [START_BITS-1:0] origin = 0;

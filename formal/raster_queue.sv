@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What docs/raster.md says under "Holding" of when a region can be held: of all entries the order of events is followed; one
-// of them, any, is watched from the edge at which it enters to the one at which it is taken.
+// The times at which a region can be held, by "Holding" in docs/raster.md. The order of events of all entries is followed, and an
+// arbitrary entry is watched from the edge at which it enters to the edge at which it is taken.
 module properties #(
     parameter DEEP = 0
 ) (
@@ -9,7 +9,7 @@ module properties #(
     `include "reset.vh"
     localparam BITS = 2;
     (* anyconst *) wire [1:0] entry;
-    reg watched = 1'b0;          // it waits
+    reg watched = 1'b0;          // the watched entry waits
     wire begins = enter && pick && !watched;
     wire valid, waits;
     wire [1:0] oldest;
@@ -19,10 +19,10 @@ module properties #(
         .valid_o(valid), .oldest_o(oldest), .waits_o(waits)
     );
 
-    reg [BITS:0] waiting = 0;    // entries in the queue
-    reg [BITS:0] ahead;          // of them before the one that is watched
-    reg [1:0] entered = 2'd0;    // whether one entered so many edges ago
-    reg recent = 1'b0;           // one was taken at the edge before
+    reg [BITS:0] waiting = 0;    // number of entries in the queue
+    reg [BITS:0] ahead;          // number of entries in front of the watched one
+    reg [1:0] entered = 2'd0;    // one bit per edge before: an entry entered then
+    reg recent = 1'b0;           // an entry was taken at the edge before
     wire [BITS:0] fresh = entered[0] + (DEEP ? entered[1] : 1'b0);
     always @(posedge clk_i) begin
         waiting <= waiting + enter - take;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What docs/raster.md says under "Holding", "Steps" and "Lost regions", edge by edge, for every stall of the sink. Of all
-// regions the order of events is followed; one of them, any, is watched from the queue to the port: it is held in its
-// turn, its words leave once and in order, and it is lost exactly if it is stale. Of all regions, each word is the first
-// exactly if the word before was the last of its own.
+// The rules of docs/raster.md under "Holding", "Steps" and "Lost regions", edge by edge, for every stall of the sink. The order of
+// events of all regions is followed. An arbitrary region is watched from the queue to the port: it is held in its turn, its words
+// leave once and in order, and it is lost exactly if it is stale. For all regions, a word is a first one exactly if the word before it
+// was the last of its region.
 module properties #(
     parameter LANES = 1, parameter SIDE = 2, parameter BANKS = 2, parameter DEEP = 0
 ) (
@@ -15,7 +15,7 @@ module properties #(
     localparam [4:0] LAST = SIDE * SIDE / LANES - 1;  // number of the last word of a region
     localparam WAIT = DEEP ? 3 : 2;                   // edges from the queue to the hold
 
-    // The region that is watched, and how many rows of regions further down the word is that is stored.
+    // The watched region, and by how many rows of regions the stored word is further down.
     (* anyconst *) wire [2:0] row;
     (* anyconst *) wire [1:0] region;
     (* anyconst *) wire [3:0] start;
@@ -47,22 +47,22 @@ module properties #(
         .first_o(first), .segment_end_o(segment_end), .idle_o(idle)
     );
 
-    // By docs/raster.md; which of the other regions are stale, the outputs say.
-    reg [2:0] waiting = 3'd0;      // regions in the queue
-    reg [2:0] ahead;               // of them before the one that is watched
-    reg [1:0] entered = 2'd0;      // whether one entered so many edges ago
+    // The state by docs/raster.md. The outputs say which of the other regions are stale.
+    reg [2:0] waiting = 3'd0;      // number of regions in the queue
+    reg [2:0] ahead;               // number of regions in front of the watched one
+    reg [1:0] entered = 2'd0;      // one bit per edge before: a region entered then
     wire [2:0] recent = entered[0] + (DEEP ? entered[1] : 1'b0);
     reg [1:0] since = 2'd2;        // edges since the readout last started to hold a region, up to 2
     reg held = 1'b0;
-    reg [4:0] word;                // number of the word of that region that is fetched next
+    reg [4:0] word;                // number of the word of the held region that is fetched next
     wire last = fetch && word == LAST;
     wire held_lost = held && lost && !fetch;
     wire begins = (!held || last) && waiting > recent && since == 2'd2;
-    // A word that was fetched at the step before, and the one on the port: whether it is of the watched region, its number.
+    // The word fetched at the step before, and the word on the port: whether it is of the watched region, and its number.
     reg fetched = 1'b0, fetched_ours, port = 1'b0, port_ours;
     reg [4:0] fetched_word, port_word;
     reg fetched_frame, port_frame;
-    // The watched region was lost at the edge before; it was lost in the middle, and of its words this was fetched last.
+    // The watched region was lost at the edge before; it was lost in the middle, after this word was fetched as its last.
     reg lost_ours = 1'b0, ended = 1'b0;
     reg [4:0] end_word;
     reg open = 1'b0;               // the word that was taken last is not the last of its region
@@ -114,7 +114,7 @@ module properties #(
     end
 
     always @* begin
-        // The queue holds all regions of the buffer; rows of regions pass more slowly than stale ones leave the queue.
+        // The queue has room for all regions of the buffer; rows of regions pass more slowly than stale regions leave the queue.
         assume(!(enter && waiting == QUEUE_WORDS - 1));
         if (watched) assume(at_first <= BANKS);
         if (state == WAITS || state == HELD) assume(distance <= 7);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The mean of every sum that can occur is floor((2^f * sum + floor(n / 2)) / n): with the reciprocal and
-// the widths of a generated design, mean * n <= dividend < (mean + 1) * n.
+// The mean of every sum that can occur is floor((2^f * sum + floor(n / 2)) / n): with the reciprocal and the widths of a
+// generated design, mean * n <= dividend < (mean + 1) * n.
 module properties (input wire clk_i, rst_i, done, input wire [`U_MEAN_SUM_BITS-1:0] sum);
     `include "reset.vh"
     localparam [63:0] MAX = (64'd1 << `P) - 64'd1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Sums of pixels and of squares, with the widths of a generated design, never overflow.
+// Sums of pixels and of squares with the widths of a generated design never overflow.
 module sum_properties #(parameter [63:0] MAX = 1, parameter WIDTH = 1, parameter SUM_BITS = 1) (
     input wire clk_i, rst_i, step, input wire [WIDTH-1:0] value
 );

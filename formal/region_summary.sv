@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Summaries by the contract, with the parameters of a generated design: when they are sent, which mean leaves where, and
-// that the screen is right where none is sent.
+// Summaries by the contract, with the parameters of a generated design: when they are sent, which mean leaves at which place,
+// and that the screen is right if no summary is sent.
 module properties (
     input wire clk_i, rst_i, step, srs, trs,
     input wire [`P-1:0] pixel, level
@@ -28,7 +28,7 @@ module properties (
     localparam DEEP = 0;
 `endif
 
-    // The stream of pixels, and with DEEP the same a clock later, when they are counted.
+    // The stream of pixels; with DEEP, one clock later, when they are counted.
     wire last, in_done;
     wire [15:0] in_place, in_seen;
     frames #(.PIXELS(PIXELS)) u_read (
@@ -71,7 +71,7 @@ module properties (
         .summary_o(summary), .leaves_o(leaves), .mean_o(mean)
     );
 
-    // By the contract: the sums of all blocks, and from these, in the clock in which a frame is done, its means.
+    // The values by the contract: the sums of all blocks, and in the clock in which a frame is done, its means.
     wire [15:0] column = place % `N, row = place / `N;
     wire [15:0] block = row / SIDE * BLOCKS + column / SIDE;
     wire is_first = column % SIDE == 0 && row % SIDE == 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// One region, any of all, is followed through its rotations: its temporal count, its features in order. The
-// flags that travel with the ring come back as they left. What is decided must be Table I of its scores.
+// An arbitrary region is followed through its rotations: its temporal count, then its features in order. The flags that move with
+// the ring return as they left. The decision must be that of Table I for its scores.
 module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SENT = 0, parameter BLANKS = 1, parameter SUMMARIES = 0) (
     input wire clk_i, rst_i, frame, rotate, summary,
     input wire [1:0] index, input wire [2:0] region,
@@ -16,10 +16,10 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
         assume(watched < REGIONS);
         assume(region < SLOTS);
         assume(index <= FEATURES);
-        assume(word <= PIXELS);  // proven of what a lane counts
+        assume(word <= PIXELS);  // proven of the count of a lane
     end
     wire here = rotate && region == watched;
-    reg [1:0] expected;  // rotation that comes next for the region
+    reg [1:0] expected;  // the next rotation of the region
     reg [FLAGS-1:0] kept;
     wire [FLAGS-1:0] flags;
     wire region_valid, score_valid, decision_valid, srs, trs, active;
@@ -40,7 +40,7 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
         if (here) assume(index == expected && !decided);
         if (frame) assume(decided && !rotate);
     end
-    // By the contract.
+    // The values by the contract.
     reg referenced, voted_trs, voted_any, voted_all;
     wire [2:0] final_score = index == 0 && !referenced ? PIXELS : word;
     wire votes = final_score >= minima[3*index+:3];
@@ -71,7 +71,7 @@ module properties #(parameter FEATURES = 1, parameter ALL = 0, parameter LAST_SE
         assert(score_valid == (rotate && region < REGIONS));
         if (!decision_valid) assert(!srs && !trs && !active);
         if (region >= REGIONS && rotate && index == FEATURES) assert(!flags[0]);  // an empty slot is never active
-        if (SUMMARIES != 0 && !rotate) assert(flags == some_flags);  // what is on its way stays as it is
+        if (SUMMARIES != 0 && !rotate) assert(flags == some_flags);  // flags between lanes stay as they are
         if (here) begin
             assert(score == final_score);
             assert(decision_valid == (index == FEATURES));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What is read is what was written last at that address, before the write at the same edge, as many clocks later as
-// the memory takes.
+// A read gives the word that was written last at that address, before a write at the same edge, after as many clocks as the
+// memory takes.
 module properties #(
     parameter WORDS = 64, parameter BLOCK = 0, parameter LATE = 0, parameter ADDRESS_BITS = $clog2(WORDS)
 ) (
@@ -17,7 +17,7 @@ module properties #(
     );
     reg written = 1'b0;
     reg last;
-    // Asked for, and the answer, by clocks since.
+    // The requests and the expected words, by clocks since then.
     reg [2:1] asked = 2'b00;
     reg [2:1] answer;
     always @(posedge clk_i) begin

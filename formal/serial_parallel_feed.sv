@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A frame is FOLD * PIXELS pixels: ready until the last one is taken, then not before the frame is done. The
-// place shown is that of the pixel after the next one, and never outside a slot.
+// A frame has FOLD * PIXELS pixels: the feed is ready until the last one is taken, and then not before the frame is done. The
+// place is that of the pixel after the next one, and always inside a slot.
 module properties #(parameter PIXELS = 16, parameter FOLD = 1) (input wire clk_i, rst_i, valid, reopen);
     `include "reset.vh"
     localparam WORD_BITS = $clog2(PIXELS), SLOT_BITS = FOLD > 1 ? $clog2(FOLD) : 1;
@@ -12,7 +12,7 @@ module properties #(parameter PIXELS = 16, parameter FOLD = 1) (input wire clk_i
         .clk_i(clk_i), .rst_i(rst_i), .valid_i(valid), .reopen_i(reopen), .ready_o(ready), .open_o(open),
         .last_o(last), .slot_o(slot), .word_o(word)
     );
-    always @* if (started && ready) assume(!reopen);  // the sequencer reopens what is closed
+    always @* if (started && ready) assume(!reopen);  // the sequencer reopens only a closed feed
     reg [9:0] taken;
     reg closed;
     wire takes = valid && !closed;

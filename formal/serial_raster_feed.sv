@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Where the pixels of a raster frame go. Any place of the frame (a region, a word of its square) is watched: a write
-// there is of the pixel that the padded frame shows there, and each frame writes it once. Beside that: ready until the
-// last pixel is taken, not while a pixel still has places, and no place outside the areas.
+// The places of the pixels of a frame that enters row by row. An arbitrary place (a region, a word of its square) is watched: a write
+// there is of the pixel that the padded frame shows there, and each frame writes it once. Also: the feed is ready until the last
+// pixel is taken, not while a pixel has places left, and no place is outside the areas.
 module properties #(
     parameter SIDE = 4, parameter HALO = 0, parameter COLUMNS = 2, parameter ROWS = 2, parameter FOLD = 1
 ) (
@@ -25,17 +25,17 @@ module properties #(
         .place_o(place), .last_o(last), .lane_o(lane), .slot_o(slot), .word_o(word)
     );
     // The frame, pixel by pixel.
-    reg [5:0] x, y;  // of the next pixel, or of the one that still has places
-    reg [7:0] placed;  // places that it had before this clock
+    reg [5:0] x, y;  // place of the next pixel, or of the one that has places left
+    reg [7:0] placed;  // number of places that it had before this clock
     wire [7:0] wanted = shows(x, COLUMNS) * shows(y, ROWS);
     wire moves = placed == wanted - 1;
     reg closed;      // all pixels have all places
     wire last_pixel = x == COLUMNS * SIDE - 1 && y == ROWS * SIDE - 1;
-    always @* if (started && !closed) assume(!reopen);  // the sequencer reopens what is closed
-    // Watched: the pixel of the padded frame that belongs there.
+    always @* if (started && !closed) assume(!reopen);  // the sequencer reopens only a closed feed
+    // The pixel of the padded frame that belongs to the watched place.
     (* anyconst *) reg [5:0] column, row, across, down;
     always @* assume(column < COLUMNS && row < ROWS && across < STRIDE && down < STRIDE);
-    wire [7:0] plain_x = column * SIDE + across, plain_y = row * SIDE + down;  // HALO more than in the frame
+    wire [7:0] plain_x = column * SIDE + across, plain_y = row * SIDE + down;  // coordinates plus HALO
     wire [7:0] shown_x = plain_x < HALO ? 0 : plain_x - HALO >= COLUMNS * SIDE ? COLUMNS * SIDE - 1 : plain_x - HALO;
     wire [7:0] shown_y = plain_y < HALO ? 0 : plain_y - HALO >= ROWS * SIDE ? ROWS * SIDE - 1 : plain_y - HALO;
     wire [7:0] region = row * COLUMNS + column;
@@ -60,7 +60,7 @@ module properties #(
             end
         end
     end
-    // How many places a pixel has: c(x) * c(y) of docs/serial.md, counted over the regions and their squares.
+    // The number of places of a pixel, c(x) * c(y) of docs/serial.md, counted over the regions and their squares.
     function integer shows(input [7:0] at, input integer regions);
         integer r, w, p;
         begin

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// One region, any of all, is followed: the sums of its blocks in order, its decision, its means as they leave. What is sent
-// must be what the contract says of these.
+// An arbitrary region is followed: the sums of its blocks in order, its decision, and its means as they leave. The sent values
+// must be those of the contract.
 module properties #(
     parameter WIDTH = 1, parameter MEANS = 4, parameter AREA = 4, parameter SUM_BITS = 3, parameter FACTOR_BITS = 1,
     parameter [FACTOR_BITS-1:0] FACTOR = 1, parameter SHIFT = 2
@@ -22,10 +22,10 @@ module properties #(
     end
     wire here = region == watched;
 
-    // The sequencer: sums of all blocks, block by block; nothing for some clocks; decisions; the frame is done.
-    reg [4:0] averaged;  // blocks of the watched region that have passed
+    // The sequencer: sums of all blocks, block by block; some idle clocks; decisions; the frame is done.
+    reg [4:0] averaged;  // number of blocks of the watched region that have passed
     reg decides;         // decisions are made, and means leave
-    reg done;            // ... that of the watched region is
+    reg done;            // the watched region is decided
     reg [2:0] since;     // clocks since a sum has passed
     always @* begin
         assume(watched < SLOTS);
@@ -62,10 +62,10 @@ module properties #(
         .srs_i(decided && srs), .active_i(decided && srs && trs), .level_i(level), .summary_o(summary), .mean_o(mean)
     );
 
-    // By the contract.
+    // The values by the contract.
     reg [WIDTH*MEANS-1:0] means, shown;
     reg shows, differs;
-    localparam [SUM_BITS-1:0] DIVISOR = AREA;  // no wider than the sum, as a divider of 32 bits takes Yosys seconds
+    localparam [SUM_BITS-1:0] DIVISOR = AREA;  // no wider than the sum, because a divider of 32 bits takes Yosys seconds
     wire [WIDTH-1:0] now = sum / DIVISOR;
     wire [WIDTH*MEANS-1:0] shown_here = shown >> (WIDTH * block);
     wire [WIDTH-1:0] old = shown_here[WIDTH-1:0];
@@ -84,7 +84,7 @@ module properties #(
     always @* if (started) begin
         if (!decided) assert(!summary);
         if (decided && here) assert(summary == due);
-        // What it shows can be read whenever nothing passes.
+        // The shown mean can be read whenever no sum passes.
         if (here && shows && done) assert(mean == old);
     end
 endmodule

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A sender into a receiver, and the line between them as its definition has it. A second receiver hears any line at all.
+// A sender with a receiver, and the line between them by its definition. A second receiver gets an arbitrary line.
 module properties #(parameter DIVISOR = 4) (input wire clk_i, rst_i, valid, noise, input wire [7:0] value);
     `include "reset.vh"
     wire taken, line, received, noise_received;
@@ -8,11 +8,11 @@ module properties #(parameter DIVISOR = 4) (input wire clk_i, rst_i, valid, nois
     uart_receiver #(.DIVISOR(DIVISOR)) receiver (.clk_i(clk_i), .rst_i(rst_i), .rx_i(line), .valid_o(received), .byte_o(found));
     uart_receiver #(.DIVISOR(DIVISOR)) other (.clk_i(clk_i), .rst_i(rst_i), .rx_i(noise), .valid_o(noise_received), .byte_o(noise_found));
 
-    // What is sent: a byte for 10 bits, and the next may begin at once.
+    // The sent byte takes 10 bits, and the next one may begin at once.
     reg [7:0] sent, sent_before;
-    reg [6:0] left, left_before;  // clocks of it that are to come
+    reg [6:0] left, left_before;  // clocks left of the byte
     wire [9:0] frame = {1'b1, sent, 1'b0};
-    // After a reset the receiver wants to see the line at rest: a byte may come once it has.
+    // After a reset the receiver needs the line at rest before a byte may come.
     reg [2:0] rested;
     always @(posedge clk_i) rested <= rst_i ? 0 : rested == 7 ? 7 : rested + 1;
     always @* assume(!valid || rested == 7);
@@ -27,7 +27,7 @@ module properties #(parameter DIVISOR = 4) (input wire clk_i, rst_i, valid, nois
         if (rst_i) {left, left_before} <= 0;
     end
 
-    // The second line, as the receiver has seen it: two clocks late, and where its last bit was.
+    // The second line as the receiver sees it, two clocks late, and the place of its last bit.
     reg first, second;
     always @(posedge clk_i) {second, first} <= {first, noise};
     reg was_second;
@@ -38,10 +38,10 @@ module properties #(parameter DIVISOR = 4) (input wire clk_i, rst_i, valid, nois
         if (left == 0) assert(line);
         for (number = 0; number < 10; number = number + 1)
             if (left > number * DIVISOR && left <= (number + 1) * DIVISOR) assert(line == frame[9-number]);
-        // It is received once its stop bit has ended: two clocks late, and from the middle on.
+        // A byte is received once its stop bit has ended: two clocks late, and from the middle on.
         assert(received == (left_before == 1));
         if (received) assert(found == sent_before);
-        // Of no line a byte comes without its stop bit.
+        // No byte comes of a line without its stop bit.
         if (noise_received) assert(was_second);
     end
 endmodule

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A core and a host that do anything at all. What a command says is checked in a simulation (tb/board/registers_bench.v): here it is
-// only counted, in bytes that may have been one.
+// A core and a host with arbitrary behavior. A simulation checks the content of commands (tb/board/registers_bench.v); here only
+// bytes that may belong to a command are counted.
 module properties #(parameter BYTES = 24, GAP = 10) (
     input wire clk_i, rst_i, valid, answer_ready, awready, wready, bvalid, arready, rvalid, input wire [7:0] value, input wire [31:0] board, rdata
 );
@@ -24,7 +24,7 @@ module properties #(parameter BYTES = 24, GAP = 10) (
     always @(posedge clk_i) since <= rst_i ? GAP : valid ? 1 : since == GAP ? GAP : since + 1;
     always @* if (started) assume(!valid || since == GAP);
 
-    // The core answers what it was asked, and only that. It holds its answer.
+    // The core answers only requests, and holds its answer.
     reg addressed, worded, asked, was_b, was_r;
     reg [31:0] r_before;
     always @(posedge clk_i) begin
@@ -45,14 +45,14 @@ module properties #(parameter BYTES = 24, GAP = 10) (
         if (was_r) assume(rvalid && rdata == r_before);
     end
 
-    // Bytes of a command, at most: the next one is so far into a packet if none was wrong, and a pause begins another.
+    // An upper bound of the bytes of a command: its place in a packet if no byte was wrong. A pause begins another packet.
     reg [4:0] heard;
     reg [4:0] pause;
-    reg [4:0] told;       // bytes of an answer
+    reg [4:0] told;       // number of bytes of an answer
     wire busy = awvalid || wvalid || arvalid || addressed || worded || asked;
     always @(posedge clk_i) begin
         pause <= valid ? 0 : pause == PAUSE + 1 ? pause : pause + 1;
-        // Behind a pause it is the first of a packet.
+        // After a pause the byte is the first of a packet.
         if (valid && !answer_valid) heard <= pause > PAUSE ? 1 : heard == BYTES ? BYTES : heard + 1;
         if (answer_valid && answer_ready) begin
             told <= answer_last ? 0 : told + 1;
@@ -77,7 +77,7 @@ module properties #(parameter BYTES = 24, GAP = 10) (
         was_busy      <= !rst_i && busy;
     end
     always @* if (started) begin
-        // What is offered stays.
+        // Offered values stay until they are taken.
         if (was_aw) assert(awvalid && awaddr == aw_before);
         if (was_w) assert(wvalid && wdata == w_before);
         if (was_ar) assert(arvalid && araddr == ar_before);
@@ -92,7 +92,7 @@ module properties #(parameter BYTES = 24, GAP = 10) (
         if (wvalid || worded) assert(awvalid || addressed);
         if (bvalid) assert(bready);
         if (rvalid) assert(rready);
-        // It begins only behind BYTES bytes without a pause, and no answer is told before it has ended.
+        // A transfer begins only after BYTES bytes without a pause, and no answer is sent before it has ended.
         if (busy && !was_busy) assert(heard == BYTES);
         if (answer_valid) assert(!busy);
         if (answer_valid) assert(answer_last == (told == BYTES - 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// n * (sum of squares) - (sum)^2, without overflow, for all sums that pixels can have: x^2 <= max * x for
-// each of them, and (sum)^2 <= n * (sum of squares).
+// n * (sum of squares) - sum^2 without overflow, for all sums that pixels can have: x^2 <= max * x for each pixel, and
+// sum^2 <= n * (sum of squares).
 module properties (
     input wire clk_i, rst_i, done,
     input wire [`U_VARIANCE_SUM_BITS-1:0] sum, input wire [`U_VARIANCE_SQUARE_SUM_BITS-1:0] squares

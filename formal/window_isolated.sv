@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The window of docs/timing.md, told with pixels taken and centers owed: when it advances, which center
-// steps, which clamps apply. `taken` are pixels of the frame that enters; `owed` are centers of the
-// frame before.
+// The window of docs/timing.md, described with pixels taken and centers owed: when it advances, which center steps, and which
+// borders apply. `taken` is the number of pixels of the frame that enters; `owed` is the number of centers of the frame before
+// that have not stepped.
 module properties #(parameter SIDE = 8, parameter ADDRESS_BITS = $clog2(SIDE * SIDE)) (
     input wire clk_i, rst_i, valid
 );
@@ -28,7 +28,7 @@ module properties #(parameter SIDE = 8, parameter ADDRESS_BITS = $clog2(SIDE * S
             else if (gives_old) owed <= owed - 1;
         end
     end
-    // The incoming column is that of pixel middle, which is the right neighbor of the center.
+    // The incoming column is that of pixel `middle`, which is the right neighbor of the center.
     wire [ADDRESS_BITS:0] middle = center + 1;
     always @* if (started) begin
         assert(taken < PIXELS);
@@ -39,7 +39,7 @@ module properties #(parameter SIDE = 8, parameter ADDRESS_BITS = $clog2(SIDE * S
         if (step) begin
             assert(center < PIXELS);
             assert(last == (center == PIXELS - 1));
-            assert(address == (last ? 0 : middle));  // each number once, none outside the region
+            assert(address == (last ? 0 : middle));  // each number once, none outside of the region
             assert(right == (center % SIDE == SIDE - 1));
             if (!last) begin
                 assert(left == (middle % SIDE == 0));
@@ -49,7 +49,7 @@ module properties #(parameter SIDE = 8, parameter ADDRESS_BITS = $clog2(SIDE * S
         end
         // The column of the first pixel comes with pixel SIDE.
         if (advance && !step && taken == SIDE) assert(left && top && !bottom);
-        // So does that of a frame that enters while the last center of the one before leaves.
+        // The column of a frame that enters while the last center of the frame before leaves comes then, too.
         if (step && last && taken == SIDE) assert(left && top && !bottom);
         assert(address < PIXELS);
     end

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What the other clock looks at changes by one bit at an edge of its own.
+// A counter that the other clock samples changes by at most one bit at an edge of its own clock.
 reg [DEPTH_BITS:0] f_write_before, f_read_before;
 initial {f_write_before, f_read_before} = 0;
 always @(posedge write_clk_i) f_write_before <= write_gray_q;

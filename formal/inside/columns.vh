@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The pixels of a window as they came in, kept beside a detector: with the incoming column on its right,
-// newest is the center and `before` its left neighbor.
+// The pixels of a window as they came in, kept next to a detector. With the incoming column on the right, `newest` is the center
+// and `before` its left neighbor.
 localparam F_COLUMN = 3 * WIDTH;
 wire [F_COLUMN-1:0] f_incoming = {lower_i, middle_i, upper_i};
 reg [F_COLUMN-1:0] f_newest, f_before, f_oldest;
-reg f_newest_first, f_before_first;  // of their rows
+reg f_newest_first, f_before_first;  // the column is the first of its row
 reg f_clamp;                         // right_i at the last advance
-reg [1:0] f_columns = 2'd0;          // how many came, up to 3
+reg [1:0] f_columns = 2'd0;          // number of columns that came, up to 3
 always @(posedge clk_i) if (advance_i) begin
     f_newest       <= f_incoming;
     f_before       <= f_newest;

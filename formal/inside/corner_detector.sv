@@ -4,16 +4,16 @@
 wire [F_COLUMN-1:0] f_left = f_newest_first ? f_newest : f_before;
 wire [F_COLUMN-1:0] f_right = right_i ? f_newest : f_incoming;
 wire f_left_known = f_columns >= 2'd2 || (f_columns == 2'd1 && f_newest_first);
-// Once around the center: left column upwards, then right along the top, down, and back. The registers are
-// those columns, which is asserted below.
+// The ring around the center: the left column upwards, then right along the top, down, and back. The registers are these columns,
+// which is asserted below.
 wire [8*WIDTH-1:0] f_ring = {
     center_q[2*WIDTH+:WIDTH], right[2*WIDTH+:WIDTH], right[WIDTH+:WIDTH], right[0+:WIDTH],
     center_q[0+:WIDTH], left_q[0+:WIDTH], left_q[WIDTH+:WIDTH], left_q[2*WIDTH+:WIDTH]
 };
 wire [WIDTH:0] f_center = {1'b0, center_q[WIDTH+:WIDTH]};
 wire [WIDTH:0] f_level = {1'b0, level_i};
-// In two steps, each of which the solver decides at once: what is compared, neighbor by neighbor, and the runs of that.
-// The ring of the module begins two neighbors later.
+// The proof has two steps, each of which the solver decides at once: the comparisons, neighbor by neighbor, and the runs of their
+// results. The ring of the module begins two neighbors later.
 wire [7:0] f_brighter = {brighter[5:0], brighter[7:6]};
 wire [7:0] f_darker = {darker[5:0], darker[7:6]};
 reg f_corner, f_all_brighter, f_all_darker;

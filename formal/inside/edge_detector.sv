@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The registers hold what left and center contribute to half of Gx + Gy and Gy - Gx, and the hit says that one
-// of these is above floor(level / 2). edge_rule shows that this is |Gx| + |Gy| > level.
+// The registers hold the terms of the left and the center column of half of Gx + Gy and Gy - Gx, and a hit says that one of these
+// is above floor(level / 2). edge_rule proves that this is |Gx| + |Gy| > level.
 `include "columns.vh"
 wire [F_COLUMN-1:0] f_left = f_newest_first ? f_newest : f_before;
 wire f_left_known = f_columns >= 2'd2 || (f_columns == 2'd1 && f_newest_first);
@@ -9,7 +9,7 @@ wire [WIDTH:0] f_lower_pair = f_newest[2*WIDTH+:WIDTH] + f_newest[WIDTH+:WIDTH];
 wire [WIDTH:0] f_left_upper_pair = f_left[0+:WIDTH] + f_left[WIDTH+:WIDTH];
 wire [WIDTH:0] f_left_lower_pair = f_left[2*WIDTH+:WIDTH] + f_left[WIDTH+:WIDTH];
 wire [SUM_BITS-1:0] f_slope = {2'b0, f_lower_pair} - {2'b0, f_upper_pair};
-// The right column, or the center's where the row ends.
+// The right column, or the center's column at the end of a row.
 wire [WIDTH:0] f_right_upper_pair = right_i ? upper_pair_q : upper_i + middle_i;
 wire [WIDTH:0] f_right_lower_pair = right_i ? lower_pair_q : lower_i + middle_i;
 wire signed [SUM_BITS:0] f_half_sum = $signed(sum_q) + $signed({3'b0, f_right_lower_pair});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The result is the fifth of the nine sorted pixels: for every threshold, it reaches it if and only if at least
-// five of the nine do. It is valid two clocks after the step.
+// The result is the fifth of the nine sorted pixels: for every threshold, it reaches the threshold if and only if at least five of the
+// nine pixels do. It is valid two clocks after the step.
 `include "columns.vh"
 wire [F_COLUMN-1:0] f_left = f_before_first ? f_before : f_oldest;
 wire [F_COLUMN-1:0] f_right = f_clamp ? f_before : f_newest;
@@ -14,11 +14,11 @@ always @(posedge clk_i) begin
     f_steps <= rst_i ? 2'b00 : {f_steps[0], step_i};
 end
 (* anyconst *) wire [WIDTH-1:0] f_threshold;
-// Which of the pixels of a column reach the threshold.
+// The pixels of a column that reach the threshold.
 function [2:0] f_reach(input [F_COLUMN-1:0] column);
     f_reach = {column[2*WIDTH+:WIDTH] >= f_threshold, column[WIDTH+:WIDTH] >= f_threshold, column[0+:WIDTH] >= f_threshold};
 endfunction
-// A column is sorted: its lowest reaches what all reach, its middle what two reach, its highest what any reaches.
+// A sorted column: its lowest pixel reaches the threshold if all do, its middle one if two do, its highest one if any does.
 function f_sorted(input [F_COLUMN-1:0] column, input [WIDTH-1:0] low, input [WIDTH-1:0] mid, input [WIDTH-1:0] high);
     reg [2:0] r;
     begin

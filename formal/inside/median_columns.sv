@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The result is the fifth of the nine sorted pixels: for every threshold, it reaches it if and only if at least five of
-// the nine do.
+// The result is the fifth of the nine sorted pixels: for every threshold, it reaches the threshold if and only if at least five of
+// the nine pixels do.
 localparam F_LATE = DEEP;
 `include "words.vh"
 (* anyconst *) wire [WIDTH-1:0] f_threshold;
-// Which of the pixels of a column reach the threshold.
+// The pixels of a column that reach the threshold.
 function [2:0] f_reach(input [F_COLUMN-1:0] column);
     f_reach = {column[2*WIDTH+:WIDTH] >= f_threshold, column[WIDTH+:WIDTH] >= f_threshold, column[0+:WIDTH] >= f_threshold};
 endfunction
-// A column {high, mid, low} is that one, sorted.
+// Tests that {high, mid, low} is the sorted column.
 function f_sorted(input [F_COLUMN-1:0] sorted, input [F_COLUMN-1:0] column);
     reg [2:0] r, s;
     begin
@@ -24,7 +24,7 @@ function [3:0] f_count(input [3*F_COLUMN-1:0] window);
         f_count = r[0] + r[1] + r[2] + r[3] + r[4] + r[5] + r[6] + r[7] + r[8];
     end
 endfunction
-// The words that the registers hold, sorted at one edge with f_newest.
+// The words in the registers, which are sorted at one edge with f_newest.
 generate
     for (f_lane = 0; f_lane < LANES; f_lane = f_lane + 1) begin : g_f_held
         always @* begin

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The sum that the page wants, of the packets whose last word has passed, and three clocks later that on the port.
+// The sum by the page of the packets whose last word has passed, which is on the port three clocks later.
 reg f_started = 1'b0;  // the first clock is a reset
 reg f_inside;
 reg [3:0] f_kind;
@@ -26,7 +26,7 @@ always @* if (!f_inside) assume(!last_i);
 always @* if (f_started) begin
     assert(sum_o == f_sum_2 && frames_o == f_number_2);
     assert(done_o == f_end_3);
-    // What an induction has to know.
+    // An invariant that the induction needs.
     assert(inside_q == f_inside);
     if (f_inside || tail_q) assert(end_q == (f_kind == 4'd5) && counts_q == (f_kind == 4'd2 || f_kind == 4'd4 || f_kind == 4'd5));
     assert(add_q == f_counts_2 && add_end_q == f_end_2);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Put into packet_writer: which part of its word is where on the way, and that the sum so far is that of the parts that have gone in.
+// Properties inside of packet_writer: the place of each part of a word in the pipeline, and the sum of the parts that have gone in.
 `include "reset.vh"
 localparam [IN_WORD_BITS-1:0] FIRST = 0;
-reg [IN_WORD_BITS-1:0] read_at, at, next_at;  // what was read, what was chosen; what comes into the word next
+reg [IN_WORD_BITS-1:0] read_at, at, next_at;  // the part that was read; the part that was selected; the part that comes into the word next
 reg read_tail, tail_part;
 reg [31:0] before;                            // the sum of the words of the packet that have left
 wire [31:0] sums[0:PARTS];
-wire [IN_WORD_BITS-1:0] parts = next_at;      // parts of a word that is not complete
+wire [IN_WORD_BITS-1:0] parts = next_at;      // number of parts of the incomplete word
 wire [63:0] so_far = data_valid_q ? data_q : data_q >> (PARTS - parts) * BITS;
 assign sums[0] = before;
 genvar step_at;
@@ -30,7 +30,7 @@ always @(posedge clk_i) begin
     end
 end
 
-// The last word whose parts come in, or has come, is the tail.
+// The last word whose parts come in or have come is the tail.
 wire in_tail = valid_q ? tail_part : read_valid_q ? read_tail : phase_q == TAIL;
 wire [IN_WORD_BITS-1:0] due = next_at;
 always @* if (started) begin
@@ -51,7 +51,7 @@ always @* if (started) begin
         assert(due + valid_q + read_valid_q == FIRST);
     end
     if (read_valid_q && !valid_q) assert(read_at == 0 && !read_tail);
-    // A word on the port is complete, and with its last part the next one has not begun.
+    // A word on the port is complete, and the next word has not begun with its last part.
     if (data_valid_q) assert(next_at == 0);
     // The sum so far.
     if (data_valid_q) begin

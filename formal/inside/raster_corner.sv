@@ -5,7 +5,7 @@ localparam F_LATE = 0;
 (* anyconst *) wire [WIDTH-1:0] f_level;
 always @* assume(level_i == f_level);
 function f_corner(input [3*F_COLUMN-1:0] window);
-    reg [8*WIDTH-1:0] ring;  // once around the center: up on the left, along the top, down, and back
+    reg [8*WIDTH-1:0] ring;  // the ring around the center: up on the left, along the top, down, and back
     reg [WIDTH:0] neighbor, center;
     reg all_brighter, all_darker;
     integer first, k;

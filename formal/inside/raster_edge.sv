@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A half of Gx + Gy or of Gx - Gy is above floor(level / 2), for every window, border and level. edge_rule shows that this
-// is |Gx| + |Gy| > level.
+// Half of Gx + Gy or of Gx - Gy is above floor(level / 2), for every window, border and level. edge_rule proves that this is
+// |Gx| + |Gy| > level.
 localparam F_LATE = 0;
 `include "words.vh"
 (* anyconst *) wire [LEVEL_BITS-1:0] f_level;
@@ -23,7 +23,7 @@ function f_hit(input [3*F_COLUMN-1:0] window);
     end
 endfunction
 
-// The second edge, one clock later: what the pairs are made of.
+// The second edge, one clock later: the pixels of the pairs.
 reg [LANES*F_COLUMN-1:0] f_center_2, f_newest_2;
 reg f_no_left_2, f_no_right_2;
 reg [1:0] f_words_2 = 2'd0;

@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// One active region, any of any frame, is followed from its decision to the port: its words leave once, in order, and are
-// those that were stored of this frame, from a first to a last, with the number of its frame; or it is lost, because the
-// first word of a later row of regions took the place of one of the buffer, and then its number comes and what left of it
-// ends with abort. Words come at every clock from one reset on, and a decision as many clocks after the last word of its
-// region as the core needs (frames of one row of regions have a gap between them); the sink takes and refuses as it likes.
+// An arbitrary active region of an arbitrary frame is followed from its decision to the port: its words leave once, in order, and are
+// those that were stored of this frame, from a first to a last, with the number of its frame. Or it is lost, because the first word of
+// a later row of regions replaced one in the buffer; then its number comes, and the part of it that left ends with abort. Words come
+// at every clock after one reset, and a decision as many clocks after the last word of its region as the core needs (frames of one row
+// of regions have a gap between them); the sink stalls at random.
 `include "reset.vh"
 localparam F_N = SIDE * SEGMENT;                 // words of a region
 localparam F_ROW = SIDE * ROW_WORDS;             // words of a row of regions
 localparam F_DECIDED = (DEEP ? 6 : 4) + 1;       // clocks from a region's last word to its decision
 
-// ---- What comes: words in their order, and decisions
+// ---- The input: words in order, and decisions
 reg [5:0] f_arriving = 6'd0;                     // number in its row of regions of the word that arrives next
-reg [5:0] f_stored = 6'd0;                       // ... of the one that is stored next
+reg [5:0] f_stored = 6'd0;                       // number in its row of regions of the word that is stored next
 reg f_store = 1'b0;
-reg [3:0] f_pause = 4'd0;                        // clocks of the gap that are left
+reg [3:0] f_pause = 4'd0;                        // clocks left of the gap
 reg [START_BITS-1:0] f_place = 0;
 reg [F_DECIDED:0] f_done = 0;
-reg [REGION_BITS-1:0] f_region = 0;              // the region that is decided next
-reg [REGION_BITS-1:0] f_first = 0;               // the first region of the row of regions that is stored
+reg [REGION_BITS-1:0] f_region = 0;              // number of the region that is decided next
+reg [REGION_BITS-1:0] f_first = 0;               // number of the first region of the row of regions that is stored
 wire [5:0] f_column = f_stored % ROW_WORDS;
 wire f_last_word = store_i && f_stored >= (SIDE - 1) * ROW_WORDS && f_column % SEGMENT == SEGMENT - 1;
 always @* begin
@@ -55,24 +55,24 @@ always @(posedge clk_i) begin
     end
 end
 
-// ---- The region and the word of it that are watched
+// ---- The watched region and its watched word
 (* anyconst *) wire [REGION_BITS-1:0] f_ours;
 (* anyconst *) wire [3:0] f_word;
 (* anyseq *) wire f_pick;
 always @* assume(f_ours < COLUMNS * ROWS && f_word < F_N);
 reg f_latest;   // the word as it was stored last
-reg f_kept;     // ... of the frame that is watched
+reg f_kept;     // the word as it was stored in the watched frame
 wire [5:0] f_at = f_word / SEGMENT * ROW_WORDS + (f_ours % COLUMNS) * SEGMENT + f_word % SEGMENT;
 reg [1:0] f_state = 2'd0;
 localparam F_NONE = 2'd0, F_WAITS = 2'd1, F_HELD = 2'd2, F_OVER = 2'd3;
-wire f_enters = active_i || BLOCKS > 0 && summary_i;  // as many means as words leave of a region, if any do
-reg f_means;                                     // means of the region that is watched leave
+wire f_enters = active_i || BLOCKS > 0 && summary_i;  // the region sends pixels or means, which are equally many words
+reg f_means;                                     // the watched region sends means
 wire f_watched = f_enters && f_pick && f_state == F_NONE && region_i == f_ours;
-reg [2:0] f_rows;      // rows of regions of which words are stored, from that of the region on
+reg [2:0] f_rows;      // number of rows of regions of which words are stored, from that of the watched region on
 wire f_next_row = store_i && f_stored == 6'd0;
 wire f_stale = f_rows + f_next_row > BANKS;
-// Of the region that is decided they are one or two: words of the next row may have come.
-reg [2:0] f_stored_rows = 3'd0, f_decided_rows = 3'd0;  // rows of regions that have begun, and that are decided
+// For the decided region it is one or two, because words of the next row may have come.
+reg [2:0] f_stored_rows = 3'd0, f_decided_rows = 3'd0;  // number of rows of regions that have begun; number of those that are decided
 wire [2:0] f_count = f_stored_rows - f_decided_rows;
 always @(posedge clk_i) begin
     f_stored_rows <= f_stored_rows + f_next_row;
@@ -97,7 +97,7 @@ wire f_held_lost = f_held && lost && !fetch;
 wire f_begins = (!f_held || f_last) && f_waiting > f_recent && f_since == 2'd2;
 reg f_fetched = 1'b0, f_fetched_ours, f_port = 1'b0, f_port_ours;
 reg [3:0] f_fetched_word, f_port_word;
-reg [FRAME_BITS-1:0] f_frame = 0, f_our_frame;  // number of the frame that is decided, and of ours
+reg [FRAME_BITS-1:0] f_frame = 0, f_our_frame;  // number of the decided frame; number of the watched frame
 reg f_lost_ours = 1'b0, f_ended = 1'b0;         // lost at the edge before; lost in the middle, after this word
 reg [3:0] f_end_word;
 always @(posedge clk_i) begin
@@ -156,7 +156,7 @@ always @* if (started && !rst_i) begin
     if (valid_o && f_port_ours) begin
         assert(region_o == f_ours);
         assert(position_o == f_port_word * LANES);
-        // In frames of one row the word of the next frame may be stored before the decision, and f_latest is that.
+        // In frames of one row the word of the next frame may be stored before the decision, and f_latest is that word.
         if (ROWS > 1 && f_port_word == f_word && !f_means) assert(pixel_o[0] == f_kept);
         if (BLOCKS > 0) assert(summary_o == f_means);
         assert(first_o == (f_port_word == 4'd0));
@@ -167,7 +167,7 @@ always @* if (started && !rst_i) begin
     if (f_lost_ours) assert(lost_valid_o && lost_region_o == f_ours && lost_frame_o == f_our_frame);
 end
 
-// ---- References of `last-sent`: every word of an active region becomes one, where it is in the frame, and no mean does
+// ---- References of `last-sent`: every word of an active region becomes one, at its place in the frame, and no mean does
 reg f_wrote = 1'b0, f_wrote_ours;                // a word was fetched at the edge before
 reg [3:0] f_wrote_word;
 wire [PLACE_BITS-1:0] f_frame_place = f_ours / COLUMNS * F_ROW + (f_ours % COLUMNS) * SEGMENT

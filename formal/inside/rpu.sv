@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A whole unit of an isolated design, beside the contract: frames as they were taken wait in a queue until they
-// are decided, and then every score, the decision and the pixels that leave must be those of the contract.
+// A whole unit of an isolated design is compared with the contract: frames wait in a queue from their last pixel until they are
+// decided, and then every score, the decision and the pixels that leave must be those of the contract.
 `include "reset.vh"
 localparam F_N = `N;
 localparam F_P = `P;
@@ -8,7 +8,7 @@ localparam F_PIXELS = F_N * F_N;
 localparam F_FRAME = F_PIXELS * F_P;
 localparam [31:0] F_MAX = (1 << F_P) - 1;
 
-// Thresholds stay still.
+// Thresholds are constant.
 reg [63:0] f_thresholds;
 wire [63:0] f_thresholds_now = {
 `ifdef HAS_EDGE_LEVEL_I
@@ -28,11 +28,11 @@ wire [63:0] f_thresholds_now = {
 always @(posedge clk_i) f_thresholds <= f_thresholds_now;
 always @* if (started) assume(f_thresholds == f_thresholds_now);
 
-// Frames taken and not decided; entry 0 is the oldest.
+// Frames that were taken and are not decided; entry 0 is the oldest.
 reg [F_FRAME-1:0] f_taking, f_queue0, f_queue1, f_queue2, f_queue3;
 reg [7:0] f_place;
 reg [2:0] f_waiting;
-reg [1:0] f_decided;  // since reset, up to 2
+reg [1:0] f_decided;  // number of decisions since reset, up to 2
 wire [F_FRAME-1:0] f_taken = (f_taking & ~({{(F_FRAME-F_P){1'b0}}, {F_P{1'b1}}} << (f_place * F_P)))
     | ({{(F_FRAME-F_P){1'b0}}, pixel_i} << (f_place * F_P));
 wire f_whole = valid_i && f_place == F_PIXELS - 1;
@@ -62,7 +62,7 @@ always @(posedge clk_i) begin
     end
 end
 
-// The frame that is decided, by the contract.
+// The decided frame, by the contract.
 function [F_P-1:0] f_at(input [F_FRAME-1:0] frame, input integer row, input integer column);
     integer y, x;
     begin
@@ -216,10 +216,10 @@ always @(posedge clk_i) begin
     end
 end
 
-// What leaves: the pixels of the active frame decided last, in order.
+// The output: the pixels of the active frame decided last, in order.
 reg [F_FRAME-1:0] f_leaving;
 reg f_active;
-reg [7:0] f_left;  // pixels gone of the frame decided last
+reg [7:0] f_left;  // number of pixels of the frame decided last that have left
 wire f_active_now = decision_valid_o ? f_srs && f_trs : f_active;
 always @(posedge clk_i) begin
     if (rst_i) begin
@@ -238,7 +238,7 @@ always @(posedge clk_i) begin
     f_leaving_pixel <= decision_valid_o ? f_at(f_frame, 0, 0) : f_leaving[f_left*F_P+:F_P];
 end
 
-reg [7:0] f_steps;  // tail steps of the frame
+reg [7:0] f_steps;  // number of tail steps of the frame
 `ifdef PIPELINING_DEEP
 wire f_tail_step = count_step;
 `else
@@ -251,7 +251,7 @@ end
 reg f_second_last;
 always @(posedge clk_i) f_second_last <= !rst_i && f_tail_step && f_steps == F_PIXELS - 1;
 
-// Pixels leave at every step after an active decision, and at no other.
+// Pixels leave at every step after an active decision, and at no other time.
 reg f_told, f_forwards;
 wire f_told_now = decision_valid_o ? active_o : f_told;
 always @(posedge clk_i) begin
@@ -262,8 +262,8 @@ end
 // Properties that are proven without a bound.
 always @* if (started) begin
     assert(f_steps < F_PIXELS);
-    if (tail_step) assert(tail_address < F_PIXELS);  // nothing is written outside the region
-    assert(done == f_second_last);                // so between two decisions there are n steps
+    if (tail_step) assert(tail_address < F_PIXELS);  // no word outside of the region is written
+    assert(done == f_second_last);                // so there are n steps between two decisions
     if (decision_valid_o) assert(done);
     assert(temporal_count_o <= F_PIXELS);
     assert(active_o == (srs_o && trs_o));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The order of things in a whole serial array: places of pixels and of steps inside their areas, every rotation once
-// and in order, pixels that leave once and in order, and, with STEPS, the steps of a frame by docs/serial.md.
+// The order of steps in a whole serial array: places of pixels and of steps inside their areas, every rotation once and in order,
+// pixels that leave once and in order, and, with STEPS, the steps of a frame by docs/serial.md.
 `include "reset.vh"
 localparam F_N = SIDE * SIDE;
 localparam F_RAW = RAW_SIDE * RAW_SIDE;
@@ -8,14 +8,14 @@ localparam F_DENOISED = DENOISED_SIDE * DENOISED_SIDE;
 localparam F_HAS_REFERENCE = MEDIAN == 0 || LAST_SENT != 0;
 localparam F_WORDS = F_HAS_REFERENCE ? REFERENCE_BASE + F_N : DENOISED_BASE + F_DENOISED;
 
-// The areas of a slot lie one after the other, and a slot holds them.
+// The areas of a slot are one behind the other, and fit into it.
 always @* begin
     if (MEDIAN != 0) assert(DENOISED_BASE >= F_RAW);
     if (F_HAS_REFERENCE) assert(REFERENCE_BASE >= (MEDIAN != 0 ? DENOISED_BASE + F_DENOISED : F_RAW));
     assert(F_WORDS <= (1 << WORD_BITS));
 end
 
-// Places. A frame enters or is worked on, never both.
+// Places. Either a frame enters or the array works on it.
 wire f_write_active = controls[26];
 wire f_write_border = controls[25];
 wire f_write_mean = controls[22];
@@ -32,7 +32,7 @@ always @* if (started) begin
     end
     if (place) assert(place_lane < LANES);
     if (working) begin
-        // The reference's address stands behind it while pixels around the region are denoised, which do not count.
+        // While pixels around the region are denoised, which do not count, the address of the reference is behind it.
         assert(word < F_WORDS || (BORDERS && LAST_SENT != 0 && word == F_WORDS));
         assert(slot < FOLD);
     end
@@ -43,8 +43,8 @@ always @* if (started) begin
     if (f_write_active) assert(f_in_reference);
 end
 
-// Rotations: for each slot, each score, each lane, without a gap from lane to lane; behind the first the sums of all blocks.
-// Then the pixels of the slot, and the means of all blocks.
+// Rotations: for each slot, each score and each lane, without a gap between lanes; the sums of all blocks follow the first rotation.
+// Then come the pixels of the slot, and the means of all blocks.
 localparam F_MEANS = BLOCKS * BLOCKS;
 localparam F_BLOCKS = BLOCKS == 0 ? 1 : BLOCKS;
 localparam F_LAST_OF_BLOCK = SIDE / F_BLOCKS - 1;
@@ -115,7 +115,7 @@ always @* if (started) begin
 end
 
 `ifdef STEPS
-// One frame, without gaps and resets, which serial_steps.sby ties: ready again when the contract says so.
+// One frame, without gaps and resets (by serial_steps.sby): the array is ready again when the contract says.
 function integer f_bits(input integer value);
     for (f_bits = 0; value > 0; f_bits = f_bits + 1) value = value / 2;
 endfunction
@@ -155,7 +155,7 @@ always @* if (started && f_waits) begin
     if (ready_o) assert(f_since == F_STEPS + 1);
 end
 
-// It does come that far: so many clocks take a frame.
+// The run is long enough: a frame takes this many clocks.
 localparam F_TAKE = RASTER != 0 ? COLUMNS * ROWS * F_RAW : FOLD * F_RAW;
 reg [15:0] f_clock;
 always @(posedge clk_i) begin

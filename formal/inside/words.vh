@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The columns of a word as they came in, kept beside a module of the raster core: the newest word, the centers and the
-// column on their left. F_LATE clocks behind the ports.
+// The columns of a word as they came in, kept next to a module of the raster core: the newest word, the centers and the column on
+// their left, F_LATE clocks after the ports.
 localparam F_COLUMN = 3 * WIDTH;
 wire [LANES*F_COLUMN-1:0] f_word;
 genvar f_lane;
@@ -20,9 +20,9 @@ word_delay #(.WIDTH(3 + LANES * F_COLUMN), .DEPTH(F_LATE)) f_late (
 
 reg [LANES*F_COLUMN-1:0] f_newest, f_center;
 reg [F_COLUMN-1:0] f_before;
-reg f_no_left, f_no_right;    // of the centers
-reg [1:0] f_words = 2'd0;     // how many came, up to 3
-reg [1:0] f_clocks = 2'd0;    // before the first word that is looked at
+reg f_no_left, f_no_right;    // the centers have nothing on their left, or on their right
+reg [1:0] f_words = 2'd0;     // number of words that came, up to 3
+reg [1:0] f_clocks = 2'd0;    // clocks before the first word that is checked
 always @(posedge clk_i) begin
     if (f_clocks != 2'd3) f_clocks <= f_clocks + 2'd1;
     if (f_step && f_clocks == 2'd3) begin
@@ -34,13 +34,13 @@ always @(posedge clk_i) begin
         if (f_words != 2'd3) f_words <= f_words + 2'd1;
     end
 end
-// Behind the last word of a row comes the first of the next. A row has more than a word.
+// The first word of the next row follows the last word of a row. A row has more than one word.
 always @* begin
     if (f_words >= 2'd2) assume(!f_step || f_at_left == f_no_right);
     assume(!left_i || !right_i);
 end
 
-// Left, centers, right of a lane.
+// The columns left, center and right of a lane.
 function [3*F_COLUMN-1:0] f_window(input integer lane);
     f_window = {
         lane == LANES - 1 ? (f_no_right ? f_center[(LANES-1)*F_COLUMN+:F_COLUMN] : f_newest[F_COLUMN-1:0])
@@ -49,7 +49,7 @@ function [3*F_COLUMN-1:0] f_window(input integer lane);
         lane == 0 ? (f_no_left ? f_center[F_COLUMN-1:0] : f_before) : f_center[((lane+LANES-1)%LANES)*F_COLUMN+:F_COLUMN]
     };
 endfunction
-// Whether all of a window is known, and for how many clocks, up to 15.
+// The whole window is known, and the number of clocks since then, up to 15.
 wire f_known = f_words == 2'd3;
 reg [3:0] f_age = 4'd0;
 always @(posedge clk_i) f_age <= !f_known ? 4'd0 : f_age == 4'd15 ? f_age : f_age + 4'd1;
