@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The boxes of a network over two of the pictures: what it found in the whole frame and in what the receiver sees.
+// Draws the boxes of a network over two of the screens: those that it found in the whole frame and in the receiver's screen.
 
 import { at, make } from "./elements.js";
 
@@ -14,14 +14,14 @@ export class Boxes {
     });
   }
 
-  /** Shows what was found in a frame of that size; `name` gives the name of a class. */
+  /** Shows the detections in a frame of this size; `name` returns the name of a class. */
   show({ whole, seen }, { width, height }, name) {
     for (const [place, found, odd] of [[this.#places[0], whole, "lost"], [this.#places[1], seen, "added"]])
-      // What is odd lies above the rest.
+      // Boxes without a partner are drawn above the others.
       place.replaceChildren(...[...found].sort((a, b) => b.both - a.both).map(one => box(one, width, height, name(one.class), one.both ? "kept" : odd)));
   }
 
-  /** Marks all boxes as those of an older frame than the one below, or of this one. */
+  /** Marks all boxes as belonging to an older frame than the shown one, or to this frame. */
   older(on) {
     for (const place of this.#places) place.classList.toggle("older", on);
   }
@@ -33,7 +33,7 @@ export class Boxes {
 
 function box({ rect: [x0, y0, x1, y1], score }, width, height, name, kind) {
   const text = `${name} ${score.toFixed(2)}${kind === "kept" ? "" : ` ${kind}`}`;
-  // Above the picture there is no room for a name; names of small boxes would cover each other.
+  // There is no room for a name above the screen, and names of small boxes would cover each other.
   const room = y0 < height / 12 ? " low" : "", size = x1 - x0 < width / 16 ? " small" : "";
   const made = make("div", { className: `box ${kind}${room}${size}` }, make("span", { textContent: text }));
   const share = (part, whole) => `${100 * part / whole}%`;

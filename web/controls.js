@@ -5,7 +5,7 @@
 import { make, plain } from "./elements.js";
 import { getKey } from "./toml.js";
 
-/** Keys by group, with what they are called here. Keys of features follow from the features. */
+/** Keys by group, with their names on the page. Keys of features follow from the features. */
 const GROUPS = [
   ["Regions", [["region.size", "Side N"], ["region.neighborhood", "Windows"], ["denoise.filter", "Filter"], ["frame.pixel_bits", "Bits per pixel"]]],
   ["Relevant in space: SRS", "features"],
@@ -18,7 +18,7 @@ const OF_FEATURE = [["level", "Level"], ["min_score", "Least score"], ["mean_fra
 export class Controls {
   #place; #described; #change; #rows = new Map(); #shape = "";
 
-  /** `change(key, value)` answers with nothing, or with the message of a refusal. `toggle(feature, on)` likewise. */
+  /** `change(key, value)` returns nothing, or the message of a refusal, and so does `toggle(feature, on)`. */
   constructor(place, described, { presets, change, toggle, preset }) {
     this.#place = place;
     this.#described = described;
@@ -41,7 +41,7 @@ export class Controls {
     return GROUPS.map(([title, rows]) => [title, rows === "features" ? this.#features(facts) : rows.filter(given)]);
   }
 
-  /** A row to turn each feature on or off, below it the rows of its keys. */
+  /** Makes a row to turn each feature on or off, and below it the rows of its keys. */
   #features({ config }) {
     const rows = this.#described.features.flatMap(({ feature }) => {
       const number = config.spatial.findIndex(own => own.feature === feature);
@@ -52,7 +52,7 @@ export class Controls {
     return config.spatial.length > 1 ? [...rows, ["decision.combine", "Votes"]] : rows;
   }
 
-  /** The key as a configuration has it, and what it takes. */
+  /** Makes a row with the key of the configuration and its values. */
   #help(key, feature) {
     const plain = key.replace(/\.\d+\./, "."), { takes } = this.#described.keys.find(own => own.key === plain);
     const unit = key.endsWith("min_score") ? `, in ${this.#described.features.find(own => own.feature === feature).unit}` : "";
@@ -119,7 +119,7 @@ export class Controls {
   }
 }
 
-/** A message below an element. */
+/** Shows a message below an element. */
 function refusable(element) {
   const message = make("p", { className: "refused", role: "alert", hidden: true });
   element.append(message);
@@ -144,7 +144,7 @@ function choice(key, name, title) {
       select.replaceChildren(...choices.map(one => make("option", { textContent: one })));
     select.value = value;
   };
-  // Numbers stay numbers.
+  // A number must stay a number.
   const onchange = then => { select.onchange = () => then(/^\d+$/.test(select.value) ? Number(select.value) : select.value); };
   return { ...row, set, onchange };
 }

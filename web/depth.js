@@ -2,10 +2,10 @@
 // A configuration at another depth: thresholds in grey levels go with it, by the rule of crates/camera/src/depth.rs, so that the
 // page does what `--set frame.pixel_bits=5` does. A test compares the two.
 
-/** Powers of a grey level, by the unit of a score. */
+/** The exponent of a grey level in each unit of a score. */
 const POWERS = new Map([["pixels of a region", 0], ["grey levels", 1], ["squared grey levels", 2]]);
 
-/** The configuration with `bits` per pixel; `features` are those of `engine.describe()`. */
+/** Returns the configuration with `bits` per pixel; `features` are those of `engine.describe()`. */
 export function withDepth(config, bits, features) {
   const made = structuredClone(config), from = config.frame.pixel_bits;
   const level = value => Math.floor(value * 2 ** (bits - from));

@@ -1,51 +1,51 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Elements of the page, by id and new.
+// Finds elements of the page by id, and makes new ones.
 
 export const at = id => document.getElementById(id);
 
-/** Makes an element with properties and what is inside of it. */
+/** Makes an element with properties and children. */
 export function make(name, properties = {}, ...inside) {
   const made = Object.assign(document.createElement(name), properties);
   made.append(...inside);
   return made;
 }
 
-/** Messages have backticks around names, as in a terminal. */
+/** Makes nodes of a message, which has backticks around names, as in a terminal. */
 export const plain = text => String(text).replaceAll("`", "");
 
-/** Writes a text where it has changed. */
+/** Sets a text, if it has changed. */
 export function say(id, text) {
   const place = at(id), now = plain(text);
   if (place.textContent !== now) place.textContent = now;
 }
 
-/** The name of a file as a path that no program takes for an option. */
+/** Returns the name of a file as a path that no program takes for an option. */
 export const asPath = name => name.startsWith("-") ? `./${name}` : name;
 
-/** A count of bytes for people. */
+/** Formats a number of bytes for people. */
 export function bytes(count) {
   for (const [unit, size] of [["GB", 1e9], ["MB", 1e6], ["kB", 1e3]])
     if (count >= size) return `${(count / size).toFixed(count >= 100 * size ? 0 : 1)} ${unit}`;
   return `${Math.round(count)} B`;
 }
 
-/** A share in percent. */
+/** Formats a share in percent. */
 export const percent = share => `${(100 * share).toFixed(share < 0.1 ? 2 : share < 10 ? 1 : 0)} %`;
 
-/** Offers a text as a file. */
+/** Offers a text as a download. */
 export function download(name, type, text) {
   const link = URL.createObjectURL(new Blob([text], { type }));
   make("a", { href: link, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(link), 10_000);
 }
 
-/** Copies a text, and says so in an element. */
+/** Copies a text, and reports that in an element. */
 export async function copy(text, what, id = "copied") {
   try {
     await navigator.clipboard.writeText(text);
     say(id, `${what} is in the clipboard`);
   } catch {
-    // Without the right to the clipboard there is still the old way.
+    // Without permission for the clipboard, the old way remains.
     const area = make("textarea", { value: text });
     document.body.append(area);
     area.select();

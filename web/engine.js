@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The engine of foveate.wasm for a page: the only file that knows its exports (crates/web/src/exports.rs).
+// The engine of foveate.wasm for a page. Only this file uses its exports (crates/web/src/exports.rs).
 //
 //   const engine = await Engine.load(bytes);             // an ArrayBuffer of foveate.wasm
 //   const camera = engine.configure(toml, width, height);
 //   const sent = camera.stepRgba(context.getImageData(0, 0, width, height).data);
 //   paint(camera.screen);
 //
-// Whatever is refused throws an Error with the project's own message. Arrays that a camera gives are views into the memory of
-// the engine: they hold until the next call of any camera or of the engine, and whoever wants them longer copies them.
+// A refused call throws an Error with the project's own message. Arrays of a camera are views into the memory of the engine:
+// they are valid until the next call of any camera or of the engine. Copy them to keep them.
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
 
-/** The engine: what can be asked, scenes, and cameras. */
+/** The engine: its tables, scenes, cameras and networks. */
 export class Engine {
   #exports;
   #described;
 
-  /** The engine of the bytes of foveate.wasm, or of the `module` of another engine, which may be in another thread. */
+  /** Loads the engine from the bytes of foveate.wasm, or from the `module` of another engine, which may be in another thread. */
   static async load(bytes) {
     try {
       const module = bytes instanceof WebAssembly.Module ? bytes : await WebAssembly.compile(bytes);
@@ -30,11 +30,11 @@ export class Engine {
 
   constructor(exports, module) {
     this.#exports = exports;
-    /** The compiled engine, of which others can be made. */
+    /** The compiled module, from which other engines can be made. */
     this.module = module;
   }
 
-  /** {version, presets, scenes, keys, features, limits}: what a page can offer, from the tables of the project. */
+  /** Returns {version, presets, scenes, keys, features, limits}, the choices of a page from the tables of the project. */
   describe() {
     if (this.#described === undefined) {
       this.call("foveate_describe");
@@ -43,14 +43,14 @@ export class Engine {
     return this.#described;
   }
 
-  /** A camera of a configuration for frames of that size. */
+  /** Makes a camera of a configuration for frames of this size. */
   configure(toml, width, height) {
     this.put(encoder.encode(toml));
     const handle = this.call("foveate_configure", whole(width, "width"), whole(height, "height"));
     return new Camera(this, handle, JSON.parse(this.text()));
   }
 
-  /** A frame of a built-in scene as 8-bit grey, a copy; behind the last frame the first comes again. `side` is that of a region,
+  /** Returns a copy of a frame of a built-in scene as 8-bit grey; after the last frame comes the first. `side` is that of a region,
    *  which some scenes are made for. */
   scene(name, width, height, number, side = 8) {
     this.put(encoder.encode(name));
@@ -58,13 +58,13 @@ export class Engine {
     return this.bytes().slice();
   }
 
-  /** Takes over the bytes of an ONNX file. */
+  /** Gives the engine the bytes of an ONNX file. */
   takeNetwork(bytes) {
     this.put(bytes);
     this.call("foveate_network_file");
   }
 
-  /** Makes the network of the file for frames of that size and depth. `wishes` are {name, framing, mean, scale, detect} in the words of
+  /** Makes the network of the file for frames of this size and depth. `wishes` are {name, framing, mean, scale, detect} in the words of
    *  `foveate infer`; what is left out of the last three is guessed, and an empty `detect` is none. {input, outputs, macs, fits, likely, head,
    *  score, overlap, classes, framing, mean, scale, options}. */
   openNetwork(wishes, width, height, bits) {
@@ -73,7 +73,7 @@ export class Engine {
     return JSON.parse(this.text());
   }
 
-  /** What the network says of a frame and of what the receiver sees, which follow each other as `camera.pixels` and `camera.rendered`
+  /** Returns the outputs of the network for a frame and for the receiver's screen, which follow each other as `camera.pixels` and `camera.rendered`
    *  have them: {agreement, relative_rms, found, whole, seen, classes, class, same_places}. */
   look(planes) {
     this.put(planes);
@@ -81,9 +81,9 @@ export class Engine {
     return JSON.parse(this.text());
   }
 
-  // What follows is for Camera alone.
+  // The methods below are for Camera only.
 
-  /** Calls an export; its number, or its message as an Error. */
+  /** Calls an export. Returns its number, or throws its message as an Error. */
   call(name, ...values) {
     let answer;
     try {
@@ -95,7 +95,7 @@ export class Engine {
     return answer;
   }
 
-  /** Puts bytes in. */
+  /** Copies bytes into the memory of the engine. */
   put(bytes) {
     const place = this.#exports.foveate_input(bytes.length);
     if (place === 0) {
@@ -105,7 +105,7 @@ export class Engine {
     new Uint8Array(this.#exports.memory.buffer, place, bytes.length).set(bytes);
   }
 
-  /** The last answer. */
+  /** Returns the last answer as bytes. */
   bytes() {
     return new Uint8Array(this.#exports.memory.buffer, this.#exports.foveate_pointer(), this.#exports.foveate_length());
   }
@@ -114,13 +114,13 @@ export class Engine {
     return decoder.decode(this.bytes());
   }
 
-  /** The last answer as numbers of eight bytes. */
+  /** Returns the last answer as numbers of eight bytes. */
   longs() {
     return new BigUint64Array(this.#exports.memory.buffer, this.#exports.foveate_pointer(), this.#exports.foveate_length() / 8);
   }
 }
 
-/** A camera: frames in, what came of the last one out. */
+/** A camera: it takes frames, and returns the results of the last one. */
 class Camera {
   #engine;
   #handle;
@@ -137,13 +137,13 @@ class Camera {
     return this.#facts;
   }
 
-  /** Takes a frame of 8-bit grey, of that time in microseconds since the first; without one, frames are 30 a second.
+  /** Takes a frame of 8-bit grey, with its time in microseconds since the first; without times, 30 frames per second.
    *  {number, active, actions, bits, skipped, srs, trs, recording}; recording is null, or {frames, bytes, full}. */
   step(grey, timeUs = -1) {
     return this.#step("foveate_step_grey", grey, timeUs);
   }
 
-  /** Takes a frame as a canvas has it, four bytes per pixel. */
+  /** Takes a frame in the format of a canvas, four bytes per pixel. */
   stepRgba(data, timeUs = -1) {
     return this.#step("foveate_step_rgba", data, timeUs);
   }
@@ -163,22 +163,22 @@ class Camera {
     return this.#engine.bytes();
   }
 
-  /** What the camera saw of the last frame, as 8-bit grey. */
+  /** The last frame as the camera saw it, as 8-bit grey. */
   get input() {
     return this.#bytes("foveate_seen");
   }
 
-  /** What the receiver sees after it, as 8-bit grey. */
+  /** The receiver's screen after the last frame, as 8-bit grey. */
   get screen() {
     return this.#bytes("foveate_screen");
   }
 
-  /** What the camera saw of the last frame as it has it: a byte per pixel up to 8 bits, else two, the lower first. */
+  /** The last frame as the camera saw it, at its depth: one byte per pixel up to 8 bits, else two, the lower first. */
   get pixels() {
     return this.#bytes("foveate_pixels");
   }
 
-  /** What the receiver sees after it, in the same way. */
+  /** The receiver's screen after the last frame, in the same form. */
   get rendered() {
     return this.#bytes("foveate_rendered");
   }
@@ -188,7 +188,7 @@ class Camera {
     return this.#bytes("foveate_regions");
   }
 
-  /** The scores of feature `index`, a BigUint64Array by region. */
+  /** Returns the scores of feature `index`, a BigUint64Array by region. */
   scores(index) {
     this.#call("foveate_scores", whole(index, "feature"));
     return this.#engine.longs();
@@ -208,7 +208,7 @@ class Camera {
     this.#call("foveate_record", on ? (onlyActive ? 2 : 1) : 0);
   }
 
-  /** What was recorded, as `foveate simulate` writes it to events.csv. */
+  /** Returns the recording in the form of events.csv of `foveate simulate`. */
   events() {
     this.#call("foveate_events");
     return this.#engine.text();
@@ -220,19 +220,19 @@ class Camera {
     return this.#engine.text();
   }
 
-  /** Forgets every frame; a recording begins anew. */
+  /** Resets the camera; a recording begins anew. */
   reset() {
     this.#call("foveate_reset");
   }
 
-  /** Ends the camera; every later call throws. */
+  /** Frees the camera. Every later call throws. */
   free() {
     this.#call("foveate_free");
     this.#handle = 0xffffffff;
   }
 }
 
-/** A number that WebAssembly takes as it is; it would cut others. */
+/** Checks a number that WebAssembly would otherwise truncate. */
 function whole(value, name) {
   if (Number.isInteger(value) && value >= 0 && value <= 0xffffffff) return value;
   throw new Error(`the ${name} ${value} is refused; it must be a whole number from 0 on`);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What is sent, over time: figures of now, two charts, and the sums since the beginning.
+// The sent data over time: current figures, two charts, and the sums since the beginning.
 
 import { at, bytes, make, percent, say } from "./elements.js";
 import { PIXEL_EVENT_BYTES } from "./pixel_camera.js";
 
 const HISTORY = 300;
-/** Ends of the chart of bytes, as powers of ten of a share of raw. */
+/** The ends of the chart of bytes, as powers of ten of the share of raw video. */
 const LEAST = -3.5, MOST = 1.2;
 const SVG = "http://www.w3.org/2000/svg";
 
-/** A chart of lines, whose values are heights from 0 to 1; `marks` are heights with their text. */
+/** A chart of lines whose values are heights from 0 to 1; `marks` are heights with their texts. */
 class Chart {
   #lines;
   constructor(place, classes, marks) {
@@ -48,7 +48,7 @@ export class Figures {
 
   constructor() { this.reset(null); }
 
-  /** Begins anew, for another camera or another source. */
+  /** Resets the figures, for another camera or another source. */
   reset(facts) {
     this.#facts = facts;
     this.#history = [];
@@ -56,7 +56,7 @@ export class Figures {
     this.#fresh = false;
   }
 
-  /** Adds a frame: what the engine says of it, the events of a pixel camera, its time, and what it cost in ms. */
+  /** Adds a frame: the results of the engine, the events of a pixel camera, its time, and its computing time in ms. */
   add(sent, events, time_us, cost, now) {
     this.#fresh = true;
     const last = this.#history.at(-1), sums = this.#sums;
@@ -69,7 +69,7 @@ export class Figures {
     if (this.#history.length > HISTORY) this.#history.shift();
   }
 
-  /** Shows what is new, ten times a second at most. */
+  /** Shows new values, at most ten times a second. */
   paint(now) {
     if (!this.#fresh || now - this.#painted < 100) return;
     this.#fresh = false;
@@ -96,11 +96,11 @@ export class Figures {
     at("totals").replaceChildren(row("raw video", raw), row("pixel events", pixels), row("region camera", camera));
   }
 
-  /** The sums, for whoever checks them. */
+  /** The sums, for tests. */
   get sums() { return { ...this.#sums }; }
 }
 
-/** Where a share of raw stands in the chart of bytes. */
+/** Returns the height of a share of raw video in the chart of bytes. */
 function height(share) {
   const power = Math.log10(Math.max(share, 1e-9));
   return Math.min(Math.max((power - LEAST) / (MOST - LEAST), 0), 1);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What the camera takes as hardware, from the table that scripts/web_hardware.py writes by `foveate estimate`.
+// The hardware area of the camera, from the table that scripts/web_hardware.py writes with `foveate estimate`.
 
 import { make } from "./elements.js";
 
-/** Columns of the table that say which camera a row is of. */
+/** The columns of the table that identify the camera of a row. */
 function nameOf({ config }) {
   const { region, frame, denoise, spatial, temporal, render, periphery } = config;
   const simple = frame.pixel_bits === 8 && region.neighborhood === "isolated" && spatial.length === 1 && !spatial[0].mean_fraction_bits
@@ -15,7 +15,7 @@ function nameOf({ config }) {
   return [region.size, spatial[0].feature, denoise.filter, temporal.reference, shown].join();
 }
 
-/** Shows it for a camera. */
+/** Shows the hardware area of a camera. */
 export function showHardware(place, table, facts) {
   const [width, height] = table.frame, size = `${width}x${height}`;
   const found = table.designs.find(row => row.slice(0, 5).join() === nameOf(facts));

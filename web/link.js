@@ -5,13 +5,13 @@
 import { keysOf, valueOf, withKey } from "./toml.js";
 
 const OWN = ["source", "size", "preset"];
-/** Settings of the network, as of `foveate infer`; its file stays on the computer where it was opened. */
+/** Settings of the network, as in `foveate infer`; its file stays on the computer where it was opened. */
 const NETWORK = ["framing", "mean", "scale", "detect"];
-/** Most characters of a fragment. */
+/** The largest number of characters of a fragment. */
 const LONGEST = 8192;
 const isFeature = key => key.startsWith("spatial.");
 
-/** The fragment, without `#`. `preset` is that preset's configuration. */
+/** Returns the fragment without `#`. `preset` is the configuration of that preset. */
 export function writeLink(own, preset, config, network) {
   const before = keysOf(preset), now = keysOf(config);
   const differs = key => before.get(key) !== now.get(key);
@@ -22,7 +22,7 @@ export function writeLink(own, preset, config, network) {
   return pairs.map(([key, value]) => `${key}=${encodeURIComponent(value).replace(/%3A/gi, ":")}`).join("&");
 }
 
-/** What a fragment says: `own`, what is wished of a `network`, and a function from the configuration of the preset to that of the link. */
+/** Returns the content of a fragment: `own`, the settings of a `network`, and a function from the preset's configuration to the link's. */
 export function readLink(fragment) {
   const own = {}, network = {}, changed = [], keys = new Set();
   if (fragment.length > LONGEST) throw new Error(`the link's settings have ${fragment.length} characters; at most ${LONGEST} are read`);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The page: one source, one camera, and what is shown of them.
+// The page: one source, one camera, and the display of both.
 
 import { Engine } from "./engine.js";
 import { Controls } from "./controls.js";
@@ -19,7 +19,7 @@ import { withKey, writeToml } from "./toml.js";
 const SIZES = ["160x120", "224x224", "320x240", "640x480", "1280x720"];
 const DEFAULT_SIZE = "640x480";
 const START = { source: "scene:street", size: "", preset: "fovea" };
-/** A running picture is explained again after so long, and only where that takes less than a frame. */
+/** Time in ms after which a running clip is explained again, if that takes less than a frame. */
 const EXPLAIN_MS = 500, EXPLAIN_COST = 25;
 
 const frames_path = document.documentElement.dataset.frames;
@@ -27,15 +27,15 @@ let engine, described, presets, table;
 let own = { ...START };
 let camera = null, config = null, source = null, pixels = null, files = [];
 let paused = matchMedia("(prefers-reduced-motion: reduce)").matches;
-/** Means a side, as they were chosen last. */
+/** The last chosen number of means per side. */
 let means = 1;
 let speed = 1, wanted = 0, began = null, explained = { at: 0, cost: 0 };
-/** The last two frames, which a changed camera sees at once while all stands still. */
+/** The last two frames, which are shown again to a changed camera while the source is stopped. */
 let last = [];
 let screens, figures, controls, network;
 const recording = new Recording(() => camera);
 
-// What went wrong, until the next try.
+// The last error, until the next try.
 function notice(text) {
   at("notice").hidden = !text;
   say("notice", text ?? "");
@@ -43,7 +43,7 @@ function notice(text) {
 
 // --- The camera
 
-/** A configuration without the size of its frames, which is the page's. */
+/** Returns a configuration without its frame size, which the page sets. */
 function unsized({ frame: { width, height, ...frame }, ...rest }) {
   return { frame, ...rest };
 }
@@ -78,7 +78,7 @@ function describe() {
   return `${width}x${height} pixels, ${columns}x${rows} regions of ${side}x${side}, design ${fingerprint}`;
 }
 
-/** The camera sees its first frame next. */
+/** Prepares for the first frame of a camera. */
 function begin() {
   forget();
   figures.reset(camera.facts);
@@ -91,7 +91,7 @@ function forget() {
   began = null;
 }
 
-/** The message of a refusal, or nothing. */
+/** Returns the message of a refusal, or nothing. */
 function tried(change) {
   try {
     change();
@@ -109,13 +109,13 @@ function changed(key, value) {
   });
 }
 
-/** The configuration with another value of a key, and with what that brings. */
+/** Returns the configuration with another value of a key, and with the changes that follow from it. */
 function wished(key, value) {
   if (key === "frame.pixel_bits" && Number.isInteger(value) && value > 0) return withDepth(config, value, described.features);
   const wish = withKey(config, key, value);
-  // A camera without means has no periphery.
+  // A camera without means has no periphery table.
   if (key === "render.irrelevant" && value !== "mean") delete wish.periphery;
-  // Means that do not divide the new side become the engine's own choice, and come back with a side that they divide.
+  // If the number of means does not divide the new side, the engine chooses another. The old number returns with a side that it divides.
   if (key === "region.size" && wish.periphery) wish.periphery.blocks = value % means ? undefined : means;
   return wish;
 }
@@ -163,13 +163,13 @@ function sourceOf(files) {
   if (files.every(isPicture)) return new Pictures(files);
   if (files.length > 1) throw new Error(`${files.length} files are no one clip; give one clip, or pictures alone`);
   const [file] = files;
-  // A browser knows few types of clips by name; whether it decodes one it says itself.
+  // Browsers know few types of clips by name. The browser itself reports whether it decodes one.
   if (/^(text|application\/(pdf|zip|json))/.test(file.type)) throw new Error(`${file.name} is neither a clip nor a picture`);
   return new Clip(file);
 }
 
 let tickets = 0;
-/** Changes the source. One that does not open leaves the old one. */
+/** Changes the source. If it does not open, the old one stays. */
 async function choose(name) {
   const before = own.source, ticket = ++tickets;
   notice();
@@ -186,7 +186,7 @@ async function choose(name) {
     say("status", camera ? describe() : "");
     return false;
   }
-  // Another one was chosen while this one opened.
+  // Another source was chosen while this one opened.
   if (ticket !== tickets) {
     made.close();
     return false;
@@ -201,7 +201,7 @@ async function choose(name) {
   source.speed(speed);
   source.run(!paused);
   if (config) notice(tried(() => configure(config)));
-  // A camera that stands still shows the first frame.
+  // A stopped page shows the first frame.
   if (paused) wanted = 1;
   return true;
 }
@@ -219,7 +219,7 @@ async function opened(list) {
   option.textContent = files.length > 1 ? `${files.length} pictures` : files[0].name;
 }
 
-/** Takes what was dropped: a network, or else a source. */
+/** Takes a dropped file: a network, or else a source. */
 function dropped(list) {
   const [networks, others] = [true, false].map(is => list.filter(({ name }) => /\.onnx$/i.test(name) === is));
   if (networks.length) network.open(networks[0]);
@@ -246,7 +246,7 @@ function step(frame) {
   explain(now);
 }
 
-/** Shows the last frames again to a camera that has changed. */
+/** Shows the last frames again to a changed camera. */
 function again() {
   for (const frame of last) step({ ...frame, fresh: false });
 }
@@ -261,7 +261,7 @@ async function run() {
       const frame = paused ? await from.step(width, height) : await from.take(width, height, now);
       if (!frame) continue;
       wanted = 0;
-      // While it was awaited, another source or size may have been chosen.
+      // Another source or size may have been chosen meanwhile.
       if (from !== source || width !== camera.facts.width || height !== camera.facts.height) continue;
       if (frame.fresh) last = [];
       last = [...last.slice(-1), frame];
@@ -309,9 +309,9 @@ function explain(now, asked = false) {
   explained = { at: now, cost: performance.now() - start };
 }
 
-// --- What is taken along
+// --- Downloads, commands and links
 
-/** The source as `foveate infer` takes it. */
+/** Returns the source in the form of an input of `foveate infer`. */
 function inputsOfCommand() {
   if (own.source.startsWith("scene:")) return [own.source];
   const names = own.source === "files" ? files.map(({ name }) => asPath(name)) : ["clip.mp4"];
@@ -330,7 +330,7 @@ function keepLink() {
   kept = setTimeout(() => history.replaceState(null, "", link()), 200);
 }
 
-/** Takes the settings of the link; what it says wrongly is told, and the rest is as at the start. */
+/** Takes the settings of the link. Wrong settings are reported, and have their initial values. */
 async function fromLink() {
   let wish = readLink("");
   const wrong = tried(() => {
@@ -342,7 +342,7 @@ async function fromLink() {
   own = { ...START, source: frames_path ? "computer" : START.source, ...(wrong ? {} : wish.own) };
   showSizes();
   const preset = presetConfig(own.preset), from = own.source;
-  // A camera must be there before a source shows it something.
+  // The camera must exist before a source gives it frames.
   const refused = tried(() => configure(wrong ? preset : wish.apply(preset)));
   if (refused) {
     own.size = "";
@@ -378,7 +378,7 @@ function wire() {
     const message = tried(() => configure(config));
     notice(message);
     if (message) at("size").value = own.size = before;
-    // A camera is asked for the pictures of that size.
+    // A camera source is asked for frames of that size.
     else if (own.source === "webcam") choose("webcam");
     else if (paused) wanted = 1;
   };
@@ -399,7 +399,7 @@ function wire() {
   const acts = new Map([[" ", () => pause(!paused)], ["s", stepOnce], ["r", reset]]);
   document.onkeydown = event => {
     if (event.ctrlKey || event.metaKey || event.altKey || event.target.matches("input, select, textarea")) return;
-    // Space is for the button that has the focus.
+    // The space bar belongs to the button with the focus.
     if (event.key === " " && event.target.matches("button, summary")) return;
     const act = acts.get(event.key);
     if (!act) return;
@@ -421,7 +421,7 @@ function wire() {
   pause(paused);
 }
 
-/** The bytes of what was compressed by gzip and written as base64. */
+/** Returns the bytes of a base64 text that was compressed by gzip. */
 async function unpacked(text) {
   const packed = Uint8Array.from(atob(text.trim()), letter => letter.charCodeAt(0));
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
@@ -437,7 +437,7 @@ async function start() {
   at("wasm").remove();
   described = engine.describe();
   table = JSON.parse(at("hardware-table").textContent);
-  // A preset with every key, without the size of its frames, if it has one.
+  // A preset with every key, but without a frame size.
   presets = described.presets.map(({ name, summary, toml }) => {
     const made = engine.configure(toml.replace(/^(width|height) = .*$/gm, ""), 64, 64);
     const { config } = made.facts;
@@ -450,7 +450,7 @@ async function start() {
   controls = new Controls(at("controls"), described, { presets, change: changed, toggle: toggled, preset: presetChosen });
   wire();
   await fromLink();
-  // For tests, and for whoever opens the console.
+  // For tests and for users of the console.
   window.foveate = { engine, get camera() { return camera; }, get config() { return config; }, get sums() { return figures.sums; },
     get source() { return source; }, network };
   run();

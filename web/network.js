@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A network that looks at the page's frames: at each as the camera sees it, and as the receiver sees it. It runs in a thread of its own and takes the
-// newest frame whenever it is free, so that the pictures never wait for it.
+// A network that runs on the page's frames: on each as the camera sees it, and on the receiver's screen. It runs in a thread of its own and
+// takes the newest frame whenever it is idle, so that the screens never wait for it.
 
 import { Boxes } from "./boxes.js";
 import { className } from "./class_names.js";
@@ -9,15 +9,15 @@ import { NetworkControls } from "./network_controls.js";
 import { NetworkFigures } from "./network_figures.js";
 import { NetworkThread } from "./network_thread.js";
 
-/** Nothing is wished of mean, scale and detections: they are guessed. */
+/** Settings without choices of mean, scale and detections, which are then guessed. */
 const GUESSED = { framing: "letterbox", mean: null, scale: null, detect: null };
 
 export class NetworkView {
   #module; #camera; #source; #told;
   #thread = null; #file = null; #facts = null; #wishes = { ...GUESSED };
-  /** What was asked before the last change of network, settings or camera does not count. */
+  /** Answers to questions before the last change of network, settings or camera are ignored. */
   #ticket = 0;
-  /** `is` says whether the camera still has the frame that is shown. */
+  /** `is` says whether the camera still has the shown frame. */
   #shown = { id: 0, number: 0, is: false }; #looked = null; #looking = false; #opened = "";
   #boxes = new Boxes(); #figures = new NetworkFigures(); #controls;
 
@@ -34,12 +34,12 @@ export class NetworkView {
     at("copy-command").onclick = () => copy(at("network-command").textContent, "the command", "copied-command");
   }
 
-  /** How the network is shown frames, where that differs from the start. */
+  /** The settings that differ from the initial ones. */
   get wishes() {
     return Object.fromEntries(Object.entries(this.#wishes).filter(([key, value]) => value !== GUESSED[key]));
   }
 
-  /** Takes wishes for the network that is opened next, or for the one that is open. */
+  /** Takes settings for the network that is opened next, or for the open one. */
   set wishes(wishes) {
     const made = { ...GUESSED, ...wishes };
     if (JSON.stringify(made) === JSON.stringify(this.#wishes)) return;
@@ -47,7 +47,7 @@ export class NetworkView {
     if (this.#thread) this.#make();
   }
 
-  /** Opens a file. The network before it is gone, and what was wished of it, too. */
+  /** Opens a file. The network before it and its settings are dropped. */
   async open(file) {
     if (this.#file) this.#wishes = { ...GUESSED };
     this.close();
@@ -82,7 +82,7 @@ export class NetworkView {
     say("network-status", "");
   }
 
-  /** Makes the network of the file for the camera of now. */
+  /** Makes the network of the file for the current camera. */
   async #make() {
     const { width, height, bits } = this.#camera().facts, ticket = ++this.#ticket, thread = this.#thread;
     this.#opened = `${width}x${height}x${bits}`;
@@ -107,7 +107,7 @@ export class NetworkView {
     this.#make();
   }
 
-  /** The camera is another one, or begins anew. */
+  /** Called when the camera was replaced or reset. */
   restart() {
     this.#shown.is = false;
     if (!this.#thread) return;
@@ -120,7 +120,7 @@ export class NetworkView {
     }
   }
 
-  /** Another frame is shown, which the camera calls by this number. */
+  /** Called when another frame is shown, which has this number. */
   seen(number) {
     this.#shown = { id: this.#shown.id + 1, number, is: true };
     if (!this.#facts) return;
@@ -128,7 +128,7 @@ export class NetworkView {
     this.#mark();
   }
 
-  /** Looks at the frame of now, if the network is free and has not seen it yet. */
+  /** Runs the network on the current frame, if it is idle and has not had this frame. */
   async #look() {
     const { id, number, is } = this.#shown, ticket = this.#ticket;
     if (!this.#facts || this.#looking || !is || this.#looked?.id === id) return;
@@ -162,7 +162,7 @@ export class NetworkView {
     this.#mark();
   }
 
-  /** Says of which frame the boxes are. */
+  /** Shows to which frame the boxes belong. */
   #mark() {
     const looked = this.#looked;
     if (!looked) return;
@@ -171,7 +171,7 @@ export class NetworkView {
     this.#figures.show(looked, before);
   }
 
-  /** Nothing was looked at yet. */
+  /** Resets the results. */
   #nothing() {
     this.#looked = null;
     this.#boxes.clear();
@@ -189,7 +189,7 @@ export class NetworkView {
     say("network-status", `${this.#file}: ${input.width}x${input.height} pixels, ${(macs / 1e6).toFixed(0)} million multiplications, ${kind}`);
   }
 
-  /** The command that does the same with the copied TOML. */
+  /** Returns the command that does the same with the copied TOML. */
   #command() {
     say("copied-command", "");
     const { options } = this.#facts ?? {};
@@ -209,7 +209,7 @@ export class NetworkView {
     at("network-refused").textContent = message ? plain(message) : "";
   }
 
-  /** For whoever checks them. */
+  /** The results, for tests. */
   get looked() { return this.#looked; }
   get facts() { return this.#facts; }
   get shown() { return this.#shown; }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// How a network is shown frames and read: the options of `foveate infer`. What the engine guesses is shown, and can be changed.
+// The settings of a network, which are options of `foveate infer`. Values that the engine guesses are shown, and can be changed.
 
 import { at, make } from "./elements.js";
 
-/** Usual ranges of pixels, with their mean and scale. */
+/** Common ranges of pixels, with their mean and scale. */
 const RANGES = [["0 to 1", "0", "1"], ["0 to 255", "0", "1/255"], ["-1 to 1", "0.5", "0.5"], ["(x - 127) / 128", "127/255", "128/255"],
   ["as of torchvision", "0.485,0.456,0.406", "0.229,0.224,0.225"]];
 const HEADS = ["yolox", "yolov5", "yolov8", "ssd", "yunet", "fastestdet"];
@@ -12,7 +12,7 @@ const option = (value, textContent) => make("option", { value, textContent });
 export class NetworkControls {
   #wish; #facts = null;
 
-  /** `wish` is called with what of {framing, mean, scale, detect} is wished otherwise. */
+  /** `wish` is called with the changed settings of {framing, mean, scale, detect}. */
   constructor(wish) {
     this.#wish = wish;
     at("range").append(...RANGES.map(([name], place) => option(place, name)), option("", "other"));
@@ -30,7 +30,7 @@ export class NetworkControls {
     at("score").onchange = at("overlap").onchange = () => wish({ detect: `${this.#facts.head},score=${at("score").value},overlap=${at("overlap").value}` });
   }
 
-  /** Shows what is so, or, where the network was refused, what is wished. */
+  /** Shows the settings in use, or the requested ones if the network was refused. */
   show(facts, wishes) {
     this.#facts = facts;
     const { mean, scale, head, likely, fits } = facts ?? { ...wishes, fits: HEADS };

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What a network said of the frames that it looked at: of the last one, and counted since the beginning.
+// The results of a network: those of the last frame, and sums since the beginning.
 
 import { at, make, percent, say } from "./elements.js";
 
-/** Looks of which the means are shown. */
+/** The number of results over which means are shown. */
 const RECENT = 20;
 
 export class NetworkFigures {
@@ -11,7 +11,7 @@ export class NetworkFigures {
 
   constructor() { this.reset(); }
 
-  /** Begins anew. */
+  /** Resets the figures. */
   reset() {
     this.#sums = { frames: 0, whole: 0, kept: 0, seen: 0, added: 0, same: 0, agreement: 0 };
     this.#recent = [];
@@ -19,7 +19,7 @@ export class NetworkFigures {
     say("network-now", "");
   }
 
-  /** Adds what was said of a frame and of what the receiver sees, which took so many ms. */
+  /** Adds the results for a frame and for the receiver's screen, and their time in ms. */
   add({ found, classes, agreement }, ms, now) {
     const sums = this.#sums;
     sums.frames++;
@@ -29,7 +29,7 @@ export class NetworkFigures {
     this.#recent = [...this.#recent.slice(1 - RECENT), { ms, now }];
   }
 
-  /** Shows the last frame, `before` frames before the one of the pictures. */
+  /** Shows the results of the last frame, which is `before` frames older than the shown one. */
   show(looked, before) {
     const age = before === 0 ? "the frame shown" : `${before} frame${before === 1 ? "" : "s"} before the one shown`;
     say("network-now", `Frame ${looked.number}, ${age}: ${words(looked)}.`);
@@ -54,11 +54,11 @@ export class NetworkFigures {
     return [["of them a second", seconds > 0 ? ((recent.length - 1) / seconds).toFixed(1) : "–"], ["ms a picture", (mean / 2).toFixed(1)]];
   }
 
-  /** The sums, for whoever checks them. */
+  /** The sums, for tests. */
   get sums() { return { ...this.#sums }; }
 }
 
-/** What was said of a frame. */
+/** Describes the results for a frame. */
 function words({ found, classes, class: both, same_places, agreement, relative_rms }) {
   if (found) return `${found.whole} found, ${found.kept} kept, ${found.whole - found.kept} lost, ${found.added} added`;
   const margin = value => value?.toPrecision(3) ?? "no number";

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The page's side of the thread in which a network runs (network_worker.js): questions, of which each waits for its answer.
+// The page's side of the thread in which a network runs (network_worker.js): it sends questions, and waits for the answer to each.
 
 const FAULT = "the network stopped its engine; most likely it takes more memory than a page has, 4 GiB. Take a smaller network, or a smaller size";
 
@@ -22,7 +22,7 @@ export class NetworkThread {
     };
   }
 
-  /** What the thread answers; buffers of `given` are no longer the page's. */
+  /** Asks the thread, and returns its answer. Buffers of `given` are transferred to the thread. */
   ask(kind, asked, given = []) {
     const id = this.#count++;
     return new Promise((done, refuse) => {
@@ -31,7 +31,7 @@ export class NetworkThread {
     });
   }
 
-  /** Ends it; what was asked is never answered. */
+  /** Ends the thread; open questions are never answered. */
   end() {
     this.#worker.terminate();
     URL.revokeObjectURL(this.#link);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// A thread of its own for the network of the page: an engine that has nothing else to do. The page asks {id, kind, ...}, one question at a
-// time, and gets {id, ...} with what came of it, or {id, refused, fault} with a message; after a fault it answers no more.
+// The thread of the page's network, with an engine of its own. The page asks {id, kind, ...}, one question at a time, and gets {id, ...} with
+// the results, or {id, refused, fault} with a message. After a fault the thread answers no more.
 
 import { Engine } from "./engine.js";
 

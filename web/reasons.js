@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Why a region was sent or not: the explanation of the model, in words and in small pictures of its pixels.
+// Shows why a region was sent or not: the explanation of the model, in words and in small pictures of its pixels.
 
 import { make } from "./elements.js";
 
-/** Pixels of a small picture's side. */
+/** The side of a small picture in pixels. */
 const SIDE = 128;
 
-/** Shows an explanation, { json, text } as the engine gives it. */
+/** Shows an explanation { json, text } of the engine. */
 export function showReasons(place, { json, text }) {
   const open = place.querySelector("details")?.open ?? false;
   const { region, rule, srs, trs } = json;
@@ -50,7 +50,7 @@ function grids(json) {
   return made;
 }
 
-/** A picture of pixels, in which hits are marked. */
+/** Makes a picture of pixels in which hits are marked. */
 function grid(title, rows, most, hits, colour) {
   const count = rows.length, cell = Math.max(1, Math.floor(SIDE / count));
   const canvas = make("canvas", { width: cell * count, height: cell * count });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Region events, recorded by the engine from a frame on, and kept for the download when that ends.
+// Records region events in the engine, and keeps them for the download when the recording ends.
 
 import { at, bytes, download, say } from "./elements.js";
 
@@ -7,10 +7,10 @@ export class Recording {
   on = false;
   #kept = ""; #camera;
 
-  /** `camera` gives the camera of now. */
+  /** `camera` returns the current camera. */
   constructor(camera) { this.#camera = camera; }
 
-  /** Begins to record every region of every frame. */
+  /** Starts to record every region of every frame. */
   begin() {
     this.#told(() => {
       this.#camera().record(true);
@@ -19,7 +19,7 @@ export class Recording {
     });
   }
 
-  /** Ends that, where it goes on, and keeps what was recorded. */
+  /** Ends a running recording, and keeps it. */
   end() {
     if (!this.on) return;
     this.on = false;
@@ -30,7 +30,7 @@ export class Recording {
     });
   }
 
-  /** Says how much is recorded; a full recording has ended by itself. */
+  /** Shows the size of the recording. A full recording has ended by itself. */
   grew({ frames, bytes: size, full }) {
     say("recorded", `${frames} frames, ${bytes(size)}${full ? ", which is all that is kept; download it" : ""}`);
   }
@@ -43,7 +43,7 @@ export class Recording {
     });
   }
 
-  /** Does something, and says what came of it or why it was refused. */
+  /** Runs an action, and shows its result or the reason of a refusal. */
   #told(act) {
     let text;
     try { text = act(); } catch (error) { text = error.message; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// The three pictures, and the region that is chosen in them.
+// The three screens of the page, and the region that is chosen in them.
 
 /** What a region shows, by its byte (bit 0 SRS, bit 1 TRS, above them what became of it: 0 sent, 1 held, 2 black, 3 means), the
  *  colour that stands for it, and how much of the picture that covers. */
@@ -11,10 +11,10 @@ const KINDS = [
 ];
 const PARTS = ["input", "decisions", "receiver"];
 const ARROWS = new Map([["ArrowLeft", [-1, 0]], ["ArrowRight", [1, 0]], ["ArrowUp", [0, -1]], ["ArrowDown", [0, 1]]]);
-/** A grey pixel as a word of ImageData. */
+/** Returns a grey pixel as a word of ImageData. */
 const GREY = Uint32Array.from({ length: 256 }, (_, value) => (0xFF000000 | value * 0x010101) >>> 0);
 
-/** A colour of the style as a word of ImageData. */
+/** Returns a colour of the style as a word of ImageData. */
 function word(name, alpha) {
   const text = getComputedStyle(document.documentElement).getPropertyValue(name).trim();
   const [red, green, blue] = [1, 3, 5].map(place => parseInt(text.slice(place, place + 2), 16));
@@ -24,7 +24,7 @@ function word(name, alpha) {
 export class Screens {
   #facts = null; #chosen = null; #views = {}; #tints; #over; #choose;
 
-  /** `choose` is called with a region when one is chosen. */
+  /** `choose` is called with a region when the user chooses one. */
   constructor(choose) {
     this.#choose = choose;
     for (const id of PARTS) {
@@ -49,7 +49,7 @@ export class Screens {
     }
   }
 
-  /** Takes the colours of the style again. */
+  /** Reads the colours of the style again. */
   recolour() {
     this.#tints = Uint32Array.from({ length: 16 }, (_, byte) => {
       const kind = KINDS.find(([, , applies]) => applies(byte));
@@ -57,7 +57,7 @@ export class Screens {
     });
   }
 
-  /** For the frames and the grid of a camera. */
+  /** Sets the sizes to the frames and the grid of a camera. */
   resize(facts) {
     this.#facts = facts;
     const { width, height, columns, rows } = facts;

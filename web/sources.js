@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Where frames come from. Every source has the same face:
+// The sources of frames. Every source has the same interface:
 //
 //   await open()                     begins; an Error says why it cannot, in words for people
-//   natural                          its own size, or null where any size does
+//   natural                          its own size, or null if it can have any size
 //   await take(width, height, now)   the next frame { rgba or grey, time_us, fresh }, or null while there is none; `fresh` marks
 //                                    the first frame of a clip that begins again
-//   await step(width, height)        the next frame although all stands still
-//   run(on), speed(factor)           for those with a clock of their own
+//   await step(width, height)        the next frame, also while the page is stopped
+//   run(on), speed(factor)           of sources with a clock of their own
 //   await restart(), close()
-//   onend(text)                      set by the page; called when nothing more will come
+//   onend(text)                      set by the page; called when no more frames will come
 
-/** Frames a second of what has no times of its own, as `foveate simulate` counts it. */
+/** Frames per second of sources without times, as in `foveate simulate`. */
 const RATE = 30;
-/** Scenes that are kept, in bytes; beyond it every frame is made anew. */
+/** The largest size in bytes of a scene whose frames are kept; of a larger scene every frame is made anew. */
 const KEPT = 100e6;
-/** Longest wait in ms for the time of a frame; a time that is later still is most likely wrong. */
+/** Longest wait in ms for the time of a frame; a later time is most likely wrong. */
 const LONGEST_WAIT = 10_000;
 
-/** What all sources do that have no clock of their own. */
+/** The base of all sources without a clock of their own. */
 class Paced {
   natural = null;
   onend = () => {};
@@ -42,7 +42,7 @@ class Paced {
 /** A built-in scene, which begins again after its last frame. */
 export class Scene extends Paced {
   #engine; #scene; #side; #kept = new Map(); #size = "";
-  /** `side` says how large regions are; some scenes are made for that. */
+  /** `side` is the side of a region, for which some scenes are made. */
   constructor(engine, scene, side) {
     super();
     this.#engine = engine;
@@ -69,7 +69,7 @@ export class Scene extends Paced {
   }
 }
 
-/** Draws pictures at the size of the frame, cut to its shape, and takes their pixels. */
+/** Draws pictures at the size of the frame, cropped to its shape, and returns their pixels. */
 class Easel {
   #canvas = document.createElement("canvas");
   #context = this.#canvas.getContext("2d", { willReadFrequently: true });
@@ -82,7 +82,7 @@ class Easel {
   }
 }
 
-/** Pictures, in the order of their names, numbers in them by value. One picture stays. */
+/** Pictures as a clip, in the order of their names, with numbers by value. A single picture stays. */
 export class Pictures extends Paced {
   #files; #easel = new Easel(); #last = null;
   constructor(files) {
@@ -105,7 +105,7 @@ export class Pictures extends Paced {
     if (this.#last?.file === file) return this.#last.picture;
     this.close();
     try {
-      // Samples as they are in the file, as the project's own reader takes them.
+      // The samples of the file without conversion, as the project's own reader takes them.
       const picture = await createImageBitmap(file, { colorSpaceConversion: "none", premultiplyAlpha: "none", imageOrientation: "none" });
       this.#last = { file, picture };
       return picture;
@@ -119,7 +119,7 @@ export class Pictures extends Paced {
   }
 }
 
-/** What a <video> shows: each of its frames once. */
+/** The frames of a <video>, each once. */
 class Player {
   natural = null;
   onend = () => {};
@@ -154,7 +154,7 @@ class Player {
   }
 }
 
-/** A clip, again and again. */
+/** A clip that repeats. */
 export class Clip extends Player {
   #file; #link; #rate = 1 / RATE; #last = null; #again = false;
   constructor(file) {
@@ -188,7 +188,7 @@ export class Clip extends Player {
   }
   speed(factor) { this.video.playbackRate = factor; }
   async take(width, height) {
-    // A frame that was stepped to is not taken again.
+    // A frame that was taken by a step is not taken again.
     return this.mediaTime === this.#last ? null : super.take(width, height);
   }
   async step(width, height) {
@@ -217,7 +217,7 @@ export class Clip extends Player {
   }
 }
 
-/** What to do about each refusal of a browser. */
+/** Advice for each refusal of a browser. */
 const REFUSALS = new Map(Object.entries({
   NotAllowedError: "the browser did not give the camera; allow it beside the page's address and choose it again",
   NotFoundError: "there is no camera here; plug one in, or choose a scene or a clip",
@@ -282,7 +282,7 @@ export class Computer {
     const { live, t_us: time_us } = this.#waiting.head;
     const due = this.#shown.now + Math.min((time_us - this.#shown.time_us) / 1000 / this.#factor, LONGEST_WAIT);
     if (!live && !this.#first && now < due - 4) return null;
-    // One that came late does not hurry the next.
+    // A late frame does not make the next one come earlier.
     this.#shown = { now: Math.max(due, now - 4), time_us };
     return this.#show(width, height);
   }
@@ -318,7 +318,7 @@ export class Computer {
     } catch {
       return this.#end("foveate live does not answer; start it again and open its new link");
     }
-    // What was on its way when all began again.
+    // This frame was under way when the clip began again.
     if (run !== this.#run) return null;
     const length = new DataView(bytes).getUint32(0, true);
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
@@ -337,7 +337,7 @@ export class Computer {
 }
 
 const easel = new Easel();
-/** Grey pixels at another size, as RGBA. */
+/** Returns grey pixels at another size, as RGBA. */
 function scaled({ head: { width: from, height: rows }, grey }, width, height) {
   const picture = new OffscreenCanvas(from, rows), data = new ImageData(from, rows);
   const words = new Uint32Array(data.data.buffer);

@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Configurations as values: { frame: {...}, spatial: [{...}, ...], ... }, as the engine gives them. What a key may be is the
-// engine's business.
+// Configurations as values of the engine: { frame: {...}, spatial: [{...}, ...], ... }. The engine checks keys and values.
 
-/** The value of one key in TOML; of what a camera has, that is the same as in JSON. Numbers are those that arithmetic here keeps. */
+/** Parses the value of one key in TOML, which for values of a camera is the same as in JSON. Numbers must be exact in JavaScript. */
 export function valueOf(text) {
   let value = null;
-  try { value = JSON.parse(text); } catch { /* It is no value. */ }
+  try { value = JSON.parse(text); } catch { /* The text is not a value. */ }
   const isKept = Number.isInteger(value) ? Number.isSafeInteger(value) : Number.isFinite(value) || ["boolean", "string"].includes(typeof value);
   if (isKept) return value;
   throw new Error(`\`${text}\` is no value; write 8, true or "edge"`);
 }
 
-/** The value that a table has of its own, if it has it. Every object has `constructor` and `__proto__`, which are no keys. */
+/** Returns a table's own value, if it has one. Every object inherits `constructor` and `__proto__`, which are not keys. */
 const ownOf = (table, name) => table !== null && typeof table === "object" && Object.hasOwn(table, name) ? table[name] : undefined;
 
-/** Gives a table a value of its own, whatever the name: to assign to `__proto__` would change what other objects have. */
+/** Sets a table's own value of any name. A plain assignment to `__proto__` would change inherited values. */
 function setOwn(table, name, value) {
   if (table === null || typeof table !== "object") throw new Error(`\`${name}\` is no key of ${JSON.stringify(table)}, which is no table`);
   if (Array.isArray(table) && !(String(Number(name)) === name && Number(name) <= table.length))
@@ -22,7 +21,7 @@ function setOwn(table, name, value) {
   Object.defineProperty(table, name, { value, writable: true, enumerable: true, configurable: true });
 }
 
-/** The TOML of a configuration. */
+/** Returns the TOML of a configuration. */
 export function writeToml(config) {
   const given = table => Object.entries(table).filter(([, value]) => value !== null && value !== undefined);
   const lines = table => given(table).map(([key, value]) => `${key} = ${JSON.stringify(value)}\n`).join("");
@@ -32,7 +31,7 @@ export function writeToml(config) {
   return given(config).map(part).join("\n");
 }
 
-/** Every key with its value, dotted as overrides name them: `spatial.0.level`. */
+/** Returns every key with its value, dotted as in overrides: `spatial.0.level`. */
 export function keysOf(config) {
   const keys = new Map();
   const walk = (path, value) => {
@@ -44,10 +43,10 @@ export function keysOf(config) {
   return keys;
 }
 
-/** The value of a dotted key, if there is one. */
+/** Returns the value of a dotted key, if there is one. */
 export const getKey = (config, key) => key.split(".").reduce(ownOf, config);
 
-/** Another configuration, in which a dotted key has this value. */
+/** Returns another configuration, in which a dotted key has this value. */
 export function withKey(config, key, value) {
   const made = structuredClone(config), path = key.split("."), last = path.pop();
   let table = made;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// Search for a book that is opened as a file. Browsers refuse to start a worker from file://, and the book's search is one;
-// here its script runs in a hidden frame instead. A book that a server delivers uses the browser's own workers.
+// Search in a book that is opened as a file. Browsers refuse to start a worker from file://, and the book's search is a worker.
+// Here its script runs in a hidden frame instead. A book from a server uses the browser's own workers.
 if (location.protocol === "file:") {
   window.Worker = class extends EventTarget {
     constructor(url) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
-// What the tests run in the page. Bytes go to and fro as base64.
+// Functions that the tests run in the page. Bytes are passed as base64.
 /* global engine */
 
 const base64 = (bytes) => {
@@ -9,11 +9,11 @@ const base64 = (bytes) => {
 };
 const bytes = (text) => Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
-/** A scene's frames. */
+/** Returns the frames of a scene. */
 window.scene = (name, width, height, count, side) =>
   Array.from({ length: count }, (_, number) => base64(engine.scene(name, width, height, number, side)));
 
-/** Shows a camera frames, of grey or of colours; everything that came of each. */
+/** Shows grey or colour frames to a camera. Returns all results of each. */
 window.run = ({ toml, width, height, frames, colours, explained }) => {
   const camera = engine.configure(toml, width, height);
   try {
@@ -31,7 +31,7 @@ window.run = ({ toml, width, height, frames, colours, explained }) => {
   }
 };
 
-/** The message of what a call throws. */
+/** Returns the message of the error that a call throws. */
 window.refused = (call) => {
   try {
     call();
@@ -41,7 +41,7 @@ window.refused = (call) => {
   return null;
 };
 
-/** The pixels of image files, four bytes each, as a page gets them. */
+/** Returns the pixels of image files, four bytes each, as a page gets them. */
 window.decoded = async (files) => {
   const pictures = [];
   for (const file of files) {
@@ -53,7 +53,7 @@ window.decoded = async (files) => {
   return pictures;
 };
 
-/** Pictures of the camera, four bytes a pixel. */
+/** Returns pictures of the camera, four bytes per pixel. */
 window.watched = async (count) => {
   const stream = await navigator.mediaDevices.getUserMedia({ video: true });
   const video = Object.assign(document.createElement("video"), { srcObject: stream, muted: true });
